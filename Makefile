@@ -1,0 +1,116 @@
+# lom: make, make demo, make check, make lint, make install. See README.md.
+#   make CC=clang O=0 BUILD=dir     another compiler, level and folder
+#   make SAN=address check          address, undefined, thread or memory sanitizer
+CC     = gcc
+AR     = ar
+O      = 3
+BUILD  = build
+PREFIX = /usr/local
+SAN    =
+SDL    = $(shell pkg-config --exists sdl2 2>/dev/null && echo 1)
+
+VERSION := $(shell sed -n 's/^\#define LOM_VERSION *"\(.*\)"/\1/p' include/lom/base.h)
+MACHINE := $(shell $(CC) -dumpmachine)
+
+# The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
+FLOAT_FLAGS = -ffp-contract=off -fno-math-errno -fno-trapping-math
+WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi
+CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
+CFLAGS      = -std=gnu11 -O$(O) -g -fPIC -fvisibility=hidden $(FLOAT_FLAGS) $(WARNINGS)
+LDLIBS      = -lm -lpthread
+ifneq ($(SAN),)
+BUILD   = build-$(SAN)
+CFLAGS += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
+LDFLAGS += -fsanitize=$(SAN)
+endif
+
+# One object for each width. On x86-64 the widths 8 and 16 exist twice: for AVX2 and AVX-512, and lowered to the baseline.
+ifneq ($(filter x86_64%,$(MACHINE)),)
+VARIANTS = 4 8 16 8_plain 16_plain
+else
+VARIANTS = 4 8 16
+endif
+FLAGS_4        = -DLOM_LANES=4 -DLOM_VARIANT=4
+FLAGS_8_plain  = -DLOM_LANES=8 -DLOM_VARIANT=8_plain
+FLAGS_16_plain = -DLOM_LANES=16 -DLOM_VARIANT=16_plain
+ifneq ($(filter x86_64%,$(MACHINE)),)
+FLAGS_8  = -DLOM_LANES=8 -DLOM_VARIANT=8 -mavx2
+FLAGS_16 = -DLOM_LANES=16 -DLOM_VARIANT=16 -mavx2 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd
+else
+FLAGS_8  = -DLOM_LANES=8 -DLOM_VARIANT=8
+FLAGS_16 = -DLOM_LANES=16 -DLOM_VARIANT=16
+endif
+
+sources      := $(sort $(wildcard src/*/*.c))
+cli_sources  := $(filter src/cli/%,$(sources))
+wide_sources := $(filter %.wide.c,$(filter-out src/cli/%,$(sources)))
+lib_sources  := $(filter-out %.wide.c src/cli/%,$(sources))
+ifneq ($(SDL),1)
+cli_sources  := $(filter-out src/cli/view_sdl.c,$(cli_sources))
+else
+$(BUILD)/src/cli/%.o: CPPFLAGS += -DLOM_SDL
+$(BUILD)/src/cli/view_sdl.o: CFLAGS += $(shell pkg-config --cflags sdl2)
+CLI_LIBS = $(shell pkg-config --libs sdl2)
+endif
+lib_objects  := $(lib_sources:%.c=$(BUILD)/%.o) $(foreach v,$(VARIANTS),$(wide_sources:%.wide.c=$(BUILD)/%.w$(v).o))
+cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
+
+tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
+wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
+test_scripts := $(sort $(wildcard tests/*/test_*.sh))
+programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
+
+.PHONY: all demo check lint format bench install clean
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
+
+$(BUILD)/liblom.a: $(lib_objects)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+$(BUILD)/liblom.so: $(lib_objects)
+	$(CC) -shared $(LDFLAGS) -Wl,-soname,liblom.so.0 -o $@ $^ $(LDLIBS)
+
+$(BUILD)/lom: $(cli_objects) $(BUILD)/liblom.a
+	$(CC) $(LDFLAGS) -o $@ $^ $(CLI_LIBS) $(LDLIBS)
+
+# Rebuilt when the flags change, so that a build folder never mixes two.
+$(BUILD)/flags: FORCE
+	@mkdir -p $(@D)
+	@echo '$(CC) $(CPPFLAGS) $(CFLAGS)' | cmp -s - $@ || echo '$(CC) $(CPPFLAGS) $(CFLAGS)' > $@
+FORCE:
+
+define wide_rule
+$(BUILD)/src/%.w$(1).o: src/%.wide.c $(BUILD)/flags
+	@mkdir -p $$(@D)
+	$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -MMD -MP -c -o $$@ $$<
+
+$(BUILD)/tests/%.w$(1): tests/%.wide.c $(BUILD)/liblom.a tests/check.h
+	@mkdir -p $$(@D)
+	$$(CC) $$(CPPFLAGS) -Itests $$(CFLAGS) $$(FLAGS_$(1)) -MMD -MP $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
+endef
+$(foreach v,$(VARIANTS),$(eval $(call wide_rule,$(v))))
+
+$(BUILD)/src/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
+demo: $(BUILD)/lom
+	$(BUILD)/lom render assets/scenes/lake.toml -o demo.png
+
+check: all $(programs)
+	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
+
+format:
+	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])
+
+clean:
+	rm -rf $(BUILD)
+
+-include $(lib_objects:.o=.d) $(cli_objects:.o=.d) $(programs:=.d)

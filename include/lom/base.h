@@ -1,0 +1,151 @@
+/* lom/base.h - what every layer stands on: errors as values, checked memory, whole files, numbers as text, hashes,
+ * the float state, and mathematics in double that gives the same bits on every machine.
+ *
+ * Conventions of the whole library:
+ * - What can fail takes a lom_error * last and returns NULL or false. The first failure stays in it; a later one does
+ *   not overwrite it. A NULL error is allowed and drops the text.
+ * - Lengths are metres, angles radians, unless a name says otherwise. Counts and sizes are size_t.
+ * - What a function returns by pointer belongs to the caller, who frees it with the function named there.
+ */
+#ifndef LOM_BASE_H
+#define LOM_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined __FAST_MATH__
+#error "lom promises the same bytes everywhere, which -ffast-math breaks: compile without it."
+#endif
+#if defined __FLT_EVAL_METHOD__ && __FLT_EVAL_METHOD__ != 0
+#error "lom needs float arithmetic in float: on 32-bit x86 compile with -msse2 -mfpmath=sse."
+#endif
+
+/* ---- errors ---- */
+
+typedef enum lom_code {
+    LOM_OK = 0,
+    LOM_ERROR_USAGE,  /* an argument or a call that is out of its range */
+    LOM_ERROR_INPUT,  /* a file or text that is malformed */
+    LOM_ERROR_FILE,   /* the system could not open, read or write */
+    LOM_ERROR_LIMIT,  /* well formed, but larger than a stated limit */
+    LOM_ERROR_MEMORY, /* the system gave no memory */
+    LOM_ERROR_THREAD  /* the system gave no thread */
+} lom_code;
+
+typedef struct lom_error {
+    lom_code code;
+    char text[496]; /* one sentence, without a newline: "lake.toml:12:5: unknown key ..." */
+} lom_error;
+
+/* Stores code and the printf-formatted sentence in error unless it holds a failure already (or is NULL). Always returns
+ * false, so that a failing function can `return lom_fail(...)`. */
+bool lom_fail(lom_error *error, lom_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* ---- memory ---- */
+
+/* Zeroed memory for count elements of size bytes, aligned to 64. NULL (and LOM_ERROR_MEMORY) when the product overflows
+ * or the system refuses; never NULL for a count or size of 0. Freed with lom_release. */
+void *lom_allocate(size_t count, size_t size, lom_error *error);
+
+/* Frees what lom_allocate gave; NULL is allowed. */
+void lom_release(void *memory);
+
+/* ---- whole files ---- */
+
+typedef struct lom_bytes {
+    uint8_t *data; /* freed with lom_release */
+    size_t size;
+} lom_bytes;
+
+/* Reads a whole file ("-" is standard input), at most limit bytes. The data is followed by one zero byte that is not
+ * counted. On failure data is NULL and error names the path. */
+lom_bytes lom_read_file(const char *path, size_t limit, lom_error *error);
+
+/* Writes a file so that path holds either its old content or all of the new: a temporary file in the same folder,
+ * flushed to disk, then renamed; removed again on failure. "-" is standard output; a path that is not a regular file
+ * (/dev/full, a pipe) is written directly. */
+bool lom_write_file(const char *path, const void *data, size_t size, lom_error *error);
+
+/* ---- numbers as text: independent of the locale, correctly rounded (round to nearest even) ---- */
+
+/* Parses the longest prefix of text[0, length) that is a decimal number: [+-] digits [. digits] [e[+-] digits], at
+ * least one digit before or after the point. Returns the number of characters used, 0 when there is none. Too large
+ * gives infinity, too small gives 0 or a denormal, as IEEE 754 rounds. "nan", "inf" and hexadecimal are no numbers
+ * here. */
+size_t lom_parse_double(const char *text, size_t length, double *value);
+size_t lom_parse_float(const char *text, size_t length, float *value); /* rounded once, from the text to float */
+
+/* Writes the shortest decimal that reads back as the same value, like "0.1", "-3", "1e+30", "nan", "inf"; at most 31
+ * characters and a zero byte. Returns the length. */
+size_t lom_print_double(char text[32], double value);
+size_t lom_print_float(char text[32], float value);
+
+/* ---- hash ---- */
+
+#define LOM_HASH_START UINT64_C(0xcbf29ce484222325)
+
+/* FNV-1a, 64 bits, of size bytes, continuing from hash (LOM_HASH_START at first). */
+uint64_t lom_hash_bytes(uint64_t hash, const void *data, size_t size);
+
+/* ---- the caller's float state ---- */
+
+typedef struct lom_float_state {
+    uint64_t saved[4];
+} lom_float_state;
+
+/* Saves the thread's floating-point environment (rounding mode, flush-to-zero, traps, flags) in state and sets the
+ * default one: round to nearest even, denormals kept, nothing trapped. Every API entry that computes does this, and
+ * every worker thread. */
+void lom_enter_float_state(lom_float_state *state);
+/* Restores what lom_enter_float_state saved. */
+void lom_leave_float_state(const lom_float_state *state);
+
+/* ---- mathematics in double, by + - * / and square root alone: the same bits everywhere ----
+ * Error at most 1 ulp (most under 0.6) over the stated range; NaN gives NaN. */
+
+double lom_double_sqrt(double x); /* correctly rounded */
+double lom_double_floor(double x);
+double lom_double_sin(double x); /* |x| <= 2^40 to 1 ulp by exact reduction; infinite gives NaN */
+double lom_double_cos(double x);
+double lom_double_tan(double x);
+double lom_double_asin(double x); /* [-1, 1]; NaN outside */
+double lom_double_acos(double x);
+double lom_double_atan(double x);
+double lom_double_atan2(double y, double x); /* C's cases for signed zeros and infinities */
+double lom_double_exp(double x);             /* overflow gives infinity, underflow rounds into denormals and 0 */
+double lom_double_exp2(double x);
+double lom_double_expm1(double x);
+double lom_double_log(double x); /* 0 gives -infinity, negative NaN */
+double lom_double_log2(double x);
+double lom_double_log1p(double x);
+double lom_double_pow(double x, double y); /* C's special cases */
+double lom_double_sinh(double x);
+double lom_double_cosh(double x);
+double lom_double_tanh(double x);
+double lom_double_erf(double x);
+double lom_double_cbrt(double x);
+
+/* ---- random numbers: counter-based, a pure function of what they are for ---- */
+
+/* 64 well mixed bits of (key, counter): the same pair gives the same bits, any frame, pixel or voxel alone. */
+uint64_t lom_random_bits(uint64_t key, uint64_t counter);
+/* Uniform in [0, 1) with 53 bits. */
+double lom_random_uniform(uint64_t key, uint64_t counter);
+/* Two independent standard normal numbers by Box-Muller of lom_random_bits. */
+void lom_random_normal(uint64_t key, uint64_t counter, double normal[2]);
+
+/* ---- version ---- */
+
+#define LOM_VERSION         "0.1.0"
+#define LOM_PICTURE_VERSION 1 /* raised by every deliberate change of pixels; CHANGELOG.md says why */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,9 @@
+/* lom/lom.h - the whole library. */
+#ifndef LOM_H
+#define LOM_H
+
+#include <lom/base.h>
+#include <lom/image.h>
+#include <lom/geometry.h>
+
+#endif
