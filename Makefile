@@ -14,7 +14,7 @@ MACHINE := $(shell $(CC) -dumpmachine)
 
 # The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
 FLOAT_FLAGS = -ffp-contract=off -fno-math-errno -fno-trapping-math
-WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi
+WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
 CFLAGS      = -std=gnu11 -O$(O) -g -fPIC -fvisibility=hidden $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread

@@ -43,6 +43,19 @@ static inline int check_selected(int argc, char **argv, const char *name)
     return argc < 2;
 }
 
+/* Whether this processor runs what the test was compiled for: a wide test asks first, and prints SKIP when not. */
+static inline int check_lanes_run(void)
+{
+#if defined __x86_64__ && defined __AVX512F__
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+#elif defined __x86_64__ && defined __AVX2__
+    return __builtin_cpu_supports("avx2");
+#else
+    return 1;
+#endif
+}
+
 static inline int check_result(void)
 {
     return check_failed_tests != 0;

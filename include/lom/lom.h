@@ -3,6 +3,7 @@
 #define LOM_H
 
 #include <lom/base.h>
+#include <lom/lanes.h>
 #include <lom/image.h>
 #include <lom/geometry.h>
 

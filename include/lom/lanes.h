@@ -1,0 +1,424 @@
+/* lom/lanes.h - lanes: LOM_LANES values side by side, and the one meaning of every operation on them.
+ *
+ * lom_float, lom_int and lom_uint are GNU C vectors, so + - * / & | ^ ~ << >> and unary - work on them as they are:
+ * arithmetic wraps for integers and is correctly rounded for floats. A comparison of floats or ints gives a lom_mask:
+ * -1 (all bits) in a lane where it holds, 0 elsewhere; any comparison with NaN except != is false. There is no ?: on
+ * vectors: use lom_select.
+ *
+ * The functions named lom_defined_* are the specification: plain C, the same on every machine. Where a measurement says
+ * that an instruction does the same faster, src/lanes/lanes_x86.h overrides the name without _defined; a test holds
+ * every override to its definition bit for bit. Everything here is inline: vectors cross object files by pointer only.
+ *
+ * LOM_LANES is 4, 8 or 16 and comes from the compiler's command line (4 when it does not).
+ */
+#ifndef LOM_LANES_H
+#define LOM_LANES_H
+
+#include <lom/base.h>
+
+#include <string.h>
+
+#ifndef LOM_LANES
+#define LOM_LANES 4
+#endif
+#if LOM_LANES != 4 && LOM_LANES != 8 && LOM_LANES != 16
+#error "LOM_LANES is 4, 8 or 16."
+#endif
+#ifndef LOM_VARIANT
+#define LOM_VARIANT 4
+#endif
+#define LOM_PASTE_EXPANDED(name, variant) name##_##variant
+#define LOM_PASTE(name, variant)          LOM_PASTE_EXPANDED(name, variant)
+/* The name of a function that exists once for each way lanes are built: LOM_WIDE(f) is f_4, f_8, f_16, f_8_plain ... */
+#define LOM_WIDE(name) LOM_PASTE(name, LOM_VARIANT)
+
+#define LOM_INLINE static inline __attribute__((always_inline, unused))
+
+typedef float lom_float __attribute__((vector_size(LOM_LANES * 4)));
+typedef int32_t lom_int __attribute__((vector_size(LOM_LANES * 4)));
+typedef uint32_t lom_uint __attribute__((vector_size(LOM_LANES * 4)));
+typedef double lom_double __attribute__((vector_size(LOM_LANES * 8)));
+typedef lom_int lom_mask;
+
+typedef struct lom_float2 {
+    lom_float x, y;
+} lom_float2;
+typedef struct lom_float3 {
+    lom_float x, y, z;
+} lom_float3;
+typedef struct lom_float4 {
+    lom_float x, y, z, w;
+} lom_float4;
+
+/* ---- making vectors ---- */
+
+LOM_INLINE lom_float lom_splat(float value)
+{
+    return value - (lom_float){ 0 }; /* value - 0 keeps -0 and NaN */
+}
+
+LOM_INLINE lom_int lom_splat_int(int32_t value)
+{
+    return value - (lom_int){ 0 };
+}
+
+LOM_INLINE lom_uint lom_splat_uint(uint32_t value)
+{
+    return value - (lom_uint){ 0 };
+}
+
+/* 0, 1, 2 ... LOM_LANES - 1 */
+LOM_INLINE lom_int lom_lane_index(void)
+{
+#if LOM_LANES == 4
+    return (lom_int){ 0, 1, 2, 3 };
+#elif LOM_LANES == 8
+    return (lom_int){ 0, 1, 2, 3, 4, 5, 6, 7 };
+#else
+    return (lom_int){ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+#endif
+}
+
+/* The same bits as another type. */
+LOM_INLINE lom_int lom_as_int(lom_float x)
+{
+    return (lom_int)x;
+}
+
+LOM_INLINE lom_float lom_as_float(lom_int x)
+{
+    return (lom_float)x;
+}
+
+/* ---- memory: unaligned, LOM_LANES consecutive values ---- */
+
+LOM_INLINE lom_float lom_load(const float *from)
+{
+    lom_float x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+
+LOM_INLINE lom_int lom_load_int(const int32_t *from)
+{
+    lom_int x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+
+LOM_INLINE void lom_store(float *to, lom_float x)
+{
+    memcpy(to, &x, sizeof x);
+}
+
+LOM_INLINE void lom_store_int(int32_t *to, lom_int x)
+{
+    memcpy(to, &x, sizeof x);
+}
+
+/* ---- definitions ---- */
+
+/* a where the mask is set, b where it is clear: bits are copied, NaN included. */
+LOM_INLINE lom_float lom_defined_select(lom_mask mask, lom_float a, lom_float b)
+{
+    return (lom_float)((mask & (lom_int)a) | (~mask & (lom_int)b));
+}
+
+LOM_INLINE lom_int lom_defined_select_int(lom_mask mask, lom_int a, lom_int b)
+{
+    return (mask & a) | (~mask & b);
+}
+
+/* a < b ? a : b, so b when either is NaN and when both are zeros. */
+LOM_INLINE lom_float lom_defined_min(lom_float a, lom_float b)
+{
+    return lom_defined_select(a < b, a, b);
+}
+
+/* a > b ? a : b, so b when either is NaN and when both are zeros. */
+LOM_INLINE lom_float lom_defined_max(lom_float a, lom_float b)
+{
+    return lom_defined_select(a > b, a, b);
+}
+
+/* Correctly rounded; NaN below 0; -0 of -0. */
+LOM_INLINE lom_float lom_defined_sqrt(lom_float x)
+{
+    lom_float root;
+    for (int i = 0; i < LOM_LANES; i++)
+        root[i] = __builtin_sqrtf(x[i]);
+    return root;
+}
+
+/* Towards zero; clamped to [-2147483648, 2147483520]; NaN gives 0. */
+LOM_INLINE lom_int lom_defined_to_int(lom_float x)
+{
+    lom_float number = lom_defined_select(x == x, x, (lom_float){ 0 });
+    lom_float bounded = lom_defined_min(lom_defined_max(number, lom_splat(-2147483648.0f)), lom_splat(2147483520.0f));
+    return __builtin_convertvector(bounded, lom_int);
+}
+
+/* Correctly rounded. */
+LOM_INLINE lom_float lom_to_float(lom_int x)
+{
+    return __builtin_convertvector(x, lom_float);
+}
+
+/* The largest integer not above x; -0, infinities and NaN as they are. */
+LOM_INLINE lom_float lom_defined_floor(lom_float x)
+{
+    lom_float magnitude = (lom_float)((lom_int)x & 0x7fffffff);
+    lom_mask small = magnitude < 8388608.0f; /* larger floats are integers; NaN is not small */
+    lom_float whole = lom_to_float(lom_defined_to_int(lom_defined_select(small, x, (lom_float){ 0 })));
+    lom_float down = whole - (lom_float)((whole > x) & (lom_int)lom_splat(1.0f));
+    lom_int sign = (lom_int)x & INT32_MIN;
+    return lom_defined_select(small, (lom_float)((lom_int)down | sign), x);
+}
+
+/* To the nearest integer, ties to even; sign kept. */
+LOM_INLINE lom_float lom_defined_round(lom_float x)
+{
+    lom_float magnitude = (lom_float)((lom_int)x & 0x7fffffff);
+    lom_mask small = magnitude < 8388608.0f;
+    lom_float rounded = (magnitude + 8388608.0f) - 8388608.0f; /* the unit of floats in [2^23, 2^24) is 1 */
+    lom_int sign = (lom_int)x & INT32_MIN;
+    return lom_defined_select(small, (lom_float)((lom_int)rounded | sign), x);
+}
+
+/* Bit i is set when lane i of the mask is. */
+LOM_INLINE uint32_t lom_defined_bits(lom_mask mask)
+{
+    uint32_t bits = 0;
+    for (int i = 0; i < LOM_LANES; i++)
+        bits |= (uint32_t)(mask[i] & 1) << i;
+    return bits;
+}
+
+/* from[index[i]] in lane i. Every lane is read: indices must be inside. */
+LOM_INLINE lom_float lom_defined_gather(const float *from, lom_int index)
+{
+    lom_float x;
+    for (int i = 0; i < LOM_LANES; i++)
+        x[i] = from[index[i]];
+    return x;
+}
+
+LOM_INLINE lom_int lom_defined_gather_int(const int32_t *from, lom_int index)
+{
+    lom_int x;
+    for (int i = 0; i < LOM_LANES; i++)
+        x[i] = from[index[i]];
+    return x;
+}
+
+/* Four consecutive floats at rows[i] + offset, transposed: lane i of member k is the k-th float of row i. */
+LOM_INLINE lom_float4 lom_defined_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    lom_float4 x = { 0 };
+    for (int i = 0; i < LOM_LANES; i++) {
+        const float *row = rows[i] + offset;
+        x.x[i] = row[0];
+        x.y[i] = row[1];
+        x.z[i] = row[2];
+        x.w[i] = row[3];
+    }
+    return x;
+}
+
+/* ---- overrides: the same values by an instruction ---- */
+
+#if defined __x86_64__ && !defined LOM_NO_OVERRIDES
+#include "lanes_x86.h"
+#endif
+
+#ifndef LOM_OVERRIDES_ARITHMETIC
+LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
+{
+    return lom_defined_select(mask, a, b);
+}
+LOM_INLINE lom_int lom_select_int(lom_mask mask, lom_int a, lom_int b)
+{
+    return lom_defined_select_int(mask, a, b);
+}
+LOM_INLINE lom_float lom_min(lom_float a, lom_float b)
+{
+    return lom_defined_min(a, b);
+}
+LOM_INLINE lom_float lom_max(lom_float a, lom_float b)
+{
+    return lom_defined_max(a, b);
+}
+LOM_INLINE lom_float lom_sqrt(lom_float x)
+{
+    return lom_defined_sqrt(x);
+}
+LOM_INLINE lom_int lom_to_int(lom_float x)
+{
+    return lom_defined_to_int(x);
+}
+LOM_INLINE uint32_t lom_bits(lom_mask mask)
+{
+    return lom_defined_bits(mask);
+}
+LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    return lom_defined_load_rows(rows, offset);
+}
+#endif
+#ifndef LOM_OVERRIDES_ROUNDING
+LOM_INLINE lom_float lom_floor(lom_float x)
+{
+    return lom_defined_floor(x);
+}
+LOM_INLINE lom_float lom_round(lom_float x)
+{
+    return lom_defined_round(x);
+}
+#endif
+#ifndef LOM_OVERRIDES_GATHER
+LOM_INLINE lom_float lom_gather(const float *from, lom_int index)
+{
+    return lom_defined_gather(from, index);
+}
+LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
+{
+    return lom_defined_gather_int(from, index);
+}
+#endif
+
+/* ---- what follows from them ---- */
+
+LOM_INLINE bool lom_any(lom_mask mask)
+{
+    return lom_bits(mask) != 0;
+}
+
+LOM_INLINE bool lom_all(lom_mask mask)
+{
+    return lom_bits(mask) == (uint32_t)((UINT64_C(1) << LOM_LANES) - 1);
+}
+
+/* The mask whose lane i is set when bit i is. */
+LOM_INLINE lom_mask lom_mask_of_bits(uint32_t bits)
+{
+    lom_int one = lom_splat_int(1) << lom_lane_index();
+    return (lom_splat_int((int32_t)bits) & one) != 0;
+}
+
+LOM_INLINE lom_int lom_min_int(lom_int a, lom_int b)
+{
+    return lom_select_int(a < b, a, b);
+}
+
+LOM_INLINE lom_int lom_max_int(lom_int a, lom_int b)
+{
+    return lom_select_int(a > b, a, b);
+}
+
+/* |x|; NaN keeps its payload. */
+LOM_INLINE lom_float lom_abs(lom_float x)
+{
+    return (lom_float)((lom_int)x & 0x7fffffff);
+}
+
+/* The magnitude of x with the sign of y. */
+LOM_INLINE lom_float lom_copysign(lom_float x, lom_float y)
+{
+    return (lom_float)(((lom_int)x & 0x7fffffff) | ((lom_int)y & INT32_MIN));
+}
+
+/* min(max(x, low), high): low for NaN; low <= high. */
+LOM_INLINE lom_float lom_clamp(lom_float x, lom_float low, lom_float high)
+{
+    return lom_min(lom_max(x, low), high);
+}
+
+/* Clamped to [0, 1]: 0 for NaN. */
+LOM_INLINE lom_float lom_saturate(lom_float x)
+{
+    return lom_clamp(x, (lom_float){ 0 }, lom_splat(1.0f));
+}
+
+/* x - floor(x), kept below 1 (it would round to 1 for x in (-2^-25, 0)): in [0, 1); NaN for NaN and infinities. */
+LOM_INLINE lom_float lom_fraction(lom_float x)
+{
+    lom_float fraction = x - lom_floor(x);
+    return lom_select(fraction >= 1.0f, (lom_float){ 0 }, fraction);
+}
+
+LOM_INLINE lom_float lom_ceil(lom_float x)
+{
+    return -lom_floor(-x);
+}
+
+/* a + (b - a) t */
+LOM_INLINE lom_float lom_mix(lom_float a, lom_float b, lom_float t)
+{
+    return a + (b - a) * t;
+}
+
+/* t = clamp((x - low) / (high - low), 0, 1); t t (3 - 2 t) */
+LOM_INLINE lom_float lom_smoothstep(lom_float low, lom_float high, lom_float x)
+{
+    lom_float t = lom_saturate((x - low) / (high - low));
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/* ---- three components ---- */
+
+LOM_INLINE lom_float3 lom_splat3(float x, float y, float z)
+{
+    return (lom_float3){ lom_splat(x), lom_splat(y), lom_splat(z) };
+}
+
+LOM_INLINE lom_float3 lom_add3(lom_float3 a, lom_float3 b)
+{
+    return (lom_float3){ a.x + b.x, a.y + b.y, a.z + b.z };
+}
+
+LOM_INLINE lom_float3 lom_sub3(lom_float3 a, lom_float3 b)
+{
+    return (lom_float3){ a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+LOM_INLINE lom_float3 lom_mul3(lom_float3 a, lom_float3 b)
+{
+    return (lom_float3){ a.x * b.x, a.y * b.y, a.z * b.z };
+}
+
+LOM_INLINE lom_float3 lom_scale3(lom_float3 a, lom_float factor)
+{
+    return (lom_float3){ a.x * factor, a.y * factor, a.z * factor };
+}
+
+LOM_INLINE lom_float3 lom_mix3(lom_float3 a, lom_float3 b, lom_float t)
+{
+    return (lom_float3){ lom_mix(a.x, b.x, t), lom_mix(a.y, b.y, t), lom_mix(a.z, b.z, t) };
+}
+
+/* (a.x b.x + a.y b.y) + a.z b.z */
+LOM_INLINE lom_float lom_dot3(lom_float3 a, lom_float3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+LOM_INLINE lom_float3 lom_cross3(lom_float3 a, lom_float3 b)
+{
+    return (lom_float3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+/* a / |a|; zero (and what underflows in the square) stays zero. */
+LOM_INLINE lom_float3 lom_normalize3(lom_float3 a)
+{
+    lom_float square = lom_dot3(a, a);
+    lom_float inverse = lom_select(square > 0.0f, 1.0f / lom_sqrt(square), (lom_float){ 0 });
+    return lom_scale3(a, inverse);
+}
+
+/* incident - 2 (n . incident) n, n of unit length */
+LOM_INLINE lom_float3 lom_reflect3(lom_float3 incident, lom_float3 n)
+{
+    return lom_sub3(incident, lom_scale3(n, 2.0f * lom_dot3(n, incident)));
+}
+
+#endif

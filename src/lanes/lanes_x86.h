@@ -1,0 +1,214 @@
+/* Overrides of the lane operations by x86 instructions; included by lom/lanes.h only. Every function here gives, bit
+ * for bit, what lom_defined_* of lom/lanes.h gives (tests/lanes/test_operations.wide.c). Chosen where the compiler does
+ * not find the instruction by itself. 4 lanes: SSE2, the baseline; 8: AVX2; 16: AVX-512 F, DQ, BW, VL. */
+#ifndef LOM_LANES_X86_H
+#define LOM_LANES_X86_H
+
+#include <immintrin.h>
+
+#if LOM_LANES == 16 && defined __AVX512F__ && defined __AVX512DQ__ && defined __AVX512BW__ && defined __AVX512VL__
+#define LOM_OVERRIDES_ARITHMETIC
+#define LOM_OVERRIDES_ROUNDING
+#define LOM_OVERRIDES_GATHER
+
+LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
+{
+    return (lom_float)_mm512_mask_mov_ps((__m512)b, _mm512_movepi32_mask((__m512i)mask), (__m512)a);
+}
+
+LOM_INLINE lom_int lom_select_int(lom_mask mask, lom_int a, lom_int b)
+{
+    return (lom_int)_mm512_mask_mov_epi32((__m512i)b, _mm512_movepi32_mask((__m512i)mask), (__m512i)a);
+}
+
+LOM_INLINE lom_float lom_min(lom_float a, lom_float b)
+{
+    return (lom_float)_mm512_min_ps((__m512)a, (__m512)b);
+}
+
+LOM_INLINE lom_float lom_max(lom_float a, lom_float b)
+{
+    return (lom_float)_mm512_max_ps((__m512)a, (__m512)b);
+}
+
+LOM_INLINE lom_float lom_sqrt(lom_float x)
+{
+    return (lom_float)_mm512_sqrt_ps((__m512)x);
+}
+
+LOM_INLINE lom_int lom_to_int(lom_float x)
+{
+    __m512 bounded =
+        _mm512_min_ps(_mm512_max_ps((__m512)x, _mm512_set1_ps(-2147483648.0f)), _mm512_set1_ps(2147483520.0f));
+    __mmask16 number = _mm512_cmp_ps_mask((__m512)x, (__m512)x, _CMP_ORD_Q);
+    return (lom_int)_mm512_maskz_cvttps_epi32(number, bounded);
+}
+
+LOM_INLINE uint32_t lom_bits(lom_mask mask)
+{
+    return _mm512_movepi32_mask((__m512i)mask);
+}
+
+LOM_INLINE lom_float lom_floor(lom_float x)
+{
+    return (lom_float)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+
+LOM_INLINE lom_float lom_round(lom_float x)
+{
+    return (lom_float)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+
+LOM_INLINE lom_float lom_gather(const float *from, lom_int index)
+{
+    return (lom_float)_mm512_i32gather_ps((__m512i)index, from, 4);
+}
+
+LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
+{
+    return (lom_int)_mm512_i32gather_epi32((__m512i)index, from, 4);
+}
+
+/* Quarter q of t[i] holds row 4 q + i; the unpacks transpose each quarter, so rows come out in order within it. */
+LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    __m512 t[4];
+    for (int i = 0; i < 4; i++) {
+        t[i] = _mm512_castps128_ps512(_mm_loadu_ps(rows[i] + offset));
+        t[i] = _mm512_insertf32x4(t[i], _mm_loadu_ps(rows[4 + i] + offset), 1);
+        t[i] = _mm512_insertf32x4(t[i], _mm_loadu_ps(rows[8 + i] + offset), 2);
+        t[i] = _mm512_insertf32x4(t[i], _mm_loadu_ps(rows[12 + i] + offset), 3);
+    }
+    __m512d a = (__m512d)_mm512_unpacklo_ps(t[0], t[1]), b = (__m512d)_mm512_unpackhi_ps(t[0], t[1]);
+    __m512d c = (__m512d)_mm512_unpacklo_ps(t[2], t[3]), d = (__m512d)_mm512_unpackhi_ps(t[2], t[3]);
+    return (lom_float4){ (lom_float)_mm512_unpacklo_pd(a, c), (lom_float)_mm512_unpackhi_pd(a, c),
+                         (lom_float)_mm512_unpacklo_pd(b, d), (lom_float)_mm512_unpackhi_pd(b, d) };
+}
+
+#elif LOM_LANES == 8 && defined __AVX2__
+#define LOM_OVERRIDES_ARITHMETIC
+#define LOM_OVERRIDES_ROUNDING
+#define LOM_OVERRIDES_GATHER
+
+LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
+{
+    return (lom_float)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)mask);
+}
+
+LOM_INLINE lom_int lom_select_int(lom_mask mask, lom_int a, lom_int b)
+{
+    return (lom_int)_mm256_blendv_epi8((__m256i)b, (__m256i)a, (__m256i)mask);
+}
+
+LOM_INLINE lom_float lom_min(lom_float a, lom_float b)
+{
+    return (lom_float)_mm256_min_ps((__m256)a, (__m256)b);
+}
+
+LOM_INLINE lom_float lom_max(lom_float a, lom_float b)
+{
+    return (lom_float)_mm256_max_ps((__m256)a, (__m256)b);
+}
+
+LOM_INLINE lom_float lom_sqrt(lom_float x)
+{
+    return (lom_float)_mm256_sqrt_ps((__m256)x);
+}
+
+LOM_INLINE lom_int lom_to_int(lom_float x)
+{
+    __m256 number = _mm256_and_ps((__m256)x, _mm256_cmp_ps((__m256)x, (__m256)x, _CMP_ORD_Q));
+    __m256 bounded =
+        _mm256_min_ps(_mm256_max_ps(number, _mm256_set1_ps(-2147483648.0f)), _mm256_set1_ps(2147483520.0f));
+    return (lom_int)_mm256_cvttps_epi32(bounded);
+}
+
+LOM_INLINE uint32_t lom_bits(lom_mask mask)
+{
+    return (uint32_t)_mm256_movemask_ps((__m256)mask);
+}
+
+LOM_INLINE lom_float lom_floor(lom_float x)
+{
+    return (lom_float)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+
+LOM_INLINE lom_float lom_round(lom_float x)
+{
+    return (lom_float)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+
+LOM_INLINE lom_float lom_gather(const float *from, lom_int index)
+{
+    return (lom_float)_mm256_i32gather_ps(from, (__m256i)index, 4);
+}
+
+LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
+{
+    return (lom_int)_mm256_i32gather_epi32(from, (__m256i)index, 4);
+}
+
+LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    __m256 t[4];
+    for (int i = 0; i < 4; i++) {
+        t[i] = _mm256_castps128_ps256(_mm_loadu_ps(rows[i] + offset));
+        t[i] = _mm256_insertf128_ps(t[i], _mm_loadu_ps(rows[4 + i] + offset), 1);
+    }
+    __m256d a = (__m256d)_mm256_unpacklo_ps(t[0], t[1]), b = (__m256d)_mm256_unpackhi_ps(t[0], t[1]);
+    __m256d c = (__m256d)_mm256_unpacklo_ps(t[2], t[3]), d = (__m256d)_mm256_unpackhi_ps(t[2], t[3]);
+    return (lom_float4){ (lom_float)_mm256_unpacklo_pd(a, c), (lom_float)_mm256_unpackhi_pd(a, c),
+                         (lom_float)_mm256_unpacklo_pd(b, d), (lom_float)_mm256_unpackhi_pd(b, d) };
+}
+
+#elif LOM_LANES == 4
+#define LOM_OVERRIDES_ARITHMETIC
+
+LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
+{
+    return lom_defined_select(mask, a, b);
+}
+
+LOM_INLINE lom_int lom_select_int(lom_mask mask, lom_int a, lom_int b)
+{
+    return lom_defined_select_int(mask, a, b);
+}
+
+LOM_INLINE lom_float lom_min(lom_float a, lom_float b)
+{
+    return (lom_float)_mm_min_ps((__m128)a, (__m128)b);
+}
+
+LOM_INLINE lom_float lom_max(lom_float a, lom_float b)
+{
+    return (lom_float)_mm_max_ps((__m128)a, (__m128)b);
+}
+
+LOM_INLINE lom_float lom_sqrt(lom_float x)
+{
+    return (lom_float)_mm_sqrt_ps((__m128)x);
+}
+
+LOM_INLINE lom_int lom_to_int(lom_float x)
+{
+    __m128 number = _mm_and_ps((__m128)x, _mm_cmpord_ps((__m128)x, (__m128)x));
+    __m128 bounded = _mm_min_ps(_mm_max_ps(number, _mm_set1_ps(-2147483648.0f)), _mm_set1_ps(2147483520.0f));
+    return (lom_int)_mm_cvttps_epi32(bounded);
+}
+
+LOM_INLINE uint32_t lom_bits(lom_mask mask)
+{
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
+}
+
+LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    __m128 a = _mm_loadu_ps(rows[0] + offset), b = _mm_loadu_ps(rows[1] + offset);
+    __m128 c = _mm_loadu_ps(rows[2] + offset), d = _mm_loadu_ps(rows[3] + offset);
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    return (lom_float4){ (lom_float)a, (lom_float)b, (lom_float)c, (lom_float)d };
+}
+
+#endif
+
+#endif

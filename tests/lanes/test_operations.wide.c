@@ -1,0 +1,117 @@
+/* Proves that every override of a lane operation gives, bit for bit, what its definition gives: on special values in
+ * every pairing, and on random bit patterns. NaNs are compared as NaN: payloads are not defined. */
+#include <lom/lanes.h>
+
+#include "check.h"
+
+static const uint32_t specials[] = {
+    0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007fffff, 0x00800000, 0x33000000, 0xb3000000, 0x3effffff,
+    0x3f000000, 0xbf000000, 0x3f000001, 0x3f7fffff, 0x3f800000, 0xbf800000, 0x3fc00000, 0x40200000, 0xc0200000,
+    0x4affffff, 0x4b000000, 0x4b000001, 0xcb000000, 0x4effffff, 0x4f000000, 0xcf000000, 0xcf000001, 0x7149f2ca,
+    0xf149f2ca, 0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000, 0x7fc00000, 0xffc00000, 0x7fc12345
+};
+enum { SPECIALS = sizeof specials / sizeof specials[0] };
+
+static lom_int pattern(uint64_t key, uint64_t counter)
+{
+    lom_int x;
+    for (int i = 0; i < LOM_LANES; i++) {
+        uint64_t h = (counter * LOM_LANES + (uint64_t)i + 1) * UINT64_C(0x9e3779b97f4a7c15) + key;
+        h ^= h >> 31;
+        h *= UINT64_C(0xbf58476d1ce4e5b9);
+        h ^= h >> 29;
+        x[i] = (h & 7) == 0 ? (int32_t)specials[(h >> 8) % SPECIALS] : (int32_t)(h >> 32);
+    }
+    return x;
+}
+
+static int same(lom_float a, lom_float b)
+{
+    lom_mask equal = ((lom_int)a == (lom_int)b) | ((a != a) & (b != b));
+    return lom_defined_bits(equal) == (uint32_t)((UINT64_C(1) << LOM_LANES) - 1);
+}
+
+static int same_int(lom_int a, lom_int b)
+{
+    return lom_defined_bits(a == b) == (uint32_t)((UINT64_C(1) << LOM_LANES) - 1);
+}
+
+static void compare_all(lom_int p, lom_int q)
+{
+    lom_float a = lom_as_float(p), b = lom_as_float(q);
+    lom_mask m = p > q;
+    CHECK(same_int((lom_int)lom_select(m, a, b), (lom_int)lom_defined_select(m, a, b)), "select of %08x", p[0]);
+    CHECK(same_int(lom_select_int(m, p, q), lom_defined_select_int(m, p, q)), "select_int of %08x", p[0]);
+    CHECK(same(lom_min(a, b), lom_defined_min(a, b)), "min of %08x, %08x", p[0], q[0]);
+    CHECK(same(lom_max(a, b), lom_defined_max(a, b)), "max of %08x, %08x", p[0], q[0]);
+    CHECK(same(lom_sqrt(a), lom_defined_sqrt(a)), "sqrt of %08x", p[0]);
+    CHECK(same(lom_floor(a), lom_defined_floor(a)), "floor of %08x", p[0]);
+    CHECK(same(lom_round(a), lom_defined_round(a)), "round of %08x", p[0]);
+    CHECK(same_int(lom_to_int(a), lom_defined_to_int(a)), "to_int of %08x", p[0]);
+    CHECK(lom_bits(m) == lom_defined_bits(m), "bits of %08x", m[0]);
+}
+
+static void overrides_equal_definitions_on_specials(void)
+{
+    for (int i = 0; i < SPECIALS; i++)
+        for (int j = 0; j < SPECIALS; j++) {
+            lom_int p = pattern(1, (uint64_t)(i * SPECIALS + j)), q = pattern(2, (uint64_t)(i * SPECIALS + j));
+            p[0] = (int32_t)specials[i];
+            q[0] = (int32_t)specials[j];
+            p[LOM_LANES - 1] = (int32_t)specials[j];
+            compare_all(p, q);
+        }
+}
+
+static void overrides_equal_definitions_on_random_bits(void)
+{
+    for (uint64_t n = 0; n < 200000; n++)
+        compare_all(pattern(3, n), pattern(4, n));
+}
+
+static void gathers_read_what_their_indices_name(void)
+{
+    float table[256];
+    const float *rows[LOM_LANES];
+    for (int i = 0; i < 256; i++)
+        table[i] = (float)(i * 3 - 100);
+    for (uint64_t n = 0; n < 1000; n++) {
+        lom_int index = pattern(5, n) & 63;
+        for (int i = 0; i < LOM_LANES; i++)
+            rows[i] = table + index[i] * 3;
+        CHECK(same(lom_gather(table, index), lom_defined_gather(table, index)), "gather %d", index[0]);
+        CHECK(same_int(lom_gather_int((const int32_t *)table, index),
+                       lom_defined_gather_int((const int32_t *)table, index)),
+              "gather_int %d", index[0]);
+        lom_float4 a = lom_load_rows(rows, 1), b = lom_defined_load_rows(rows, 1);
+        CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "load_rows %d", index[0]);
+    }
+}
+
+static void definitions_have_their_stated_values(void)
+{
+    float nan = __builtin_nanf(""), infinity = __builtin_inff();
+    CHECK(lom_defined_min(lom_splat(nan), lom_splat(3))[0] == 3 &&
+          lom_defined_max(lom_splat(nan), lom_splat(3))[0] == 3);
+    CHECK(lom_defined_min(lom_splat(3), lom_splat(nan))[0] != lom_defined_min(lom_splat(3), lom_splat(nan))[0]);
+    CHECK(lom_defined_to_int(lom_splat(nan))[0] == 0 && lom_defined_to_int(lom_splat(infinity))[0] == 2147483520);
+    CHECK(lom_defined_to_int(lom_splat(-infinity))[0] == INT32_MIN && lom_defined_to_int(lom_splat(-1.9f))[0] == -1);
+    CHECK(lom_defined_floor(lom_splat(-0.5f))[0] == -1 && __builtin_signbit(lom_defined_floor(lom_splat(-0.0f))[0]));
+    CHECK(lom_defined_round(lom_splat(2.5f))[0] == 2 && lom_defined_round(lom_splat(-3.5f))[0] == -4);
+    CHECK(lom_fraction(lom_splat(-1e-10f))[0] == 0 && lom_fraction(lom_splat(-0.25f))[0] == 0.75f);
+    CHECK(lom_clamp(lom_splat(nan), lom_splat(2), lom_splat(5))[0] == 2 && lom_saturate(lom_splat(infinity))[0] == 1);
+    CHECK(lom_bits(lom_mask_of_bits(0xa5a5u)) == (0xa5a5u & ((1u << LOM_LANES) - 1)));
+}
+
+int main(int argc, char **argv)
+{
+    if (!check_lanes_run()) {
+        printf("SKIP this processor has no instructions for this width\n");
+        return 0;
+    }
+    RUN(definitions_have_their_stated_values);
+    RUN(overrides_equal_definitions_on_specials);
+    RUN(overrides_equal_definitions_on_random_bits);
+    RUN(gathers_read_what_their_indices_name);
+    return check_result();
+}
