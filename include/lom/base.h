@@ -139,6 +139,26 @@ double lom_random_uniform(uint64_t key, uint64_t counter);
 /* Two independent standard normal numbers by Box-Muller of lom_random_bits. */
 void lom_random_normal(uint64_t key, uint64_t counter, double normal[2]);
 
+/* ---- the machine ---- */
+
+/* Vector extensions that both the CPU and the system support; false on architectures that do not have them. They choose
+ * which code runs, never what it computes. */
+typedef struct lom_cpu {
+    bool avx2;
+    bool avx512; /* F, DQ, BW, VL and CD together */
+} lom_cpu;
+lom_cpu lom_detect_cpu(void);
+
+/* How many threads are worth starting, at least 1: the CPUs this thread may run on (affinity), or fewer where the
+ * quota of its control groups (cgroup version 1 and 2, every level; a fraction counts as a whole CPU) allows fewer. */
+int lom_default_threads(void);
+
+/* ---- names ---- */
+
+/* The name that word[0, length) was most likely meant to be, for "did you mean": the fewest inserted, deleted, replaced
+ * and swapped letters, at most a third of the word and one more; the first of equals. NULL when none is near. */
+const char *lom_nearest_name(const char *word, size_t length, const char *const *names, size_t count);
+
 /* ---- version ---- */
 
 #define LOM_VERSION         "0.1.0"

@@ -1,0 +1,11 @@
+/* What cpu.c reads from the system, apart from where it lies, so that a test can lay out another system. */
+#ifndef LOM_BASE_CPU_H
+#define LOM_BASE_CPU_H
+
+#include <lom/base.h>
+
+/* The CPU quota of the control groups this process is in, in CPUs rounded up; 0 when there is none. membership is the
+ * text of /proc/self/cgroup, root the folder where the hierarchies are mounted (/sys/fs/cgroup). */
+int lom_cgroup_cpus(const char *membership, const char *root);
+
+#endif

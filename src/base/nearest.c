@@ -1,0 +1,48 @@
+/* The nearest of some names. In: a word that is none of them. Out: the one it was most likely meant to be, for "did you
+ * mean". Invariant: the answer depends on the texts alone; of equally near names the first wins. */
+#include <lom/base.h>
+
+#include <string.h>
+
+enum { MAXIMUM = 64 }; /* longer words get no suggestion */
+
+/* Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours count 1 each. Three
+ * rows of the table of prefixes are enough (Wagner and Fischer 1974; the swap: Damerau 1964). */
+static size_t distance(const char *a, size_t a_length, const char *b, size_t b_length)
+{
+    size_t rows[3][MAXIMUM + 1];
+    for (size_t j = 0; j <= b_length; j++)
+        rows[0][j] = j;
+    for (size_t i = 1; i <= a_length; i++) {
+        size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *above2 = rows[(i + 1) % 3];
+        row[0] = i;
+        for (size_t j = 1; j <= b_length; j++) {
+            size_t best = above[j - 1] + (a[i - 1] != b[j - 1]);
+            if (above[j] + 1 < best)
+                best = above[j] + 1;
+            if (row[j - 1] + 1 < best)
+                best = row[j - 1] + 1;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && above2[j - 2] + 1 < best)
+                best = above2[j - 2] + 1;
+            row[j] = best;
+        }
+    }
+    return rows[a_length % 3][b_length];
+}
+
+const char *lom_nearest_name(const char *word, size_t length, const char *const *names, size_t count)
+{
+    if (length == 0 || length > MAXIMUM)
+        return NULL;
+    const char *nearest = NULL;
+    size_t best = length / 3 + 1; /* at most one mistake in three letters, and one more */
+    for (size_t i = 0; i < count; i++) {
+        size_t name_length = strlen(names[i]);
+        size_t d = name_length <= MAXIMUM ? distance(word, length, names[i], name_length) : SIZE_MAX;
+        if (d < name_length && (d < best || (d == best && nearest == NULL))) {
+            nearest = names[i];
+            best = d;
+        }
+    }
+    return nearest;
+}

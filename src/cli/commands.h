@@ -1,0 +1,8 @@
+/* The subcommands of the program: each in the file of its name, each given argv from its own name on, each returning
+ * an exit status (options.h). */
+#ifndef LOM_CLI_COMMANDS_H
+#define LOM_CLI_COMMANDS_H
+
+int lom_command_version(int argc, char **argv);
+
+#endif

@@ -1,0 +1,76 @@
+/* `lom version`. In: nothing. Out: what decides a picture (the versions, the float rules) and what decides only its
+ * speed (the CPU). Invariant: the rules are probed in this very build, not quoted. */
+#include "commands.h"
+#include "options.h"
+
+#include <float.h>
+
+static const lom_command_line line = {
+    .name = "version",
+    .arguments = "",
+    .summary = "Says which lom this is, what compiled it, and what it found in this machine",
+    .details =
+        "\"picture version\" changes whenever a release deliberately changes pixels: pictures of one scene by two\n"
+        "builds with the same picture version are the same bytes.",
+};
+
+/* (1 + e)^2 - (1 + 2e) is e^2 exactly; rounding the product first loses it, so that only a fused operation gives it. */
+static bool contracts(void)
+{
+    volatile double e = 0x1p-30;
+    double x = 1 + e, y = 1 + 2 * e;
+    double difference = x * x - y;
+    return difference != 0;
+}
+
+static bool keeps_denormals(void)
+{
+    volatile float smallest = FLT_MIN;
+    volatile float half = smallest * 0.5f;
+    return half != 0;
+}
+
+static bool rounds_to_nearest(void)
+{
+    volatile double one = 1, tiny = 0x1p-60;
+    volatile double up = one + tiny, down = one - tiny;
+    return up == one && down == one;
+}
+
+static const char *width_support(int width, const lom_cpu *cpu)
+{
+#if defined __x86_64__
+    if (width == 8)
+        return cpu->avx2 ? "AVX2" : "lowered";
+    if (width == 16)
+        return cpu->avx512 ? "AVX-512" : "lowered";
+    return "SSE2";
+#else
+    (void)cpu;
+    return width == 4 ? "native" : "lowered";
+#endif
+}
+
+int lom_command_version(int argc, char **argv)
+{
+    lom_arguments arguments;
+    int status;
+    if (!lom_parse_options(&line, argc, argv, NULL, &arguments, &status))
+        return status;
+    lom_cpu cpu = lom_detect_cpu();
+#if defined __clang__
+    const char *compiler = "", *compiler_version = __VERSION__;
+#else
+    const char *compiler = "gcc ", *compiler_version = __VERSION__;
+#endif
+    printf("lom %s\n", LOM_VERSION);
+    printf("  picture version  %d\n", LOM_PICTURE_VERSION);
+    printf("  compiler         %s%s\n", compiler, compiler_version);
+    printf("  lanes            4 (%s), 8 (%s), 16 (%s)\n", width_support(4, &cpu), width_support(8, &cpu),
+           width_support(16, &cpu));
+    printf("  threads          %d by default\n", lom_default_threads());
+    printf("  floats           contraction %s, denormals %s, %s, FLT_EVAL_METHOD %d\n", contracts() ? "ON" : "off",
+           keeps_denormals() ? "kept" : "FLUSHED", rounds_to_nearest() ? "round to nearest" : "ANOTHER ROUNDING",
+           __FLT_EVAL_METHOD__);
+    return LOM_EXIT_DONE;
+}
