@@ -6,5 +6,8 @@
 #include <lom/lanes.h>
 #include <lom/image.h>
 #include <lom/geometry.h>
+#include <lom/scene.h>
+#include <lom/sky.h>
+#include <lom/water.h>
 
 #endif

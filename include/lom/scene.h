@@ -1,0 +1,192 @@
+/* lom/scene.h - a scene: what a scene file (TOML 1.0, docs/scene.md) says, checked and ready to be rendered.
+ *
+ * Files have degrees, the structs radians; lengths are metres. Every number is finite and inside the range that
+ * docs/scene.md names. Every string belongs to the scene and lives until lom_free_scene; a path is resolved against the
+ * scene file's folder and named a file that was there when the scene was read. Optional strings are NULL when absent.
+ * Each table's struct starts with `given`: 0 when the file has no such table. */
+#ifndef LOM_SCENE_H
+#define LOM_SCENE_H
+
+#include <lom/geometry.h>
+#include <lom/sky.h>
+#include <lom/water.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- [output] ---- */
+
+typedef enum lom_transfer { LOM_TRANSFER_SRGB, LOM_TRANSFER_NAIVE } lom_transfer;
+typedef enum lom_output_format { LOM_OUTPUT_RGB8, LOM_OUTPUT_RGB16, LOM_OUTPUT_RGB32F } lom_output_format;
+
+typedef struct lom_output {
+    uint32_t given;
+    int width, height; /* pixels, 1..LOM_MAX_SIZE */
+    int transfer;      /* lom_transfer; naive: textures are not decoded and the output is not encoded */
+    int format;        /* lom_output_format: the samples; the kind of file comes from its extension */
+    int frames;        /* how many frames the animation has, from 1 */
+    double fps;        /* frame n shows the time n / fps, in seconds */
+} lom_output;
+
+/* ---- [camera] ---- */
+
+typedef struct lom_camera_key { /* [[camera.key]]; times rise strictly from key to key */
+    uint32_t given;
+    double time; /* seconds */
+    lom_vec3 position, target;
+    double field_of_view; /* radians, vertical */
+} lom_camera_key;
+
+typedef enum lom_interpolation { LOM_INTERPOLATION_LINEAR, LOM_INTERPOLATION_SMOOTH } lom_interpolation;
+
+typedef struct lom_camera {
+    uint32_t given;
+    lom_vec3 position, target, up;
+    double yaw, pitch, roll; /* radians, as in the file; the reader has worked them into target and up */
+    double field_of_view;    /* radians, vertical, above 0 and below pi */
+    double near_plane;       /* metres, above 0 */
+    int interpolation;       /* lom_interpolation, between the keys */
+    lom_camera_key *keys;
+    size_t key_count; /* 0: a camera that stands still */
+} lom_camera;
+
+/* The camera at one moment: the arguments of lom_look_at and lom_perspective. */
+typedef struct lom_camera_view {
+    lom_vec3 position, target, up;
+    double field_of_view, near_plane;
+} lom_camera_view;
+
+/* ---- [light] ---- */
+
+typedef struct lom_light {
+    uint32_t given;
+    lom_vec3 direction;        /* unit vector, the way the light travels: from the sun towards the scene */
+    double azimuth, elevation; /* radians, of the sun as in the file; already worked into direction */
+    double color[3];           /* linear; multiplied by intensity it is the light's diffuse and specular colour */
+    double intensity;
+    double ambient[3]; /* linear, the global ambient colour, not multiplied by intensity */
+} lom_light;
+
+/* ---- materials ---- */
+
+enum { /* bits of lom_scene_material.given: which values the file names */
+       LOM_MATERIAL_AMBIENT = 1,
+       LOM_MATERIAL_DIFFUSE = 2,
+       LOM_MATERIAL_SPECULAR = 4,
+       LOM_MATERIAL_SHININESS = 8,
+       LOM_MATERIAL_TEXTURE = 16
+};
+
+typedef struct lom_scene_material {
+    uint32_t given;                             /* an entity's mesh keeps its own value where the bit is clear */
+    double ambient[3], diffuse[3], specular[3]; /* linear factors */
+    double shininess;                           /* Phong exponent */
+    const char *texture;                        /* colour texture that multiplies ambient and diffuse, or NULL */
+} lom_scene_material;
+
+/* ---- [terrain] ---- */
+
+typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers before it where its ranges hold */
+    uint32_t given;
+    const char *map;
+    double tile;                   /* metres of one repetition; 0: once over the whole terrain */
+    double from_height, to_height; /* metres above y = 0; -+1e9 when the file names no bound */
+    double from_slope, to_slope;   /* radians from flat (0) to upright (pi/2) */
+    double blend;                  /* metres of height over which the layer fades in and out at its height bounds */
+    double slope_blend;            /* radians, the same at its slope bounds */
+} lom_terrain_layer;
+
+typedef struct lom_terrain {
+    uint32_t given;
+    const char *height_map;
+    double size[2];         /* width along x and length along z, metres; the terrain is centred on x = z = 0 */
+    double height;          /* metres from black to white */
+    double base;            /* y of black, metres */
+    const char *texture;    /* colour texture, or NULL */
+    double tile;            /* metres of one repetition; 0: once over the whole terrain */
+    const char *detail_map; /* brightness detail: the colour is multiplied by 2 * detail; or NULL */
+    double detail_tile;     /* metres of one repetition */
+    const char *normal_map; /* perturbs the terrain's normal, tiled like the detail map; or NULL */
+    lom_scene_material material;
+    lom_terrain_layer *layers;
+    size_t layer_count;
+} lom_terrain;
+
+/* ---- [[entity]] ---- */
+
+typedef struct lom_entity {
+    uint32_t given;
+    const char *name;  /* NULL when it has none; unique in the scene */
+    const char *mesh;  /* OBJ file */
+    lom_vec3 position; /* metres; y is above the terrain when on_ground is set */
+    lom_vec3 rotation; /* radians: model = T Rz Ry Rx S */
+    lom_vec3 scale;    /* no component is 0 */
+    lom_scene_material material;
+    bool on_ground, visible;
+} lom_entity;
+
+/* ---- [quality]: the dials ---- */
+
+typedef enum lom_water_model { LOM_WATER_PLANAR } lom_water_model;
+typedef enum lom_shading { LOM_SHADING_PHONG, LOM_SHADING_GOURAUD, LOM_SHADING_FLAT } lom_shading;
+typedef enum lom_texture_filter {
+    LOM_TEXTURE_TRILINEAR,
+    LOM_TEXTURE_BILINEAR, /* linear within the nearest level */
+    LOM_TEXTURE_NEAREST
+} lom_texture_filter;
+
+typedef struct lom_quality {
+    uint32_t given;
+    int water;               /* lom_water_model */
+    int shading;             /* lom_shading */
+    int texture_filter;      /* lom_texture_filter */
+    bool mipmaps;            /* false: the finest level alone */
+    double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
+    double refraction_scale; /* the same of the refraction picture */
+} lom_quality;
+
+/* ---- the scene ---- */
+
+typedef struct lom_scene {
+    uint32_t given;
+    const char *title; /* or NULL */
+    lom_output output;
+    lom_camera camera;
+    lom_light light;
+    lom_terrain terrain; /* there is none when given is 0 */
+    lom_sky_params sky;
+    lom_water_params water; /* drawn when given is not 0 and enabled is set */
+    lom_quality quality;
+    lom_entity *entities;
+    size_t entity_count;
+    const char *path;                /* of the scene file, as it was named */
+    struct lom_scene_memory *memory; /* what the strings and arrays live in */
+} lom_scene;
+
+/* Reads and checks a scene file ("-" is standard input; its files are then relative to the working folder). An override
+ * is "KEY=VALUE", applied in order after the file: KEY is a dotted path like "water.level", "entity.0.position" or
+ * "entity.boat.visible" (arrays of tables by index or by name), VALUE is a TOML value; what is none is taken as a
+ * string. NULL on failure; the error names file, line and column, or the override. Freed with lom_free_scene. */
+lom_scene *lom_read_scene(const char *path, const char *const *overrides, size_t override_count, lom_error *error);
+/* The same from memory; path serves the messages and its folder the relative file names. */
+lom_scene *lom_decode_scene(const char *text, size_t size, const char *path, const char *const *overrides,
+                            size_t override_count, lom_error *error);
+void lom_free_scene(lom_scene *scene);
+
+/* Every file the scene names, the scene file first, each once: what --watch looks at. The list belongs to the scene. */
+const char *const *lom_scene_files(const lom_scene *scene, size_t *count);
+
+/* The camera at a time in seconds, from the time alone. Before the first key it is the first, after the last the last.
+ * Smooth is the cubic Hermite curve whose slope at a key is that of the parabola through it and its two neighbours
+ * (Catmull-Rom when the times are equally far apart); it reproduces any motion that is quadratic in time. */
+lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time);
+
+/* docs/scene.md, made from the tables of keys; data is NULL on failure. */
+lom_bytes lom_write_scene_documentation(lom_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,53 @@
+/* lom/water.h - water: the parameters of its models, as the scene file's [water] table gives them. */
+#ifndef LOM_WATER_H
+#define LOM_WATER_H
+
+#include <lom/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The planar lake. Its nine steps can be switched one by one (spec: reflection, refraction, projection, flow, normals,
+ * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
+ * keeps every range stated there. Strings belong to the scene. */
+typedef struct lom_water_params {
+    uint32_t given;     /* nonzero when the scene has a [water] table */
+    bool enabled;       /* false: no water is drawn although there is a table */
+    double level;       /* y of the surface, metres */
+    double position[2]; /* x, z of the middle of the quad, metres */
+    double size[2];     /* extent along x and z, metres, above 0 (the reader has put the terrain's size here when the
+                           file gives none) */
+
+    bool reflection; /* 1: the mirrored scene is rendered and looked up; else color is what is reflected */
+    bool refraction; /* 2: the scene below is rendered and looked up; else color is what is seen below */
+    bool projection; /* 3: lookups at the fragment's own place on the screen; else at the quad's own coordinates */
+    bool flow;       /* 4: the flow map displaces the lookups and moves the normals */
+    bool normals;    /* 5: the normal map perturbs the normal; else it is (0, 1, 0) */
+    bool fresnel;    /* 6: reflection and refraction mixed by the angle of view; else half and half */
+    bool specular;   /* 7: the highlight of the light is added */
+    bool tint;       /* 8: tint_color is mixed in */
+    bool soft_shore; /* 9: alpha falls to 0 where the water is shallow */
+
+    const char *normal_map;   /* path; NULL: flat water */
+    const char *flow_map;     /* path; NULL: made from the normal map, smoothstep(0.2, 0.8, 1 - n) a channel */
+    double tile;              /* metres that one repetition of the two maps covers */
+    double flow_strength;     /* largest displacement of a lookup, in parts of the picture */
+    double flow_speed;        /* repetitions of the maps per second */
+    double normal_up;         /* the factor on the up component: 3 is the published one; larger is calmer */
+    double reflectivity;      /* 0..1, the share of the reflection at grazing angles */
+    double fresnel_power;     /* exponent on dot(to_camera, normal) */
+    double shininess;         /* Phong exponent */
+    double specular_strength; /* factor on the highlight */
+    double color[3];          /* linear; stands in for a picture that is switched off */
+    double tint_color[3];     /* linear */
+    double tint_amount;       /* 0..1 */
+    double shore_depth;       /* metres of water at which it is fully there */
+    double clip_offset; /* metres by which the two clip planes reach over the surface, against gaps at the shore */
+} lom_water_params;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,56 @@
+/* The vocabulary of scene keys: what a model layer says about the keys it reads, as data. A table of lom_key describes
+ * the members of one parameter struct; the scene layer reads files, checks ranges, writes error messages and makes
+ * docs/scene.md from the same tables. Invariant: nothing about a key is said anywhere else. */
+#ifndef LOM_BASE_KEYS_H
+#define LOM_BASE_KEYS_H
+
+#include <lom/base.h>
+
+typedef enum lom_key_type {                  /* the member behind offset */
+                            LOM_KEY_BOOL,    /* bool */
+                            LOM_KEY_INTEGER, /* int */
+                            LOM_KEY_NUMBER,  /* double[count] */
+                            LOM_KEY_ANGLE,   /* double[count]; degrees in the file, radians in the struct */
+                            LOM_KEY_COLOR,   /* double[3]: linear red, green, blue */
+                            LOM_KEY_STRING,  /* const char *[count], NULL when not given */
+                            LOM_KEY_FILE, /* const char *[count], NULL when not given; resolved against the scene file's
+                                             folder */
+                            LOM_KEY_CHOICE, /* int: the index into choices */
+                            LOM_KEY_TABLE,  /* the struct of table, inline */
+                            LOM_KEY_TABLES  /* pointer to an array of structs of table, and a size_t at length_offset */
+} lom_key_type;
+
+enum {
+    LOM_KEY_REQUIRED = 1, /* the table is an error without it */
+    LOM_KEY_SPREAD = 2,   /* one number stands for all count of them */
+    LOM_KEY_ABOVE = 4,    /* minimum itself is outside the range */
+    LOM_KEY_BELOW = 8     /* maximum itself is outside the range */
+};
+
+typedef struct lom_key {
+    const char *name;
+    lom_key_type type;
+    size_t offset;
+    int count;                         /* values of an array; 0 and 1 both mean one plain value */
+    unsigned flags;                    /* LOM_KEY_... */
+    double minimum, maximum;           /* of every number, in the file's unit; both 0: any finite number */
+    double initial[3];                 /* the default of booleans, numbers and choices, in the file's unit */
+    const char *unit;                  /* "m", "degrees", NULL for a plain number */
+    const char *text;                  /* the documentation: sentences */
+    const char *choices[8];            /* of LOM_KEY_CHOICE, ended by NULL */
+    const struct lom_key_table *table; /* of LOM_KEY_TABLE and LOM_KEY_TABLES */
+    size_t length_offset;              /* of LOM_KEY_TABLES */
+    const char *initial_text;          /* what the documentation says of the default when no number can say it */
+} lom_key;
+
+typedef struct lom_key_table {
+    size_t size;         /* of the struct; its first member is `uint32_t given`: bit i is set when key i was in the
+                            file, LOM_KEY_PRESENT when the table was */
+    const lom_key *keys; /* at most 31 */
+    int key_count;
+    const char *text; /* the documentation of the table: sentences */
+} lom_key_table;
+
+#define LOM_KEY_PRESENT (UINT32_C(1) << 31)
+
+#endif
