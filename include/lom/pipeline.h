@@ -1,0 +1,352 @@
+/* lom/pipeline.h - the programmable pipeline: a device, shaders, and passes of draws into textures.
+ *
+ *   vertex -> clip -> setup -> bin -> raster -> fragment -> output
+ *
+ * Conventions: right-handed, column vectors; clip volume -w <= x, y <= w and 0 <= z <= w with reversed depth (1 at the
+ * near plane) unless the pass says otherwise; window origin top left, pixel centres at .5; front faces
+ * counter-clockwise as seen with y up.
+ *
+ * A pixel is a function of the draws and of its coordinates in the whole frame; not of threads, lanes, tile size, crop,
+ * compiler or processor.
+ */
+#ifndef LOM_PIPELINE_H
+#define LOM_PIPELINE_H
+
+#include <lom/lanes.h>
+#include <lom/texture.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- the device ---- */
+
+typedef struct lom_device lom_device;
+
+typedef struct lom_device_desc {
+    int threads; /* workers, 1..256; 0: as many as affinity and the cgroup quota allow */
+    int lanes;   /* 4, 8 or 16; 0: the widest this processor has instructions for */
+    bool plain;  /* lanes lowered to the baseline instructions even where the processor has wider ones */
+    int tile;    /* tile edge in pixels: 16, 32 or 64; 0: 64 */
+    int chunk;   /* triangles a unit of set-up work, 16..65536; 0: 8192 */
+    int batch;   /* chunks between two sweeps over the tiles, 1..1024; 0: 32 */
+} lom_device_desc;
+
+/* Opens a device; the zero descriptor is a good one. Never NULL except when memory runs out: on another failure the
+ * device holds the error and every call with it does nothing. Closed with lom_close_device. */
+lom_device *lom_open_device(const lom_device_desc *desc);
+/* Frees the device, its workers and everything made with it; NULL is allowed. */
+void lom_close_device(lom_device *device);
+/* The first error since the device was opened; code LOM_OK when there was none. */
+const lom_error *lom_device_error(const lom_device *device);
+/* What the device runs with: threads, lanes, plain, tile, chunk, batch, all resolved. */
+lom_device_desc lom_describe_device(const lom_device *device);
+
+/* lom_create_texture, owned by the device and freed with it; NULL (error on the device) on failure. */
+lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc);
+/* Frees one texture before the device; NULL is allowed. */
+void lom_release_texture(lom_device *device, lom_texture *texture);
+
+/* Work done since the device was opened: what is not needed must show as zero here. */
+typedef struct lom_counters {
+    uint64_t passes, draws, vertices, triangles; /* triangles submitted */
+    uint64_t triangles_clipped;                  /* cut by near, far or the guard band */
+    uint64_t triangles_binned; /* left after culling, with at least one pixel centre possibly inside */
+    uint64_t fragments;        /* that passed the early depth test, or reached a shader */
+    uint64_t packets;          /* calls of a fragment shader */
+    uint64_t tiles;            /* tiles touched, a pass */
+} lom_counters;
+
+lom_counters lom_device_counters(const lom_device *device);
+
+/* ---- shaders ---- */
+
+enum {
+    LOM_MAX_ATTRIBUTES = 8,
+    LOM_MAX_VARYINGS = 24,
+    LOM_MAX_DISTANCES = 8, /* clip and cull distances together */
+    LOM_MAX_COLORS = 4,
+    LOM_VARIANTS = 5 /* 4, 8, 16 lanes, then 8 and 16 lowered */
+};
+
+/* What a vertex shader gets: LOM_LANES vertices. Missing components are 0, 0, 1 as in OpenGL (x, y, z, w = 0, 0, 0, 1).
+ */
+typedef struct lom_attributes {
+    lom_float4 attribute[LOM_MAX_ATTRIBUTES];
+    lom_int vertex;   /* the index as it stands in the index buffer plus base_vertex */
+    lom_int instance; /* 0 .. instances - 1 */
+} lom_attributes;
+
+/* What it gives. */
+typedef struct lom_vertex {
+    lom_float4 position; /* clip space */
+    lom_float varying[LOM_MAX_VARYINGS];
+    lom_float distance[LOM_MAX_DISTANCES]; /* clip distances first, then cull distances */
+} lom_vertex;
+
+/* What a fragment shader gets: LOM_LANES fragments of one triangle or of several, in submission order. Lanes that are
+ * not covered hold the values of a covered one (finite, never stored); in a shader that asks for quads they are the
+ * helpers of its 2x2 quad. Only varyings that the shader reads are filled. */
+typedef struct lom_varyings {
+    lom_float varying[LOM_MAX_VARYINGS];
+    lom_float x, y; /* window position of the pixel centre in the whole frame; only with reads_position */
+    lom_float z;    /* depth as the depth test sees it, before the attachment's rounding; only with reads_position */
+    lom_float w;    /* clip w; only with reads_position */
+    lom_mask front; /* front facing; only with reads_position */
+    lom_mask covered;
+    /* Derivatives: of the two perspective-correct weights along window x and y, and of each differentiated varying the
+     * differences of the triangle's vertices: df/dx = dx[0] delta[0][f] + dx[1] delta[1][f]. */
+    lom_float dx[2], dy[2];
+    lom_float delta[2][LOM_MAX_VARYINGS];
+} lom_varyings;
+
+/* What it gives. discard is clear and depth is z when the shader starts. */
+typedef struct lom_fragment {
+    lom_float4 color[LOM_MAX_COLORS]; /* linear light; clamped and encoded by the attachment's format */
+    lom_float depth;                  /* only with writes_depth */
+    lom_mask discard;                 /* only with discards */
+} lom_fragment;
+
+typedef void lom_vertex_function(lom_vertex *out, const lom_attributes *in, const void *uniforms);
+typedef void lom_fragment_function(lom_fragment *out, const lom_varyings *in, const void *uniforms);
+
+/* A shader and what it needs; what it does not declare it cannot do. Made with LOM_SHADER. */
+typedef struct lom_shader {
+    const char *name;
+    lom_vertex_function *vertex[LOM_VARIANTS];     /* NULL where it was not built at that width */
+    lom_fragment_function *fragment[LOM_VARIANTS]; /* all NULL: depth only */
+    int attributes;                                /* read by the vertex shader: 0 .. attributes - 1 */
+    int varyings;                                  /* written by the vertex shader */
+    int clip_distances, cull_distances;
+    uint32_t reads;          /* bit v: the fragment shader reads varying v */
+    uint32_t differentiates; /* bit v: it takes the derivative of varying v; part of reads */
+    uint32_t flat;           /* bit v: varying v is the provoking (last) vertex's, not interpolated */
+    bool reads_position;     /* x, y, z, w, front */
+    bool discards, writes_depth;
+    bool quads; /* general derivatives: packets of whole 2x2 quads aligned to even frame coordinates */
+    int colors; /* outputs written */
+    size_t uniforms_size;
+} lom_shader;
+
+/* Analytic derivative of varying v along window x (right) and y (down); v in differentiates. */
+LOM_INLINE lom_float lom_dx(const lom_varyings *in, int v)
+{
+    return in->dx[0] * in->delta[0][v] + in->dx[1] * in->delta[1][v];
+}
+
+LOM_INLINE lom_float lom_dy(const lom_varyings *in, int v)
+{
+    return in->dy[0] * in->delta[0][v] + in->dy[1] * in->delta[1][v];
+}
+
+/* Level of detail of a texture for coordinates that are the varyings s and t, both in differentiates. */
+LOM_INLINE lom_float lom_lod(const lom_texture *texture, const lom_varyings *in, int s, int t)
+{
+    return lom_lod_of(texture, lom_dx(in, s), lom_dx(in, t), lom_dy(in, s), lom_dy(in, t));
+}
+
+/* Differences of any value within each 2x2 quad (right minus left, lower minus upper); only in shaders with quads. */
+LOM_INLINE lom_float lom_quad_dx(lom_float value)
+{
+    lom_float difference = { 0 };
+    for (int i = 0; i < LOM_LANES; i++)
+        difference[i] = value[i | 1] - value[i & ~1];
+    return difference;
+}
+
+LOM_INLINE lom_float lom_quad_dy(lom_float value)
+{
+    lom_float difference = { 0 };
+    for (int i = 0; i < LOM_LANES; i++)
+        difference[i] = value[i | 2] - value[i & ~2];
+    return difference;
+}
+
+/* LOM_SHADER(name, vertex, fragment, .varyings = 2, ...) defines the shader `name` from two static functions of this
+ * file. LOM_DEPTH_SHADER has no fragment function. A file that is compiled once (at LOM_LANES) gives a shader of that
+ * width; the command lom-cc compiles it at every width (-DLOM_ALL_LANES) and joins the objects: the 4-lane one defines
+ * the shader. */
+#define LOM_SHADER_ENTRY(kind, name, function, out_type, in_type)                                                      \
+    void LOM_WIDE(name##_##kind##_entry)(out_type * out, const in_type *in, const void *uniforms);                     \
+    void LOM_WIDE(name##_##kind##_entry)(out_type * out, const in_type *in, const void *uniforms)                      \
+    {                                                                                                                  \
+        function(out, in, uniforms);                                                                                   \
+    }
+#if !defined LOM_ALL_LANES
+#define LOM_SHADER_TABLE(kind, name, type)
+#define LOM_SHADER_SLOT (LOM_LANES == 4 ? 0 : LOM_LANES == 8 ? 1 : 2)
+#define LOM_SHADER_LIST(entry)                                                                                         \
+    {                                                                                                                  \
+        [LOM_SHADER_SLOT] = LOM_WIDE(entry)                                                                            \
+    }
+#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
+    extern const lom_shader name;                                                                                      \
+    const lom_shader name = { #name, __VA_ARGS__ };
+#elif LOM_LANES == 4 && defined __x86_64__
+#define LOM_SHADER_TABLE(kind, name, type)                                                                             \
+    extern type name##_##kind##_entry_8, name##_##kind##_entry_16, name##_##kind##_entry_8_plain,                      \
+        name##_##kind##_entry_16_plain;
+#define LOM_SHADER_LIST(entry)                                                                                         \
+    {                                                                                                                  \
+        entry##_4, entry##_8, entry##_16, entry##_8_plain, entry##_16_plain                                            \
+    }
+#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
+    extern const lom_shader name;                                                                                      \
+    const lom_shader name = { #name, __VA_ARGS__ };
+#elif LOM_LANES == 4
+#define LOM_SHADER_TABLE(kind, name, type) extern type name##_##kind##_entry_8, name##_##kind##_entry_16;
+#define LOM_SHADER_LIST(entry)                                                                                         \
+    {                                                                                                                  \
+        entry##_4, entry##_8, entry##_16                                                                               \
+    }
+#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
+    extern const lom_shader name;                                                                                      \
+    const lom_shader name = { #name, __VA_ARGS__ };
+#else
+#define LOM_SHADER_TABLE(kind, name, type)
+#define LOM_SHADER_DEFINE(name, ...)
+#endif
+#define LOM_SHADER(name, vertex_function, fragment_function, ...)                                                      \
+    LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
+    LOM_SHADER_ENTRY(fragment, name, fragment_function, lom_fragment, lom_varyings)                                    \
+    LOM_SHADER_TABLE(vertex, name, lom_vertex_function)                                                                \
+    LOM_SHADER_TABLE(fragment, name, lom_fragment_function)                                                            \
+    LOM_SHADER_DEFINE(name, LOM_SHADER_LIST(name##_vertex_entry), LOM_SHADER_LIST(name##_fragment_entry), __VA_ARGS__)
+#define LOM_DEPTH_SHADER(name, vertex_function, ...)                                                                   \
+    LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
+    LOM_SHADER_TABLE(vertex, name, lom_vertex_function)                                                                \
+    LOM_SHADER_DEFINE(name, LOM_SHADER_LIST(name##_vertex_entry), .attributes = 0, __VA_ARGS__)
+
+/* ---- passes ---- */
+
+typedef struct lom_rect {
+    int x, y, width, height; /* in pixels of the whole frame; width 0: everything */
+} lom_rect;
+
+typedef enum lom_load {
+    LOM_LOAD_CLEAR = 0, /* start from the clear value */
+    LOM_LOAD_KEEP       /* start from what the attachment holds */
+} lom_load;
+
+typedef enum lom_clip_range {
+    LOM_CLIP_ZERO_TO_W = 0, /* 0 <= z <= w, depth = z / w */
+    LOM_CLIP_MINUS_W_TO_W   /* -w <= z <= w, depth = (z / w + 1) / 2 (OpenGL) */
+} lom_clip_range;
+
+typedef struct lom_pass_desc {
+    lom_texture
+        *color[LOM_MAX_COLORS];    /* 2D textures of one size, made without pixels; NULL from the first unused one on */
+    lom_texture *depth;            /* depth format, same size; NULL: no depth test */
+    int samples;                   /* 0 or 1 */
+    int frame_width, frame_height; /* the whole frame; 0: the attachments' size */
+    int origin_x, origin_y;        /* the frame's pixel that the attachments' pixel (0, 0) is */
+    lom_rect viewport;             /* of the frame; empty: the whole frame; at most 32768 x 32768 */
+    lom_rect scissor;              /* of the frame: pixels outside keep their clear value (or their content) */
+    lom_clip_range clip_range;
+    float min_depth, max_depth; /* both 0: 0 and 1 */
+    lom_load color_load[LOM_MAX_COLORS], depth_load;
+    float clear_color[LOM_MAX_COLORS][4]; /* linear light */
+    float clear_depth;                    /* 0 is the far plane of reversed depth */
+} lom_pass_desc;
+
+/* Begins a pass; ends with lom_end_pass. One pass at a time a device. */
+void lom_begin_pass(lom_device *device, const lom_pass_desc *desc);
+/* Runs the pass: when it returns the attachments are complete and their mip levels built. False when the device holds
+ * an error; attachments are then unspecified. */
+bool lom_end_pass(lom_device *device);
+
+/* ---- draws ---- */
+
+typedef enum lom_topology { LOM_TRIANGLES = 0, LOM_TRIANGLE_STRIP, LOM_TRIANGLE_FAN } lom_topology;
+
+typedef enum lom_attribute_kind {
+    LOM_ATTRIBUTE_NONE = 0,
+    LOM_ATTRIBUTE_FLOAT1,
+    LOM_ATTRIBUTE_FLOAT2,
+    LOM_ATTRIBUTE_FLOAT3,
+    LOM_ATTRIBUTE_FLOAT4,
+    LOM_ATTRIBUTE_UNORM8X4
+} lom_attribute_kind;
+
+typedef struct lom_attribute {
+    const void *data; /* of vertex 0; not copied: stays valid until lom_end_pass */
+    size_t size;      /* bytes readable from data */
+    size_t stride;    /* bytes from vertex to vertex; 0: one value for all vertices */
+    lom_attribute_kind kind;
+} lom_attribute;
+
+typedef enum lom_compare {
+    LOM_COMPARE_DEFAULT = 0, /* greater: nearer in reversed depth */
+    LOM_COMPARE_NEVER,
+    LOM_COMPARE_LESS,
+    LOM_COMPARE_EQUAL,
+    LOM_COMPARE_LESS_EQUAL,
+    LOM_COMPARE_GREATER,
+    LOM_COMPARE_NOT_EQUAL,
+    LOM_COMPARE_GREATER_EQUAL,
+    LOM_COMPARE_ALWAYS
+} lom_compare;
+
+typedef enum lom_cull { LOM_CULL_NONE = 0, LOM_CULL_BACK, LOM_CULL_FRONT } lom_cull;
+
+typedef enum lom_factor {
+    LOM_FACTOR_ZERO = 0,
+    LOM_FACTOR_ONE,
+    LOM_FACTOR_SOURCE_COLOR,
+    LOM_FACTOR_ONE_MINUS_SOURCE_COLOR,
+    LOM_FACTOR_SOURCE_ALPHA,
+    LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+    LOM_FACTOR_TARGET_COLOR,
+    LOM_FACTOR_ONE_MINUS_TARGET_COLOR,
+    LOM_FACTOR_TARGET_ALPHA,
+    LOM_FACTOR_ONE_MINUS_TARGET_ALPHA
+} lom_factor;
+
+typedef enum lom_blend_operation {
+    LOM_BLEND_ADD = 0,
+    LOM_BLEND_SUBTRACT,         /* source - target */
+    LOM_BLEND_REVERSE_SUBTRACT, /* target - source */
+    LOM_BLEND_MIN,              /* factors ignored */
+    LOM_BLEND_MAX
+} lom_blend_operation;
+
+/* result = source * source_factor (operation) target * target_factor, for colour and for alpha. Into 8-bit unorm the
+ * source is rounded to the format first and the sum is rounded once (exact); sRGB and float attachments blend in float.
+ */
+typedef struct lom_blend {
+    bool enabled;
+    lom_factor source_color, target_color, source_alpha, target_alpha;
+    lom_blend_operation color_operation, alpha_operation;
+} lom_blend;
+
+typedef struct lom_draw_desc {
+    const lom_shader *shader;
+    const void *uniforms; /* uniforms_size bytes, copied */
+    lom_attribute attribute[LOM_MAX_ATTRIBUTES];
+    const void *indices; /* NULL: 0, 1, 2 ...; not copied: stays valid until lom_end_pass */
+    int index_bits;      /* 16 or 32; 0: 32 */
+    size_t count;        /* indices (or vertices) to draw; a rest that makes no triangle is ignored */
+    size_t first;        /* first index (or vertex) */
+    int32_t base_vertex; /* added to every index */
+    bool restart;        /* the largest index value starts a new strip or fan */
+    size_t vertex_count; /* vertices that exist: a larger index drops its triangle; 0: what the attributes hold */
+    int instances;       /* 0: 1 */
+    lom_topology topology;
+    lom_cull cull;
+    bool front_clockwise;
+    lom_compare depth_compare;
+    bool depth_test_off; /* nothing tested, nothing written */
+    bool depth_write_off;
+    lom_blend blend[LOM_MAX_COLORS];
+    uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
+    lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
+} lom_draw_desc;
+
+/* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */
+void lom_draw(lom_device *device, const lom_draw_desc *desc);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
