@@ -93,6 +93,50 @@ lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *
 /* Changes what the stored numbers mean, without touching them: between formats of equal channels and bits. */
 bool lom_reinterpret_image(lom_image *image, lom_format format, lom_error *error);
 
+/* ---- comparison ----
+ * Two pictures are compared in the format that holds both without loss: the wider of the bit depths (8-bit n becomes
+ * 16-bit 257 n), floats when either is float or only one is sRGB-encoded, three colours when either has three (gray is
+ * replicated; two channels are gray and alpha, as in files), alpha when either has it (missing alpha is 1). Unsigned
+ * normalised formats differ in *steps*, 0 .. 2^bits - 1; floats in plain numbers. Equal means equal as numbers: -0 is
+ * 0, a NaN equals a NaN and is infinitely far from any number. */
+
+typedef struct lom_comparison {
+    bool same_size;     /* width, height and depth agree; if not, nothing below is set but format */
+    bool identical;     /* no pixel differs */
+    bool is_float;      /* the common format: floats, else steps */
+    int channels, bits; /* of the common format */
+    size_t pixels;      /* pixels with any differing sample, alpha included */
+    double max_delta;   /* the largest difference of two samples: steps, or plain for floats; infinite with one NaN */
+    int max_at[3];      /* x, y, z of its first place */
+    int max_channel;    /* 0.. in the common format */
+    int box[4];         /* x, y, width, height around all differing pixels of all slices; zeros when identical */
+    double rmse;        /* root of the mean squared difference over the colour channels, in the unit of max_delta */
+    double psnr;        /* 20 log10(peak / rmse) in decibels, peak 2^bits - 1 or 1.0; infinite when rmse is 0 */
+} lom_comparison;
+
+/* Compares every sample. False only when it could not be done (no memory, a format that is none); pictures of different
+ * sizes are a result. */
+bool lom_compare_images(const lom_image *a, const lom_image *b, lom_comparison *result, lom_error *error);
+
+/* Structural similarity, 1 for equal pictures (Wang, Bovik, Sheikh, Simoncelli: Image Quality Assessment, IEEE TIP
+ * 13(4), 2004): Gaussian window 11x11 with sigma 1.5, K1 0.01, K2 0.03, no downsampling, of the luma 0.299 R + 0.587 G
+ * + 0.114 B of encoded samples. Only windows wholly inside the picture count, as in the authors' program; along a side
+ * shorter than 11 every window counts, cut at the borders and its weights scaled back to a sum of 1. Floats are taken
+ * as linear light, clamped to 0..1 (NaN is 0) and sRGB-encoded first. The mean over all slices. Sizes must agree. */
+bool lom_compare_ssim(const lom_image *a, const lom_image *b, double *ssim, lom_error *error);
+
+/* The mean of LDR FLIP, 0 for equal pictures, towards 1 for what nobody mistakes (Andersson, Nilsson, Akenine-Moller,
+ * Oskarsson, Astrom, Fairchild: FLIP, Proc. ACM CGIT 3(2), 2020), at 67 pixels a degree (the paper's 0.7 m from a 0.7 m
+ * wide monitor of 3840 pixels). Unsigned normalised samples are taken as sRGB-encoded, floats as linear light clamped
+ * to 0..1 (NaN is 0). Beyond the border the nearest pixel is repeated. Alpha does not count. The mean over all slices.
+ * Sizes must agree. */
+bool lom_compare_flip(const lom_image *a, const lom_image *b, double *flip, lom_error *error);
+
+/* A picture of the differences, RGB8, of the same size: a channel is 0 where the samples are equal and 64
+ * + 191 sqrt(d) where they differ by d of the range (floats: by d, at most 1), so that one step in 65535 can be seen. A
+ * difference in alpha is shown in all three channels. Sizes must agree; NULL on failure, freed with lom_free_image. */
+lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error *error);
+
 #ifdef __cplusplus
 }
 #endif

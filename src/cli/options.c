@@ -41,6 +41,19 @@ static bool has_limits(const lom_option *option)
     return option->minimum < option->maximum;
 }
 
+static bool store_number(const lom_command_line *line, const lom_option *option, const char *word, void *field)
+{
+    double value;
+    size_t length = strlen(word);
+    if (length == 0 || lom_parse_double(word, length, &value) != length)
+        return refuse(line, "--%s takes a number, not \"%s\"", option->name, word);
+    if (has_limits(option) && !(value >= option->minimum && value <= option->maximum))
+        return refuse(line, "--%s %s: the number must be from %.15g to %.15g", option->name, word, option->minimum,
+                      option->maximum);
+    *(lom_option_number *)field = (lom_option_number){ .given = true, .value = value };
+    return true;
+}
+
 /* Digits with an optional sign at *text; moves *text behind them. False for none, or for more than 15 digits, which no
  * range here reaches and an int64 and a double hold exactly. */
 static bool take_integer(const char **text, int64_t *value)
@@ -103,6 +116,8 @@ static bool store(const lom_command_line *line, const lom_option *option, const 
         return true;
     case LOM_OPTION_CHOICE:
         return store_choice(line, option, word, field);
+    case LOM_OPTION_NUMBER:
+        return store_number(line, option, word, field);
     case LOM_OPTION_INTEGER:
         return store_integers(line, option, word, field);
     case LOM_OPTION_LIST: {
@@ -239,7 +254,7 @@ static void print_option(const lom_option *option, FILE *out)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
     snprintf(left, sizeof left, "  %s--%s%s%s", letter, option->name, option->kind == LOM_OPTION_FLAG ? "" : " ",
              option->kind == LOM_OPTION_FLAG ? "" : option->value);
-    if (option->kind == LOM_OPTION_INTEGER && has_limits(option))
+    if ((option->kind == LOM_OPTION_NUMBER || option->kind == LOM_OPTION_INTEGER) && has_limits(option))
         snprintf(limits, sizeof limits, " (%.15g to %.15g)", option->minimum, option->maximum);
     fprintf(out, "%-*s", COLUMN, left);
     if (strlen(left) >= COLUMN)

@@ -19,10 +19,16 @@ typedef enum lom_option_kind {
     LOM_OPTION_FLAG,    /* no word; bool */
     LOM_OPTION_TEXT,    /* any word; const char *, NULL when absent */
     LOM_OPTION_CHOICE,  /* one of the words of `value`, separated by '|'; const char *, NULL when absent */
+    LOM_OPTION_NUMBER,  /* a decimal number in [minimum, maximum]; lom_option_number */
     LOM_OPTION_INTEGER, /* integers in [minimum, maximum], in the pattern of `value`: a capital letter stands for an
                          * integer, anything else for itself ("N", "WxH", "A:B", "X,Y,W,H"); lom_option_integers */
     LOM_OPTION_LIST     /* any word, may be repeated; lom_option_list */
 } lom_option_kind;
+
+typedef struct lom_option_number {
+    bool given;
+    double value;
+} lom_option_number;
 
 typedef struct lom_option_integers {
     bool given;

@@ -1,9 +1,18 @@
 /* `lom version`. In: nothing. Out: what decides a picture (the versions, the float rules) and what decides only its
  * speed (the CPU). Invariant: the rules are probed in this very build, not quoted. */
 #include "commands.h"
+#include "json.h"
 #include "options.h"
 
 #include <float.h>
+
+struct values {
+    bool json;
+};
+
+static const lom_option options[] = {
+    { .name = "json", .kind = LOM_OPTION_FLAG, .field = offsetof(struct values, json), .help = "one JSON object" },
+};
 
 static const lom_command_line line = {
     .name = "version",
@@ -12,6 +21,8 @@ static const lom_command_line line = {
     .details =
         "\"picture version\" changes whenever a release deliberately changes pixels: pictures of one scene by two\n"
         "builds with the same picture version are the same bytes.",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
 };
 
 /* (1 + e)^2 - (1 + 2e) is e^2 exactly; rounding the product first loses it, so that only a fused operation gives it. */
@@ -51,13 +62,35 @@ static const char *width_support(int width, const lom_cpu *cpu)
 #endif
 }
 
+static void print_json(const lom_cpu *cpu)
+{
+    lom_json json = lom_json_begin(stdout);
+    lom_json_text(&json, "version", LOM_VERSION);
+    lom_json_integer(&json, "picture_version", LOM_PICTURE_VERSION);
+    lom_json_text(&json, "compiler", __VERSION__);
+    lom_json_text(&json, "lanes_4", width_support(4, cpu));
+    lom_json_text(&json, "lanes_8", width_support(8, cpu));
+    lom_json_text(&json, "lanes_16", width_support(16, cpu));
+    lom_json_integer(&json, "threads", lom_default_threads());
+    lom_json_bool(&json, "contraction", contracts());
+    lom_json_bool(&json, "denormals", keeps_denormals());
+    lom_json_bool(&json, "round_to_nearest", rounds_to_nearest());
+    lom_json_integer(&json, "flt_eval_method", __FLT_EVAL_METHOD__);
+    lom_json_end(&json);
+}
+
 int lom_command_version(int argc, char **argv)
 {
+    struct values values = { .json = false };
     lom_arguments arguments;
     int status;
-    if (!lom_parse_options(&line, argc, argv, NULL, &arguments, &status))
+    if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
         return status;
     lom_cpu cpu = lom_detect_cpu();
+    if (values.json) {
+        print_json(&cpu);
+        return LOM_EXIT_DONE;
+    }
 #if defined __clang__
     const char *compiler = "", *compiler_version = __VERSION__;
 #else

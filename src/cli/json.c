@@ -1,0 +1,123 @@
+/* JSON, field by field. In: names and values. Out: one object a line. Invariant: whatever the values are, the line is
+ * valid JSON (RFC 8259) in UTF-8. */
+#include "json.h"
+
+#include <inttypes.h>
+
+/* Length of the UTF-8 sequence at text, 0 when it is malformed: overlong forms, surrogates and what lies above U+10FFFF
+ * included (Unicode, table 3-7). */
+static size_t utf8_length(const unsigned char *text)
+{
+    static const struct {
+        unsigned char first, last, low, high; /* range of the first byte, and of the second */
+        size_t length;
+    } forms[] = {
+        { 0x00, 0x7f, 0, 0, 1 },       { 0xc2, 0xdf, 0x80, 0xbf, 2 }, { 0xe0, 0xe0, 0xa0, 0xbf, 3 },
+        { 0xe1, 0xec, 0x80, 0xbf, 3 }, { 0xed, 0xed, 0x80, 0x9f, 3 }, { 0xee, 0xef, 0x80, 0xbf, 3 },
+        { 0xf0, 0xf0, 0x90, 0xbf, 4 }, { 0xf1, 0xf3, 0x80, 0xbf, 4 }, { 0xf4, 0xf4, 0x80, 0x8f, 4 },
+    };
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        if (text[0] < forms[i].first || text[0] > forms[i].last)
+            continue;
+        if (forms[i].length > 1 && (text[1] < forms[i].low || text[1] > forms[i].high))
+            return 0;
+        for (size_t k = 2; k < forms[i].length; k++)
+            if (text[k] < 0x80 || text[k] > 0xbf)
+                return 0;
+        return forms[i].length;
+    }
+    return 0;
+}
+
+static void write_text(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (const unsigned char *p = (const unsigned char *)text; *p != 0;) {
+        size_t length = utf8_length(p);
+        if (*p == '"' || *p == '\\')
+            fprintf(out, "\\%c", *p);
+        else if (*p < 0x20)
+            fprintf(out, "\\u%04x", *p);
+        else if (length == 0)
+            fputs("\\ufffd", out);
+        else
+            fwrite(p, 1, length, out);
+        p += length != 0 ? length : 1;
+    }
+    fputc('"', out);
+}
+
+static void write_name(lom_json *json, const char *name)
+{
+    if (json->started)
+        fputs(", ", json->out);
+    json->started = true;
+    write_text(json->out, name);
+    fputs(": ", json->out);
+}
+
+lom_json lom_json_begin(FILE *out)
+{
+    fputc('{', out);
+    return (lom_json){ .out = out, .started = false };
+}
+
+void lom_json_end(lom_json *json)
+{
+    fputs("}\n", json->out);
+}
+
+void lom_json_text(lom_json *json, const char *name, const char *text)
+{
+    if (text == NULL) {
+        lom_json_null(json, name);
+        return;
+    }
+    write_name(json, name);
+    write_text(json->out, text);
+}
+
+void lom_json_integer(lom_json *json, const char *name, int64_t value)
+{
+    write_name(json, name);
+    fprintf(json->out, "%" PRId64, value);
+}
+
+void lom_json_number(lom_json *json, const char *name, double value)
+{
+    char text[32];
+    if (!__builtin_isfinite(value)) {
+        lom_json_null(json, name);
+        return;
+    }
+    write_name(json, name);
+    lom_print_double(text, value);
+    fputs(text, json->out);
+}
+
+void lom_json_bool(lom_json *json, const char *name, bool value)
+{
+    write_name(json, name);
+    fputs(value ? "true" : "false", json->out);
+}
+
+void lom_json_null(lom_json *json, const char *name)
+{
+    write_name(json, name);
+    fputs("null", json->out);
+}
+
+void lom_json_integers(lom_json *json, const char *name, const int64_t *values, size_t count)
+{
+    write_name(json, name);
+    fputc('[', json->out);
+    for (size_t i = 0; i < count; i++)
+        fprintf(json->out, "%s%" PRId64, i > 0 ? ", " : "", values[i]);
+    fputc(']', json->out);
+}
+
+void lom_json_hash(lom_json *json, const char *name, uint64_t hash)
+{
+    write_name(json, name);
+    fprintf(json->out, "\"%016" PRIx64 "\"", hash);
+}
