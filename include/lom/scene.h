@@ -42,11 +42,11 @@ typedef enum lom_interpolation { LOM_INTERPOLATION_LINEAR, LOM_INTERPOLATION_SMO
 
 typedef struct lom_camera {
     uint32_t given;
-    lom_vec3 position, target, up;
-    double yaw, pitch, roll; /* radians, as in the file; the reader has worked them into target and up */
-    double field_of_view;    /* radians, vertical, above 0 and below pi */
-    double near_plane;       /* metres, above 0 */
-    int interpolation;       /* lom_interpolation, between the keys */
+    lom_vec3 position, target, up; /* up has unit length */
+    double yaw, pitch, roll;       /* radians, as in the file; the reader has worked them into target and up */
+    double field_of_view;          /* radians, vertical, 0.01 to 179 degrees */
+    double near_plane;             /* metres, above 0 */
+    int interpolation;             /* lom_interpolation, between the keys */
     lom_camera_key *keys;
     size_t key_count; /* 0: a camera that stands still */
 } lom_camera;

@@ -23,8 +23,7 @@ typedef enum lom_key_type {                  /* the member behind offset */
 enum {
     LOM_KEY_REQUIRED = 1, /* the table is an error without it */
     LOM_KEY_SPREAD = 2,   /* one number stands for all count of them */
-    LOM_KEY_ABOVE = 4,    /* minimum itself is outside the range */
-    LOM_KEY_BELOW = 8     /* maximum itself is outside the range */
+    LOM_KEY_ABOVE = 4     /* minimum itself is outside the range */
 };
 
 typedef struct lom_key {

@@ -1,0 +1,249 @@
+/* What concerns several keys of a scene at once. In: a filled lom_scene and the tree it came from. Out: directions,
+ * file names and sizes worked out from what the file gives. Invariant: afterwards the scene contradicts itself nowhere.
+ */
+#include "reader.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const double right_angle_limit = 1e-6; /* least sine between a direction of view and up */
+static const double least_interval = 1e-6;    /* seconds between key frames, so that slopes stay finite */
+
+/* ---- places ---- */
+
+static const lom_toml_value *child(const lom_toml_value *table, const char *key)
+{
+    return lom_toml_find(table, key, strlen(key));
+}
+
+/* Element i of the array of tables under key. */
+static const lom_toml_value *element(const lom_toml_value *table, const char *key, size_t i)
+{
+    const lom_toml_value *list = child(table, key);
+    return list != NULL && list->type == LOM_TOML_ARRAY && i < list->count ? list->items[i] : NULL;
+}
+
+/* Fails at the value of key in table, or where the table is, or at the start of the file. */
+static bool fail_at(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *table, const char *key,
+                    const char *sentence)
+{
+    const lom_toml_value *value = child(table, key);
+    value = value != NULL ? value : table != NULL ? table : root;
+    return lom_toml_fail(value->source, value->offset, LOM_ERROR_INPUT, reader->error, "%s", sentence);
+}
+
+/* ---- vectors ---- */
+
+static lom_vec3 combine(double a, lom_vec3 u, double b, lom_vec3 v)
+{
+    return (lom_vec3){ a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z };
+}
+
+static lom_vec3 cross(lom_vec3 u, lom_vec3 v)
+{
+    return (lom_vec3){ u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x };
+}
+
+/* The unit vector along v; false when v is 0. Scaled by the largest component first, so that no square overflows. */
+static bool normalize(lom_vec3 *v)
+{
+    double x = __builtin_fabs(v->x), y = __builtin_fabs(v->y), z = __builtin_fabs(v->z);
+    double largest = x > y ? x : y;
+    largest = largest > z ? largest : z;
+    if (!(largest > 0 && largest - largest == 0))
+        return false;
+    lom_vec3 scaled = { v->x / largest, v->y / largest, v->z / largest };
+    double length = lom_double_sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
+    *v = (lom_vec3){ scaled.x / length, scaled.y / length, scaled.z / length };
+    return true;
+}
+
+/* ---- [camera] ---- */
+
+/* Direction of view and up of a camera with M = Ry(yaw) Rx(pitch) Rz(roll), which looks along its -z. */
+static void aim(lom_camera *camera)
+{
+    double sy = lom_double_sin(camera->yaw), cy = lom_double_cos(camera->yaw);
+    double sp = lom_double_sin(camera->pitch), cp = lom_double_cos(camera->pitch);
+    lom_vec3 forward = { -sy * cp, sp, -cy * cp };
+    camera->target = combine(1, camera->position, 1, forward);
+    camera->up = (lom_vec3){ sy * sp, cp, cy * sp };
+}
+
+/* True when a camera can look from position to target with this up. */
+static bool can_look(lom_vec3 position, lom_vec3 target, lom_vec3 up)
+{
+    lom_vec3 forward = combine(1, target, -1, position);
+    if (!normalize(&forward) || !normalize(&up))
+        return false;
+    lom_vec3 side = cross(forward, up);
+    return side.x * side.x + side.y * side.y + side.z * side.z > right_angle_limit * right_angle_limit;
+}
+
+/* Turns up about the direction of view: column y of the camera's matrix times Rz(roll). */
+static void roll(lom_camera *camera)
+{
+    lom_vec3 forward = combine(1, camera->target, -1, camera->position);
+    normalize(&forward);
+    lom_vec3 side = cross(forward, camera->up);
+    normalize(&side);
+    camera->up = combine(-lom_double_sin(camera->roll), side, lom_double_cos(camera->roll), cross(side, forward));
+}
+
+static bool check_camera_keys(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_camera *camera = &reader->scene->camera;
+    for (size_t i = 0; i < camera->key_count; i++) {
+        const lom_toml_value *place = element(child(root, "camera"), "key", i);
+        lom_camera_key *key = &camera->keys[i];
+        if (child(place, "position") == NULL)
+            key->position = camera->position;
+        if (child(place, "target") == NULL)
+            key->target = camera->target;
+        if (child(place, "field_of_view") == NULL)
+            key->field_of_view = camera->field_of_view;
+        if (i > 0 && key->time - camera->keys[i - 1].time < least_interval)
+            return fail_at(reader, root, place, "time",
+                           "the times of the camera's keys must rise, by a millionth of a second or more.");
+        if (!can_look(key->position, key->target, camera->up))
+            return fail_at(reader, root, place, "target",
+                           "the camera cannot look there: target is its position, or lies along up.");
+    }
+    return true;
+}
+
+static bool check_camera(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_camera *camera = &reader->scene->camera;
+    const lom_toml_value *table = child(root, "camera");
+    bool turned = child(table, "yaw") != NULL || child(table, "pitch") != NULL;
+    if (turned && child(table, "target") != NULL)
+        return fail_at(reader, root, table, child(table, "yaw") != NULL ? "yaw" : "pitch",
+                       "the camera has either a target or yaw and pitch, not both.");
+    if (turned && child(table, "up") != NULL)
+        return fail_at(reader, root, table, "up", "yaw and pitch say what is up; use roll to turn the picture.");
+    if (turned)
+        aim(camera);
+    if (!can_look(camera->position, camera->target, camera->up))
+        return fail_at(reader, root, table, child(table, "target") != NULL ? "target" : "position",
+                       "the camera cannot look there: target is its position, or lies along up.");
+    normalize(&camera->up);
+    if (child(table, "roll") != NULL)
+        roll(camera);
+    return check_camera_keys(reader, root);
+}
+
+/* ---- [light] ---- */
+
+static bool check_light(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_light *light = &reader->scene->light;
+    const lom_toml_value *table = child(root, "light");
+    bool stands = child(table, "azimuth") != NULL || child(table, "elevation") != NULL;
+    if (child(table, "direction") == NULL) {
+        double sa = lom_double_sin(light->azimuth), ca = lom_double_cos(light->azimuth);
+        double se = lom_double_sin(light->elevation), ce = lom_double_cos(light->elevation);
+        light->direction = (lom_vec3){ -sa * ce, -se, ca * ce };
+    } else if (stands) {
+        return fail_at(reader, root, table, "direction",
+                       "the light has either a direction or azimuth and elevation, not both.");
+    }
+    if (!normalize(&light->direction))
+        return fail_at(reader, root, table, "direction", "the light's direction must not be zero.");
+    return true;
+}
+
+/* ---- [sky] ---- */
+
+/* The pattern with name in the place of its %s, as a path of the scene. */
+static const char *face_path(lom_reader *reader, const lom_toml_value *value, const char *pattern, const char *name)
+{
+    const char *mark = strstr(pattern, "%s");
+    size_t before = (size_t)(mark - pattern), length = strlen(pattern) - 2 + strlen(name);
+    char *text = lom_arena_take(reader->tree, length + 1, 1, reader->error);
+    if (text == NULL)
+        return NULL;
+    snprintf(text, length + 1, "%.*s%s%s", (int)before, pattern, name, mark + 2);
+    return lom_read_path(reader, value, text, length);
+}
+
+static bool check_sky(lom_reader *reader, const lom_toml_value *root)
+{
+    static const char *const names[6] = { "right", "left", "top", "bottom", "front", "back" };
+    lom_sky_params *sky = &reader->scene->sky;
+    const lom_toml_value *table = child(root, "sky");
+    bool has_faces = sky->faces[0] != NULL;
+    for (int i = 1; i < 6; i++)
+        if ((sky->faces[i] != NULL) != has_faces)
+            return fail_at(reader, root, table, "faces", "\"faces\" must name all six pictures, or be left out.");
+    if (sky->pattern == NULL)
+        return true;
+    if (has_faces)
+        return fail_at(reader, root, table, "pattern", "the sky has either a pattern or faces, not both.");
+    const char *mark = strchr(sky->pattern, '%');
+    if (mark == NULL || mark[1] != 's' || strchr(mark + 1, '%') != NULL)
+        return fail_at(reader, root, table, "pattern", "\"pattern\" must have one %s, for right, left, top, ...");
+    for (int i = 0; i < 6; i++) {
+        sky->faces[i] = face_path(reader, child(table, "pattern"), sky->pattern, names[i]);
+        if (sky->faces[i] == NULL)
+            return false;
+    }
+    return true;
+}
+
+/* ---- [terrain], [water], [[entity]] ---- */
+
+static bool check_terrain(lom_reader *reader, const lom_toml_value *root)
+{
+    const lom_terrain *terrain = &reader->scene->terrain;
+    const lom_toml_value *table = child(root, "terrain");
+    if (terrain->given != 0 && terrain->height_map == NULL)
+        return fail_at(reader, root, table, "height_map", "the terrain needs a height map.");
+    for (size_t i = 0; i < terrain->layer_count; i++) {
+        const lom_terrain_layer *layer = &terrain->layers[i];
+        const lom_toml_value *place = element(table, "layer", i);
+        if (layer->map == NULL)
+            return fail_at(reader, root, place, "map", "a layer needs a map.");
+        if (layer->from_height > layer->to_height)
+            return fail_at(reader, root, place, "from_height", "\"from_height\" must not be above \"to_height\".");
+        if (layer->from_slope > layer->to_slope)
+            return fail_at(reader, root, place, "from_slope", "\"from_slope\" must not be above \"to_slope\".");
+    }
+    return true;
+}
+
+static bool check_water(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_scene *scene = reader->scene;
+    if (child(child(root, "water"), "size") == NULL && scene->terrain.given != 0)
+        memcpy(scene->water.size, scene->terrain.size, sizeof scene->water.size);
+    return true;
+}
+
+static bool check_entities(lom_reader *reader, const lom_toml_value *root)
+{
+    const lom_scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->entity_count; i++) {
+        const lom_entity *entity = &scene->entities[i];
+        const lom_toml_value *place = element(root, "entity", i);
+        if (entity->mesh == NULL)
+            return fail_at(reader, root, place, "mesh", "an entity needs a mesh.");
+        if (entity->on_ground && scene->terrain.given == 0)
+            return fail_at(reader, root, place, "on_ground", "there is no terrain to stand on.");
+        for (size_t j = 0; j < i && entity->name != NULL; j++)
+            if (scene->entities[j].name != NULL && strcmp(scene->entities[j].name, entity->name) == 0)
+                return fail_at(reader, root, place, "name", "another entity has this name already.");
+    }
+    return true;
+}
+
+bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
+{
+    static bool (*const checks[])(lom_reader *,
+                                  const lom_toml_value *) = { check_camera,  check_light, check_sky,
+                                                              check_terrain, check_water, check_entities };
+    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
+        if (!checks[i](reader, root))
+            return false;
+    return true;
+}

@@ -1,0 +1,9 @@
+/* The table of the scene file's [water] keys; it fills a lom_water_params. */
+#ifndef LOM_WATER_KEYS_H
+#define LOM_WATER_KEYS_H
+
+#include "base/keys.h"
+
+extern const lom_key_table lom_water_keys;
+
+#endif
