@@ -83,6 +83,16 @@ lom_bytes lom_encode_mtl(const lom_mesh *mesh, lom_error *error);
 lom_mesh *lom_make_terrain(const lom_image *map, double width, double length, double height, double base,
                            lom_error *error);
 
+/* ---- made: pictures of landscapes, by seed ---- */
+
+typedef struct lom_height_map_desc {
+    int size; /* 256, 512, 1024 or 2048 pixels a side; 0: 1024 */
+    uint64_t seed;
+} lom_height_map_desc;
+/* A lake among mountains for a terrain of 1600 x 1600 x 400 m, 16-bit gray: the water's surface is at 1/16, black the
+ * deepest bed, white the highest summit; the high range lies at the top (-z). */
+lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error);
+
 #ifdef __cplusplus
 }
 #endif

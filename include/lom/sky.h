@@ -2,7 +2,7 @@
 #ifndef LOM_SKY_H
 #define LOM_SKY_H
 
-#include <lom/base.h>
+#include <lom/image.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,6 +18,19 @@ typedef struct lom_sky_params {
     double color[3];      /* linear */
     const char *pattern;  /* as in the file; the reader has resolved it into faces */
 } lom_sky_params;
+
+/* ---- made: a sky box ---- */
+
+typedef struct lom_sky_box_desc {
+    int size;                          /* pixels a side of a face, 8..4096; 0: 1024 */
+    double sun_azimuth, sun_elevation; /* radians: 0 is north (-z), pi/2 east (+x); above the horizon */
+    double haziness;                   /* 0 is clean air, 1 a fine day */
+    double cloudiness;                 /* 0 is a clear sky, 1 many clouds */
+    uint64_t seed;
+} lom_sky_box_desc;
+/* Six pictures (RGB8 sRGB; right, left, top, bottom, front, back) that belong to the caller. On failure false, and all
+ * are NULL. */
+bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_error *error);
 
 #ifdef __cplusplus
 }

@@ -2,7 +2,7 @@
 #ifndef LOM_WATER_H
 #define LOM_WATER_H
 
-#include <lom/base.h>
+#include <lom/image.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,6 +45,19 @@ typedef struct lom_water_params {
     double shore_depth;       /* metres of water at which it is fully there */
     double clip_offset; /* metres by which the two clip planes reach over the surface, against gaps at the shore */
 } lom_water_params;
+
+/* ---- made: the maps of the planar lake ---- */
+
+typedef struct lom_normal_map_desc {
+    int size; /* pixels a side, 128..4096, a multiple of 4; 0: 512 */
+    uint64_t seed;
+    double roughness; /* root of the mean squared slope; 0: 0.42 */
+} lom_normal_map_desc;
+/* Waves with a wind, which repeat without a seam, RGB8: red and green are the normal's components along x (right) and z
+ * (down the picture) * 0.5 + 0.5, blue the one that points up. */
+lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error);
+/* The flow map that belongs to a normal map: smoothstep(0.2, 0.8, 1 - n) for each channel, RGB8. */
+lom_image *lom_make_flow_map(const lom_image *normal_map, lom_error *error);
 
 #ifdef __cplusplus
 }
