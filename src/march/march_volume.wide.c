@@ -1,0 +1,122 @@
+/* Rays through a volume, LOM_LANES at a time. In: rays and what a sample means; out: their opacity and colour.
+ * Invariant: skipping leaves out only steps at which every ray's density is exactly 0; such a step adds 0 to both. */
+#include <lom/march.h>
+
+/* The bundle as one ray with a width, in cells: every ray stays within `spread` of the centre, which moves by at most
+ * `speed` a step (both as the largest of the three axes). */
+typedef struct bundle {
+    float start[3], step[3];
+    float spread, speed;
+} bundle;
+
+static void bounds(lom_float x, uint32_t lanes, float *low, float *high)
+{
+    float value[LOM_LANES];
+    lom_store(value, x);
+    *low = *high = value[__builtin_ctz(lanes)];
+    for (int i = 0; i < LOM_LANES; i++)
+        if (lanes >> i & 1) {
+            *low = value[i] < *low ? value[i] : *low;
+            *high = value[i] > *high ? value[i] : *high;
+        }
+}
+
+/* The distance of rays from their centre is a convex function of the step: largest at the first or the last. */
+static void bound_axis(bundle *b, int axis, lom_float start, lom_float step, int size, int steps, uint32_t lanes)
+{
+    float low, high, last = (float)(steps - 1), scale = (float)size;
+    bounds(step, lanes, &low, &high);
+    float middle_step = (low + high) * 0.5f;
+    float fastest = -low > high ? -low : high;
+    bounds(start, lanes, &low, &high);
+    float middle = (low + high) * 0.5f;
+    float first_spread = (high - low) * 0.5f;
+    bounds((start - middle) + last * (step - middle_step), lanes, &low, &high);
+    float last_spread = -low > high ? -low : high;
+    float spread = (first_spread > last_spread ? first_spread : last_spread) * scale;
+    b->start[axis] = middle * scale - 0.5f;
+    b->step[axis] = middle_step * scale;
+    b->spread = spread > b->spread ? spread : b->spread;
+    b->speed = fastest * scale > b->speed ? fastest * scale : b->speed;
+}
+
+static bundle make_bundle(const lom_march_rays *rays, const lom_march_desc *desc, uint32_t lanes)
+{
+    bundle b = { .speed = 0x1p-20f };
+    bound_axis(&b, 0, rays->start.x, rays->step.x, desc->volume->width, desc->steps, lanes);
+    bound_axis(&b, 1, rays->start.y, rays->step.y, desc->volume->height, desc->steps, lanes);
+    bound_axis(&b, 2, rays->start.z, rays->step.z, desc->volume->depth, desc->steps, lanes);
+    return b;
+}
+
+/* How many steps from i on are empty for the whole bundle. Two points a apart lie in cells at most floor(a) + 1 apart;
+ * a ray k steps on is at most spread + k speed from where the centre is now; cells nearer than `distance` are empty. So
+ * the k with spread + k speed < distance - 1 are; 0.01 of a cell is far more than the rounding of the positions. */
+static int empty_steps(const bundle *b, const lom_volume *volume, int i)
+{
+    const int size[3] = { volume->width, volume->height, volume->depth };
+    int cell[3];
+    for (int axis = 0; axis < 3; axis++) {
+        float along = b->start[axis] + (float)i * b->step[axis], most = (float)(size[axis] - 1);
+        along = along > 0 ? along : 0;
+        cell[axis] = (int)(along < most ? along : most);
+    }
+    int index = (cell[2] * (size[1] + 1) + cell[1]) * (size[0] + 1) + cell[0];
+    float room = (float)volume->distance[index] - 1.01f - b->spread;
+    return room >= 0 ? 1 + (int)(room / b->speed) : 0;
+}
+
+/* Whether every position is within 8192 cells, where float rounding is far below the margin above; false for NaN. */
+static bool is_near(const bundle *b, int steps)
+{
+    bool near = b->spread + b->speed * (float)steps < 4096.0f;
+    for (int axis = 0; axis < 3; axis++)
+        near = near && b->start[axis] > -4096.0f && b->start[axis] < 4096.0f;
+    return near;
+}
+
+void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
+                                lom_march_count *count)
+{
+    lom_float3 offset = lom_splat3(desc->light_offset[0], desc->light_offset[1], desc->light_offset[2]);
+    lom_float4 sum = { 0 };
+    lom_mask alive = rays->active;
+    bundle b = { 0 };
+    bool skips = !desc->walk && lom_any(alive);
+    if (skips) {
+        b = make_bundle(rays, desc, lom_bits(alive));
+        skips = is_near(&b, desc->steps);
+    }
+    uint64_t sampled = 0;
+    int i = 0;
+    for (; i < desc->steps && lom_any(alive); i++) {
+        if (skips) {
+            int empty = empty_steps(&b, desc->volume, i);
+            if (empty != 0) {
+                i += empty - 1;
+                continue;
+            }
+        }
+        sampled++;
+        lom_float3 p = lom_add3(rays->start, lom_scale3(rays->step, lom_splat((float)i)));
+        lom_volume_place at = lom_find_in_volume(desc->volume, p);
+        lom_float density = lom_sample_density(desc->volume, at);
+        if (skips && !lom_any((density > 0.0f) & alive))
+            continue;
+        lom_float3 color = lom_sample_volume_color(desc->volume, at);
+        lom_float above = lom_sample_density(desc->volume, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
+        lom_float seen = (1.0f - sum.w) * (density * desc->absorption);
+        seen = lom_as_float(lom_as_int(seen) & alive);
+        lom_float lit = 1.0f - desc->shade * above;
+        sum.x += seen * (color.x * lit);
+        sum.y += seen * (color.y * lit);
+        sum.z += seen * (color.z * lit);
+        sum.w += seen;
+        alive &= ~(sum.w > desc->opaque);
+    }
+    *out = sum;
+    if (count != NULL) {
+        count->walked += (uint64_t)i;
+        count->sampled += sampled;
+    }
+}

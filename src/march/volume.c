@@ -1,0 +1,136 @@
+/* Volumes for marching. In: an image of colour and density; out: cells with their eight corners side by side, and how
+ * far each cell is from the nearest one that holds anything. Invariant: a distance is exact or capped at 255, so a
+ * cell nearer than it to this one is empty. */
+#include <lom/march.h>
+
+#include <string.h>
+
+void lom_free_volume(lom_volume *volume)
+{
+    if (volume == NULL)
+        return;
+    lom_release(volume->density);
+    lom_release(volume->color);
+    lom_release(volume->distance);
+    lom_release(volume);
+}
+
+static size_t place(const lom_volume *volume, int x, int y, int z)
+{
+    size_t row = (size_t)z * (size_t)(volume->height + 1) + (size_t)y;
+    return row * (size_t)(volume->width + 1) + (size_t)x;
+}
+
+static int at_most(int value, int limit)
+{
+    return value < limit ? value : limit;
+}
+
+static uint32_t voxel(const lom_image *image, int x, int y, int z)
+{
+    const uint8_t *p = lom_image_pixel(image, at_most(x, image->width - 1), at_most(y, image->height - 1),
+                                       at_most(z, image->depth - 1));
+    if (image->format == LOM_FORMAT_R8)
+        return (uint32_t)p[0] << 24 | 0xffffff;
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+static void store_colors(lom_volume *volume, const lom_image *image)
+{
+    volume->empty_border = true;
+    for (int z = 0; z <= volume->depth; z++)
+        for (int y = 0; y <= volume->height; y++)
+            for (int x = 0; x <= volume->width; x++) {
+                uint32_t value = voxel(image, x, y, z);
+                bool border = x == 0 || y == 0 || z == 0 || x >= volume->width - 1 || y >= volume->height - 1 ||
+                              z >= volume->depth - 1;
+                memcpy(&volume->color[place(volume, x, y, z)], &value, sizeof value);
+                if (border && value >> 24 != 0)
+                    volume->empty_border = false;
+            }
+}
+
+static uint32_t density_at(const lom_volume *volume, int x, int y, int z)
+{
+    size_t at = place(volume, at_most(x, volume->width), at_most(y, volume->height), at_most(z, volume->depth));
+    return (uint32_t)volume->color[at] >> 24;
+}
+
+static void store_densities(lom_volume *volume)
+{
+    for (int z = 0; z <= volume->depth; z++)
+        for (int y = 0; y <= volume->height; y++)
+            for (int x = 0; x <= volume->width; x++) {
+                size_t cell = place(volume, x, y, z);
+                uint32_t any = 0;
+                for (int k = 0; k < 2; k++) {
+                    uint32_t word = density_at(volume, x, y, z + k) | density_at(volume, x + 1, y, z + k) << 8 |
+                                    density_at(volume, x, y + 1, z + k) << 16 |
+                                    density_at(volume, x + 1, y + 1, z + k) << 24;
+                    memcpy(&volume->density[2 * cell + (size_t)k], &word, sizeof word);
+                    any |= word;
+                }
+                volume->distance[cell] = any != 0 ? 0 : 255;
+            }
+}
+
+/* The 13 neighbours that come before a cell in storage order. */
+static const int8_t before[13][3] = { { -1, -1, -1 }, { 0, -1, -1 }, { 1, -1, -1 }, { -1, 0, -1 }, { 0, 0, -1 },
+                                      { 1, 0, -1 },   { -1, 1, -1 }, { 0, 1, -1 },  { 1, 1, -1 },  { -1, -1, 0 },
+                                      { 0, -1, 0 },   { 1, -1, 0 },  { -1, 0, 0 } };
+
+static void relax(lom_volume *volume, int x, int y, int z, int sign)
+{
+    uint8_t *distance = &volume->distance[place(volume, x, y, z)];
+    for (int i = 0; i < 13; i++) {
+        int nx = x + sign * before[i][0], ny = y + sign * before[i][1], nz = z + sign * before[i][2];
+        if (nx < 0 || ny < 0 || nz < 0 || nx > volume->width || ny > volume->height || nz > volume->depth)
+            continue;
+        int through = volume->distance[place(volume, nx, ny, nz)] + 1;
+        if (through < *distance)
+            *distance = (uint8_t)through;
+    }
+}
+
+/* Two sweeps with all neighbours of weight 1 give the Chebyshev distance exactly (Rosenfeld and Pfaltz 1968, in three
+ * dimensions). */
+static void store_distances(lom_volume *volume)
+{
+    for (int z = 0; z <= volume->depth; z++)
+        for (int y = 0; y <= volume->height; y++)
+            for (int x = 0; x <= volume->width; x++)
+                relax(volume, x, y, z, 1);
+    for (int z = volume->depth; z >= 0; z--)
+        for (int y = volume->height; y >= 0; y--)
+            for (int x = volume->width; x >= 0; x--)
+                relax(volume, x, y, z, -1);
+}
+
+lom_volume *lom_create_volume(const lom_image *image, lom_error *error)
+{
+    if (image == NULL || (image->format != LOM_FORMAT_RGBA8 && image->format != LOM_FORMAT_R8)) {
+        lom_fail(error, LOM_ERROR_USAGE, "A volume is made from an RGBA8 or R8 image.");
+        return NULL;
+    }
+    if (image->width > LOM_MAX_VOLUME || image->height > LOM_MAX_VOLUME || image->depth > LOM_MAX_VOLUME) {
+        lom_fail(error, LOM_ERROR_LIMIT, "A volume of %d x %d x %d voxels is larger than the limit of %d a side.",
+                 image->width, image->height, image->depth, LOM_MAX_VOLUME);
+        return NULL;
+    }
+    lom_volume *volume = lom_allocate(1, sizeof *volume, error);
+    if (volume == NULL)
+        return NULL;
+    *volume = (lom_volume){ .width = image->width, .height = image->height, .depth = image->depth };
+    size_t cells = place(volume, image->width, image->height, image->depth) + 1;
+    volume->density = lom_allocate(cells, 2 * sizeof *volume->density, error);
+    volume->color = lom_allocate(cells, sizeof *volume->color, error);
+    volume->distance = lom_allocate(cells, 1, error);
+    if (volume->density == NULL || volume->color == NULL || volume->distance == NULL) {
+        lom_free_volume(volume);
+        return NULL;
+    }
+    store_colors(volume, image);
+    store_densities(volume);
+    store_distances(volume);
+    return volume;
+}
