@@ -215,7 +215,7 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
 #define LOM_DEPTH_SHADER(name, vertex_function, ...)                                                                   \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
     LOM_SHADER_TABLE(vertex, name, lom_vertex_function)                                                                \
-    LOM_SHADER_DEFINE(name, LOM_SHADER_LIST(name##_vertex_entry), .attributes = 0, __VA_ARGS__)
+    LOM_SHADER_DEFINE(name, LOM_SHADER_LIST(name##_vertex_entry), { NULL }, __VA_ARGS__)
 
 /* ---- passes ---- */
 
@@ -223,10 +223,10 @@ typedef struct lom_rect {
     int x, y, width, height; /* in pixels of the whole frame; width 0: everything */
 } lom_rect;
 
-typedef enum lom_load {
+typedef enum lom_load_action {
     LOM_LOAD_CLEAR = 0, /* start from the clear value */
     LOM_LOAD_KEEP       /* start from what the attachment holds */
-} lom_load;
+} lom_load_action;
 
 typedef enum lom_clip_range {
     LOM_CLIP_ZERO_TO_W = 0, /* 0 <= z <= w, depth = z / w */
@@ -244,7 +244,7 @@ typedef struct lom_pass_desc {
     lom_rect scissor;              /* of the frame: pixels outside keep their clear value (or their content) */
     lom_clip_range clip_range;
     float min_depth, max_depth; /* both 0: 0 and 1 */
-    lom_load color_load[LOM_MAX_COLORS], depth_load;
+    lom_load_action color_load[LOM_MAX_COLORS], depth_load;
     float clear_color[LOM_MAX_COLORS][4]; /* linear light */
     float clear_depth;                    /* 0 is the far plane of reversed depth */
 } lom_pass_desc;
