@@ -86,7 +86,8 @@ lom_image *lom_read_image(const char *path, lom_error *error);
 /* The same from memory; name is used in messages. */
 lom_image *lom_decode_image(const uint8_t *data, size_t size, const char *name, lom_error *error);
 /* Writes by the extension of path, or by kind ("png", "ppm", "pgm", "pam", "pfm") when that is not NULL. 8-bit and
- * 16-bit formats as they are, floats only to pfm (others need lom_convert_image first); ppm and pgm drop alpha. */
+ * 16-bit formats as they are, 32-bit floats only to pfm (others need lom_convert_image first); ppm, pgm and pfm drop
+ * alpha, and ppm shows gray as three equal channels. */
 bool lom_write_image(const char *path, const char *kind, const lom_image *image, lom_error *error);
 /* The same into memory; data is NULL on failure. */
 lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *error);
@@ -136,6 +137,12 @@ bool lom_compare_flip(const lom_image *a, const lom_image *b, double *flip, lom_
  * + 191 sqrt(d) where they differ by d of the range (floats: by d, at most 1), so that one step in 65535 can be seen. A
  * difference in alpha is shown in all three channels. Sizes must agree; NULL on failure, freed with lom_free_image. */
 lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error *error);
+
+/* Video as YUV4MPEG2: the header once, then every frame, one behind the other in one file or pipe. 4:4:4, BT.601 in the
+ * limited range, correctly rounded; alpha is dropped, gray is shown as gray. frames : seconds is the rate (30 : 1).
+ * Frames are 8-bit pictures of the header's size whose numbers are sRGB-encoded. data is NULL on failure. */
+lom_bytes lom_encode_y4m_header(int width, int height, int frames, int seconds, lom_error *error);
+lom_bytes lom_encode_y4m_frame(const lom_image *image, lom_error *error);
 
 #ifdef __cplusplus
 }
