@@ -138,7 +138,9 @@ bool lom_compare_flip(const lom_image *a, const lom_image *b, double *flip, lom_
  * difference in alpha is shown in all three channels. Sizes must agree; NULL on failure, freed with lom_free_image. */
 lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error *error);
 
-/* Video as YUV4MPEG2: the header once, then every frame, one behind the other in one file or pipe. 4:4:4, BT.601 in the
+/* ---- video ---- */
+
+/* YUV4MPEG2: the header once, then every frame, one behind the other in one file or pipe. 4:4:4, BT.601 in the
  * limited range, correctly rounded; alpha is dropped, gray is shown as gray. frames : seconds is the rate (30 : 1).
  * Frames are 8-bit pictures of the header's size whose numbers are sRGB-encoded. data is NULL on failure. */
 lom_bytes lom_encode_y4m_header(int width, int height, int frames, int seconds, lom_error *error);
