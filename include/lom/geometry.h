@@ -8,7 +8,9 @@
 extern "C" {
 #endif
 
-/* ---- vectors and matrices: right-handed, y up, column vectors ---- */
+/* ---- vectors and matrices: right-handed, y up, column vectors ----
+ * Pure functions of their arguments in double; they compute in the float state they are called in, which is expected
+ * to be the default one. */
 
 typedef struct lom_vec3 {
     double x, y, z;
@@ -18,12 +20,30 @@ typedef struct lom_mat4 {
     double m[4][4];
 } lom_mat4;
 
+lom_vec3 lom_vec3_add(lom_vec3 a, lom_vec3 b);
+lom_vec3 lom_vec3_subtract(lom_vec3 a, lom_vec3 b);
+lom_vec3 lom_vec3_scale(lom_vec3 a, double factor);
+double lom_vec3_dot(lom_vec3 a, lom_vec3 b);
+lom_vec3 lom_vec3_cross(lom_vec3 a, lom_vec3 b);
+double lom_vec3_length(lom_vec3 a); /* no overflow or underflow on the way */
+/* Unit length; (0, 0, 0) for the zero vector and for one that holds a NaN or an infinity. */
+lom_vec3 lom_vec3_normalize(lom_vec3 a);
+
 lom_mat4 lom_identity(void);
 lom_mat4 lom_multiply(const lom_mat4 *a, const lom_mat4 *b); /* a b: b is applied first */
+lom_mat4 lom_transpose(const lom_mat4 *m);
 lom_mat4 lom_translation(lom_vec3 offset);
 lom_mat4 lom_scaling(lom_vec3 factor);
-lom_mat4 lom_rotation(lom_vec3 radians);                          /* Rz Ry Rx */
-lom_mat4 lom_look_at(lom_vec3 eye, lom_vec3 target, lom_vec3 up); /* world to view, looking along -z */
+lom_mat4 lom_rotation(lom_vec3 radians); /* Rz Ry Rx */
+/* T Rz Ry Rx S: the model matrix of an entity. */
+lom_mat4 lom_model_matrix(lom_vec3 offset, lom_vec3 radians, lom_vec3 factor);
+/* World to view, looking along -z. An eye at its target looks along -z. An up that is zero or parallel to the line of
+ * sight is replaced by -z when looking down and +z otherwise (the limit of tilting a camera that looked along -z), and
+ * where that is parallel too, by +y. */
+lom_mat4 lom_look_at(lom_vec3 eye, lom_vec3 target, lom_vec3 up);
+/* The projections give all zeros (which puts w = 0 everywhere and draws nothing) for arguments that are not finite or
+ * out of range: a field of view outside ]0, pi[, an aspect, size or near plane that is not above 0, far <= near.
+ * lom_orthographic allows any near plane. */
 /* Reversed depth, 1 at near, 0 at an infinite far plane; 0 < field_of_view (vertical, radians) < pi. */
 lom_mat4 lom_perspective(double field_of_view, double aspect, double near_plane);
 /* Clip z in -w..w, -1 at near and 1 at far (OpenGL). */
@@ -32,10 +52,42 @@ lom_mat4 lom_perspective_gl(double field_of_view, double aspect, double near_pla
 lom_mat4 lom_orthographic(double width, double height, double near_plane, double far_plane);
 /* Mirror in the plane n.p = d, n of unit length. */
 lom_mat4 lom_mirror(lom_vec3 normal, double distance);
-/* False, and *inverse all zeros, when m is singular. */
+/* False, and *inverse all zeros, when m is singular: a pivot within rounding of 0 after every row and column was
+ * scaled to about 1, an entry that is not finite, or an inverse that does not fit a double. inverse may be m. */
 bool lom_invert(const lom_mat4 *m, lom_mat4 *inverse);
-/* The inverse transpose of the upper 3x3 of model, for normals; false and zeros when singular. */
+/* The inverse transpose of the upper 3x3 of model, for normals, the rest as in the identity; false and zeros when
+ * singular. normal may be model. */
 bool lom_normal_matrix(const lom_mat4 *model, lom_mat4 *normal);
+/* The upper three rows of m (p, 1): the last row is not looked at (affine). */
+lom_vec3 lom_transform_point(const lom_mat4 *m, lom_vec3 p);
+/* The upper three rows of m (v, 0). */
+lom_vec3 lom_transform_direction(const lom_mat4 *m, lom_vec3 v);
+/* m (p, 1), all four rows. */
+void lom_transform_clip(const lom_mat4 *m, lom_vec3 p, double clip[4]);
+
+/* ---- boxes and the view frustum ---- */
+
+typedef struct lom_box {
+    lom_vec3 low, high; /* empty when low > high in any axis */
+} lom_box;
+
+/* The axis-aligned box of the transformed box (affine m); an empty box stays empty. */
+lom_box lom_transform_box(const lom_mat4 *m, lom_box box);
+
+typedef struct lom_frustum {
+    int count;          /* of planes: 4 to 6; a far plane at infinity is left out */
+    double plane[6][4]; /* inside where x p[0] + y p[1] + z p[2] + p[3] >= 0 */
+    double reach[6][4]; /* the absolute values that were added up in plane: the scale of rounding in float */
+} lom_frustum;
+
+typedef enum lom_visibility { LOM_OUTSIDE = 0, LOM_CROSSING, LOM_INSIDE } lom_visibility;
+
+/* The planes of -w <= x, y <= w and 0 <= z <= w (or, with gl_depth, -w <= z <= w) in the space view_projection takes
+ * (Gribb and Hartmann 2001: sums and differences of the rows). */
+lom_frustum lom_view_frustum(const lom_mat4 *view_projection, bool gl_depth);
+/* LOM_OUTSIDE only when all of the box is outside one plane by more than the rounding of float transformations, so
+ * that leaving the box out cannot change a pixel; an empty box is outside, one with a NaN crosses. */
+lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box);
 
 /* ---- meshes ---- */
 
@@ -50,7 +102,7 @@ typedef struct lom_material {
     char name[64];
     float ambient[3], diffuse[3], specular[3]; /* linear, as the file has them */
     float shininess, opacity;
-    char diffuse_map[256]; /* path relative to the material file's folder; empty when there is none */
+    char diffuse_map[256]; /* path relative to the OBJ file's folder; empty when there is none */
 } lom_material;
 
 typedef struct lom_mesh_part { /* triangles of one material, in file order */
@@ -65,23 +117,115 @@ typedef struct lom_mesh {
     lom_material *materials;
     size_t vertex_count, index_count, part_count, material_count;
     size_t source_triangles; /* n - 2 for every polygon of the source */
+    char warning[256];       /* empty, or one sentence about what a lenient reader passed over */
 } lom_mesh;
 
+/* A mesh with zeroed arrays of these lengths, for callers that fill it themselves. At most 2^32 - 1 vertices and
+ * indices, 2^31 - 1 parts and materials. */
+lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t materials, lom_error *error);
+/* NULL is allowed. */
 void lom_free_mesh(lom_mesh *mesh);
-/* Reads an OBJ file and the MTL files it names (relative to its folder). Missing normals are computed: the normalised
- * sum of the unit normals of the faces that share the position. NULL on failure, with "file:line: " in the error. */
+/* White diffuse, 0.2 ambient, no specular, shininess 1, opaque, no map; name is cut to 63 bytes. */
+lom_material lom_default_material(const char *name);
+
+/* ---- Wavefront OBJ and MTL (Alias|Wavefront, Advanced Visualizer manual, appendices B1 and B2) ----
+ *
+ * v x y z [w] [r g b]: w weighs free-form curves and is ignored. vt u [v [w]]. vn as the file has it, not normalised.
+ * f in its four forms, negative indices count back from the statement, positive ones may point forward. A polygon is
+ * cut by ear clipping in the plane of its normal into n - 2 triangles, always. Corners with equal (v, vt, vn) become
+ * one vertex; vertices are numbered by first use. A backslash at the end of a line continues it. '#' at the start of a
+ * word begins a comment. Other statements (g, o, s, l, p, curves) are passed over.
+ * Missing normals: the normalised sum of the unit normals of all faces (polygons, not triangles) that share the v; the
+ * first of these faces decides where the sum is 0, and (0, 1, 0) where all are degenerate.
+ * A material that no file defines gets lom_default_material; that, and an MTL file that cannot be opened, is told in
+ * mesh->warning. A material defined again replaces the first. MTL: newmtl Ka Kd Ks Ns d Tr map_Kd, the rest passed over.
+ * Errors begin with "name:line: "; a number that is not finite, an index out of range or a file without any face is
+ * one. Files are at most 1 GiB, polygons at most 4096 corners. */
+
+/* Reads an OBJ file and the MTL files it names (relative to its folder). NULL on failure. */
 lom_mesh *lom_read_obj(const char *path, lom_error *error);
-/* The same from memory; read_material is called for every mtllib name (NULL: materials are ignored). */
+/* The same from memory; mtllib is passed over, so that every material is the default one with its name. */
 lom_mesh *lom_decode_obj(const char *text, size_t size, const char *name, lom_error *error);
+/* Gives the bytes of the material file called name (allocated by lom_allocate; an error code LOM_ERROR_FILE means that
+ * there is none, which is no failure of the mesh). */
+typedef lom_bytes (*lom_read_material)(void *context, const char *name, lom_error *error);
+/* The same with material files from read_material; NULL passes them over. */
+lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, lom_read_material read_material,
+                              void *context, lom_error *error);
 /* Writes positions, uv, normals and usemtl groups, numbers as lom_print_float; material_file (may be NULL) goes to
- * mtllib. */
+ * mtllib. Colours are written when any is not 1, 1, 1 (alpha never). Reading it back gives the same mesh when its
+ * vertices are numbered by first use, but for uv below 2^-30. Fails for numbers that are not finite. */
 lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_error *error);
 lom_bytes lom_encode_mtl(const lom_mesh *mesh, lom_error *error);
+
+/* ---- terrain ---- */
+
 /* A grid with a vertex for each pixel of a height map (8- or 16-bit gray, float, or 24-bit RGB taken as one number /
  * 2^24): x and z in [-width/2, width/2] and [-length/2, length/2], y = gray * height + base; uv 0..1 over the whole.
- * Normals by the sum of face normals. The map is at least 2x2. */
+ * Row 0 is at z = -length/2. Gray is value / 255 or value / 65535, a float as it is. With alpha (ignored) too.
+ * A quad of a = (i, j), b = (i+1, j), c = (i, j+1), d = (i+1, j+1) is cut along b c into a,c,b and b,c,d, j outer loop.
+ * Normals by the normalised sum of unit face normals. The map is at least 2x2 and at most 2^26 pixels; sizes > 0. */
 lom_mesh *lom_make_terrain(const lom_image *map, double width, double length, double height, double base,
                            lom_error *error);
+/* The height of that mesh's triangles (not of a smooth surface) at (x, z); outside the grid, of the nearest point of
+ * its border. 0 for a map or size that lom_make_terrain refuses. */
+double lom_terrain_height(const lom_image *map, double width, double length, double height, double base, double x,
+                          double z);
+
+/* ---- shapes: around the origin, counter-clockwise from outside, with normals and uv, one part without material ---- */
+
+/* 24 vertices, a face 0..1 in uv, upright on the four sides. Sizes > 0. */
+lom_mesh *lom_make_box(lom_vec3 size, lom_error *error);
+/* Two triangles facing +y; uv (0, 0) at (-width/2, -length/2). */
+lom_mesh *lom_make_quad(double width, double length, lom_error *error);
+/* (columns+1) x (rows+1) vertices facing +y, split like terrain; uv 0..1 over the whole. */
+lom_mesh *lom_make_grid(double width, double length, int columns, int rows, lom_error *error);
+/* (slices+1) x (stacks+1) vertices, u around y from +x towards -z, v from the north pole down; slices >= 3,
+ * stacks >= 2; the poles have no degenerate triangles. */
+lom_mesh *lom_make_sphere(double radius, int slices, int stacks, lom_error *error);
+/* (columns+1) x (rows+1) vertices; column i at angle A = 2 pi i / columns from +x towards +z, row j at B = 2 pi j / rows
+ * of the tube: ((major + minor cos B) cos A, minor sin B, (major + minor cos B) sin A); uv = (i / columns, j / rows). */
+lom_mesh *lom_make_torus(double major, double minor, int columns, int rows, lom_error *error);
+/* Around y from y = 0 (radius bottom) to y = height (radius top; one of them may be 0: a cone), closed by flat caps. */
+lom_mesh *lom_make_cylinder(double bottom, double top, double height, int slices, lom_error *error);
+
+/* ---- working on meshes ---- */
+
+/* Of all vertices; empty (low > high) when there are none. */
+lom_box lom_mesh_bounds(const lom_mesh *mesh);
+/* Positions by matrix (affine), normals by its normal matrix, normalised; a mirroring matrix also turns the triangles
+ * round. False, and nothing changed, when the matrix is singular. */
+bool lom_transform_mesh(lom_mesh *mesh, const lom_mat4 *matrix, lom_error *error);
+
+/* Puts meshes together piece by piece. The first failure stays in the builder, so that only lom_finish_mesh needs to
+ * be checked; every call on a NULL builder does nothing. */
+typedef struct lom_mesh_builder lom_mesh_builder;
+
+lom_mesh_builder *lom_create_mesh_builder(lom_error *error);
+void lom_free_mesh_builder(lom_mesh_builder *builder);
+/* Finds the material by its name, or adds it; the triangles that follow have it. NULL: none. Returns its index or -1. */
+int lom_builder_material(lom_mesh_builder *builder, const lom_material *material);
+/* The colour of the vertices that follow; 1, 1, 1, 1 at first. Linear. */
+void lom_builder_color(lom_mesh_builder *builder, double red, double green, double blue, double alpha);
+/* The transformation of the vertices that follow, NULL: none. A mirroring matrix turns the triangles that follow round.
+ * A singular one is an error. */
+void lom_builder_transform(lom_mesh_builder *builder, const lom_mat4 *matrix);
+/* A vertex whose normal is computed when the mesh is finished. Returns its index. */
+uint32_t lom_builder_vertex(lom_mesh_builder *builder, lom_vec3 position, double u, double v);
+/* A vertex with a normal that is kept. */
+uint32_t lom_builder_vertex_normal(lom_mesh_builder *builder, lom_vec3 position, lom_vec3 normal, double u, double v);
+/* Counter-clockwise from the front. */
+void lom_builder_triangle(lom_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c);
+/* a, b, c, d around the quad: triangles a,b,c and a,c,d. */
+void lom_builder_quad(lom_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c, uint32_t d);
+/* Appends a mesh, transformed by the current transformation, with its own normals, its colours times the current one,
+ * its materials (by name); parts without one get the current material. */
+void lom_builder_mesh(lom_mesh_builder *builder, const lom_mesh *mesh);
+/* Makes the mesh and frees the builder, also on failure. A computed normal of a corner is the normalised sum of the unit
+ * normals of the triangles at the same position (equal coordinates) whose normals are within crease radians of the
+ * corner's own triangle: 0 gives flat faces, pi smooth ones. Vertices whose corners differ are split, and numbered by
+ * first use; triangles are grouped by material, in order of first use. Vertices that no triangle uses are dropped. */
+lom_mesh *lom_finish_mesh(lom_mesh_builder *builder, double crease, lom_error *error);
 
 /* ---- made: pictures of landscapes, by seed ---- */
 

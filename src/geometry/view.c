@@ -1,0 +1,164 @@
+/* Cameras: view and projection matrices, the frustum and boxes against it. In: cameras in metres and radians. Out:
+ * matrices to clip space (design: 0 <= z <= w, reversed depth; or OpenGL's) and a conservative visibility. */
+#include <lom/geometry.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- views ---- */
+
+/* A unit vector across forward and up, or the zero vector when they are parallel within rounding. */
+static lom_vec3 across(lom_vec3 forward, lom_vec3 up)
+{
+    lom_vec3 side = lom_vec3_cross(forward, lom_vec3_normalize(up));
+    return lom_vec3_length(side) > 1e-12 ? lom_vec3_normalize(side) : (lom_vec3){ 0, 0, 0 };
+}
+
+lom_mat4 lom_look_at(lom_vec3 eye, lom_vec3 target, lom_vec3 up)
+{
+    lom_vec3 forward = lom_vec3_normalize(lom_vec3_subtract(target, eye));
+    if (lom_vec3_dot(forward, forward) == 0)
+        forward = (lom_vec3){ 0, 0, -1 };
+    const lom_vec3 ups[3] = { up, { 0, 0, forward.y < 0 ? -1 : 1 }, { 0, 1, 0 } };
+    lom_vec3 s = { 0, 0, 0 };
+    for (int i = 0; i < 3 && lom_vec3_dot(s, s) == 0; i++)
+        s = across(forward, ups[i]);
+    lom_vec3 u = lom_vec3_cross(s, forward);
+    return (lom_mat4){ { { s.x, s.y, s.z, -lom_vec3_dot(s, eye) },
+                         { u.x, u.y, u.z, -lom_vec3_dot(u, eye) },
+                         { -forward.x, -forward.y, -forward.z, lom_vec3_dot(forward, eye) },
+                         { 0, 0, 0, 1 } } };
+}
+
+/* ---- projections ---- */
+
+static bool positive(double x)
+{
+    return x > 0 && x < __builtin_inf();
+}
+
+static bool valid_view(double field_of_view, double aspect, double near_plane)
+{
+    return field_of_view > 0 && field_of_view < PI && positive(aspect) && positive(near_plane);
+}
+
+/* cot(angle / 2) by sine and cosine, so that it stays finite up to pi. */
+static double focal_length(double field_of_view)
+{
+    return lom_double_cos(field_of_view / 2) / lom_double_sin(field_of_view / 2);
+}
+
+lom_mat4 lom_perspective(double field_of_view, double aspect, double near_plane)
+{
+    if (!valid_view(field_of_view, aspect, near_plane))
+        return (lom_mat4){ { { 0 } } };
+    double t = focal_length(field_of_view);
+    return (lom_mat4){ { { t / aspect, 0, 0, 0 }, { 0, t, 0, 0 }, { 0, 0, 0, near_plane }, { 0, 0, -1, 0 } } };
+}
+
+lom_mat4 lom_perspective_gl(double field_of_view, double aspect, double near_plane, double far_plane)
+{
+    double depth = near_plane - far_plane;
+    if (!valid_view(field_of_view, aspect, near_plane) || !positive(-depth))
+        return (lom_mat4){ { { 0 } } };
+    double t = focal_length(field_of_view);
+    return (lom_mat4){ { { t / aspect, 0, 0, 0 },
+                         { 0, t, 0, 0 },
+                         { 0, 0, (far_plane + near_plane) / depth, 2 * far_plane * near_plane / depth },
+                         { 0, 0, -1, 0 } } };
+}
+
+/* z = (far + z_view) / (far - near): 1 at z_view = -near, 0 at -far. */
+lom_mat4 lom_orthographic(double width, double height, double near_plane, double far_plane)
+{
+    double depth = far_plane - near_plane;
+    if (!positive(width) || !positive(height) || !positive(depth))
+        return (lom_mat4){ { { 0 } } };
+    return (lom_mat4){ { { 2 / width, 0, 0, 0 },
+                         { 0, 2 / height, 0, 0 },
+                         { 0, 0, 1 / depth, far_plane / depth },
+                         { 0, 0, 0, 1 } } };
+}
+
+/* ---- boxes ---- */
+
+static bool empty_box(lom_box box)
+{
+    return box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z;
+}
+
+static bool holds_nan(lom_box box)
+{
+    return box.low.x != box.low.x || box.low.y != box.low.y || box.low.z != box.low.z || box.high.x != box.high.x ||
+           box.high.y != box.high.y || box.high.z != box.high.z;
+}
+
+/* Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems 1990: an axis is a sum of intervals. */
+lom_box lom_transform_box(const lom_mat4 *m, lom_box box)
+{
+    if (empty_box(box))
+        return box;
+    double low[3] = { box.low.x, box.low.y, box.low.z }, high[3] = { box.high.x, box.high.y, box.high.z };
+    double out_low[3], out_high[3];
+    for (int i = 0; i < 3; i++) {
+        out_low[i] = out_high[i] = m->m[i][3];
+        for (int j = 0; j < 3; j++) {
+            double a = m->m[i][j] * low[j], b = m->m[i][j] * high[j];
+            out_low[i] += a < b ? a : b;
+            out_high[i] += a < b ? b : a;
+        }
+    }
+    return (lom_box){ { out_low[0], out_low[1], out_low[2] }, { out_high[0], out_high[1], out_high[2] } };
+}
+
+/* ---- the frustum ---- */
+
+/* Adds the plane last * row 3 + sign * row >= 0, unless it does not depend on the point and always holds. */
+static void add_plane(lom_frustum *frustum, const lom_mat4 *m, int row, double last, double sign)
+{
+    double *plane = frustum->plane[frustum->count], *reach = frustum->reach[frustum->count];
+    for (int j = 0; j < 4; j++) {
+        plane[j] = last * m->m[3][j] + sign * m->m[row][j];
+        reach[j] = last * __builtin_fabs(m->m[3][j]) + __builtin_fabs(m->m[row][j]);
+    }
+    if (plane[0] != 0 || plane[1] != 0 || plane[2] != 0 || plane[3] < 0)
+        frustum->count++;
+}
+
+lom_frustum lom_view_frustum(const lom_mat4 *view_projection, bool gl_depth)
+{
+    lom_frustum frustum = { 0 };
+    for (int row = 0; row < 2; row++) {
+        add_plane(&frustum, view_projection, row, 1, 1);
+        add_plane(&frustum, view_projection, row, 1, -1);
+    }
+    add_plane(&frustum, view_projection, 2, gl_depth ? 1 : 0, 1);
+    add_plane(&frustum, view_projection, 2, 1, -1);
+    return frustum;
+}
+
+lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box)
+{
+    const double rounding = 0x1p-20; /* four roundings of a float, four times over */
+    double low[3] = { box.low.x, box.low.y, box.low.z }, high[3] = { box.high.x, box.high.y, box.high.z };
+    if (holds_nan(box))
+        return LOM_CROSSING;
+    if (empty_box(box))
+        return LOM_OUTSIDE;
+    lom_visibility visibility = LOM_INSIDE;
+    for (int k = 0; k < frustum->count; k++) {
+        const double *plane = frustum->plane[k], *reach = frustum->reach[k];
+        double farthest = plane[3], nearest = plane[3], size = reach[3];
+        for (int j = 0; j < 3; j++) {
+            double a = plane[j] * low[j], b = plane[j] * high[j];
+            double p = __builtin_fabs(low[j]), q = __builtin_fabs(high[j]);
+            farthest += a > b ? a : b;
+            nearest += a > b ? b : a;
+            size += reach[j] * (p > q ? p : q);
+        }
+        if (farthest < -rounding * size)
+            return LOM_OUTSIDE;
+        if (!(nearest > rounding * size))
+            visibility = LOM_CROSSING;
+    }
+    return visibility;
+}
