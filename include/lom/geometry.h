@@ -138,9 +138,9 @@ lom_material lom_default_material(const char *name);
  * Missing normals: the normalised sum of the unit normals of all faces (polygons, not triangles) that share the v; the
  * first of these faces decides where the sum is 0, and (0, 1, 0) where all are degenerate.
  * A material that no file defines gets lom_default_material; that, and an MTL file that cannot be opened, is told in
- * mesh->warning. A material defined again replaces the first. MTL: newmtl Ka Kd Ks Ns d Tr map_Kd, the rest passed over.
- * Errors begin with "name:line: "; a number that is not finite, an index out of range or a file without any face is
- * one. Files are at most 1 GiB, polygons at most 4096 corners. */
+ * mesh->warning. A material defined again replaces the first. MTL: newmtl Ka Kd Ks Ns d Tr map_Kd, the rest passed
+ * over. Errors begin with "name:line: "; a number that is not finite, an index out of range or a file without any face
+ * is one. Files are at most 1 GiB, polygons at most 4096 corners. */
 
 /* Reads an OBJ file and the MTL files it names (relative to its folder). NULL on failure. */
 lom_mesh *lom_read_obj(const char *path, lom_error *error);
@@ -172,7 +172,8 @@ lom_mesh *lom_make_terrain(const lom_image *map, double width, double length, do
 double lom_terrain_height(const lom_image *map, double width, double length, double height, double base, double x,
                           double z);
 
-/* ---- shapes: around the origin, counter-clockwise from outside, with normals and uv, one part without material ---- */
+/* ---- shapes: around the origin, counter-clockwise from outside, with normals and uv, one part without material ----
+ */
 
 /* 24 vertices, a face 0..1 in uv, upright on the four sides. Sizes > 0. */
 lom_mesh *lom_make_box(lom_vec3 size, lom_error *error);
@@ -183,8 +184,9 @@ lom_mesh *lom_make_grid(double width, double length, int columns, int rows, lom_
 /* (slices+1) x (stacks+1) vertices, u around y from +x towards -z, v from the north pole down; slices >= 3,
  * stacks >= 2; the poles have no degenerate triangles. */
 lom_mesh *lom_make_sphere(double radius, int slices, int stacks, lom_error *error);
-/* (columns+1) x (rows+1) vertices; column i at angle A = 2 pi i / columns from +x towards +z, row j at B = 2 pi j / rows
- * of the tube: ((major + minor cos B) cos A, minor sin B, (major + minor cos B) sin A); uv = (i / columns, j / rows). */
+/* (columns+1) x (rows+1) vertices; column i at angle A = 2 pi i / columns from +x towards +z, row j at B = 2 pi j /
+ * rows of the tube: ((major + minor cos B) cos A, minor sin B, (major + minor cos B) sin A); uv = (i / columns, j /
+ * rows). */
 lom_mesh *lom_make_torus(double major, double minor, int columns, int rows, lom_error *error);
 /* Around y from y = 0 (radius bottom) to y = height (radius top; one of them may be 0: a cone), closed by flat caps. */
 lom_mesh *lom_make_cylinder(double bottom, double top, double height, int slices, lom_error *error);
@@ -203,7 +205,8 @@ typedef struct lom_mesh_builder lom_mesh_builder;
 
 lom_mesh_builder *lom_create_mesh_builder(lom_error *error);
 void lom_free_mesh_builder(lom_mesh_builder *builder);
-/* Finds the material by its name, or adds it; the triangles that follow have it. NULL: none. Returns its index or -1. */
+/* Finds the material by its name, or adds it; the triangles that follow have it. NULL: none. Returns its index or -1.
+ */
 int lom_builder_material(lom_mesh_builder *builder, const lom_material *material);
 /* The colour of the vertices that follow; 1, 1, 1, 1 at first. Linear. */
 void lom_builder_color(lom_mesh_builder *builder, double red, double green, double blue, double alpha);
@@ -221,8 +224,8 @@ void lom_builder_quad(lom_mesh_builder *builder, uint32_t a, uint32_t b, uint32_
 /* Appends a mesh, transformed by the current transformation, with its own normals, its colours times the current one,
  * its materials (by name); parts without one get the current material. */
 void lom_builder_mesh(lom_mesh_builder *builder, const lom_mesh *mesh);
-/* Makes the mesh and frees the builder, also on failure. A computed normal of a corner is the normalised sum of the unit
- * normals of the triangles at the same position (equal coordinates) whose normals are within crease radians of the
+/* Makes the mesh and frees the builder, also on failure. A computed normal of a corner is the normalised sum of the
+ * unit normals of the triangles at the same position (equal coordinates) whose normals are within crease radians of the
  * corner's own triangle: 0 gives flat faces, pi smooth ones. Vertices whose corners differ are split, and numbered by
  * first use; triangles are grouped by material, in order of first use. Vertices that no triangle uses are dropped. */
 lom_mesh *lom_finish_mesh(lom_mesh_builder *builder, double crease, lom_error *error);

@@ -64,8 +64,8 @@ lom_mat4 lom_multiply(const lom_mat4 *a, const lom_mat4 *b)
     lom_mat4 product;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            product.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j] +
-                              a->m[i][3] * b->m[3][j];
+            product.m[i][j] =
+                a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j] + a->m[i][3] * b->m[3][j];
     return product;
 }
 

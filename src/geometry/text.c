@@ -106,6 +106,9 @@ bool lom_text_fail(struct lom_text *text, lom_code code, const char *format, ...
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
+    for (char *p = sentence; *p != 0; p++)
+        if ((unsigned char)*p < ' ' || *p == 127)
+            *p = '?';
     return lom_fail(text->error, code, "%s:%zu: %s", text->name, text->line, sentence);
 }
 
@@ -132,6 +135,7 @@ static bool check_number(struct lom_text *text, struct lom_word word, size_t use
 
 bool lom_text_number(struct lom_text *text, struct lom_word word, double *value)
 {
+    *value = 0;
     size_t used = lom_parse_double(word.start, word.length, value);
     return check_number(text, word, used, __builtin_fabs(*value) <= 0x1.fffffep+127);
 }
@@ -144,6 +148,7 @@ int lom_text_floats(struct lom_text *text, float *values, int limit)
             lom_text_fail(text, LOM_ERROR_INPUT, "More than %d numbers.", limit);
             return -1;
         }
+        values[count] = 0;
         size_t used = lom_parse_float(word.start, word.length, &values[count]);
         if (!check_number(text, word, used, __builtin_fabsf(values[count]) < __builtin_inff()))
             return -1;

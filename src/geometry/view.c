@@ -73,10 +73,9 @@ lom_mat4 lom_orthographic(double width, double height, double near_plane, double
     double depth = far_plane - near_plane;
     if (!positive(width) || !positive(height) || !positive(depth))
         return (lom_mat4){ { { 0 } } };
-    return (lom_mat4){ { { 2 / width, 0, 0, 0 },
-                         { 0, 2 / height, 0, 0 },
-                         { 0, 0, 1 / depth, far_plane / depth },
-                         { 0, 0, 0, 1 } } };
+    return (lom_mat4){
+        { { 2 / width, 0, 0, 0 }, { 0, 2 / height, 0, 0 }, { 0, 0, 1 / depth, far_plane / depth }, { 0, 0, 0, 1 } }
+    };
 }
 
 /* ---- boxes ---- */

@@ -1,0 +1,44 @@
+/* What an OBJ file says, between reading (obj_read.c) and making the mesh (obj_build.c). */
+#ifndef LOM_GEOMETRY_OBJ_H
+#define LOM_GEOMETRY_OBJ_H
+
+#include "materials.h"
+
+struct obj_position {
+    float position[3], color[3];
+};
+
+struct obj_triple {
+    float value[3];
+};
+
+struct obj_corner {
+    int32_t v, vt, vn; /* from 0; vt and vn -1 when absent */
+};
+
+struct obj_face {
+    uint32_t first, count; /* corners; at least 3 */
+    uint32_t line;
+    int32_t material;
+};
+
+struct lom_obj {
+    struct lom_text text;
+    lom_read_material read_material;
+    void *context;
+    struct obj_position *positions;
+    struct obj_triple *texture; /* u, v flipped, unused */
+    struct obj_triple *normals;
+    struct obj_corner *corners;
+    struct obj_face *faces;
+    size_t position_count, texture_count, normal_count, corner_count, face_count;
+    size_t position_capacity, texture_capacity, normal_capacity, corner_capacity, face_capacity;
+    struct lom_materials materials;
+    int material; /* of the faces that follow, -1 for none */
+    char warning[256];
+};
+
+/* The mesh of what was read; checks that every index is in range. NULL on failure. */
+lom_mesh *lom_build_obj(struct lom_obj *obj);
+
+#endif

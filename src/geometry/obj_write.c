@@ -1,0 +1,188 @@
+/* Writes OBJ and MTL. In: a mesh, which is checked first. Out: text that reads back as the same mesh (geometry.h says
+ * when). Numbers are the shortest that give the same float. */
+#include "array.h"
+
+#include <lom/geometry.h>
+
+#include <string.h>
+
+/* ---- checks ---- */
+
+static bool finite_floats(const float *values, int count)
+{
+    bool finite = true;
+    for (int i = 0; i < count; i++)
+        finite = finite && __builtin_fabsf(values[i]) < __builtin_inff();
+    return finite;
+}
+
+/* Would a reader get this name, in an array of size bytes, back as it is? */
+static bool plain_name(const char *name, size_t size)
+{
+    size_t length = strnlen(name, size);
+    bool plain = length > 0 && length < size && name[0] != ' ' && name[0] != '#' && name[length - 1] != ' ';
+    for (size_t i = 0; plain && i < length; i++)
+        plain = (unsigned char)name[i] >= ' ' && name[i] != 127 && name[i] != '\\' &&
+                !(name[i] == '#' && name[i - 1] == ' ');
+    return plain;
+}
+
+static bool check_mesh(const lom_mesh *mesh, lom_error *error)
+{
+    for (size_t k = 0; k < mesh->vertex_count; k++) {
+        const lom_mesh_vertex *v = &mesh->vertices[k];
+        if (!finite_floats(v->position, 3) || !finite_floats(v->normal, 3) || !finite_floats(v->uv, 2) ||
+            !finite_floats(v->color, 3))
+            return lom_fail(error, LOM_ERROR_USAGE, "Vertex %zu of the mesh has a number that is not finite.", k);
+    }
+    for (size_t k = 0; k < mesh->index_count; k++)
+        if (mesh->indices[k] >= mesh->vertex_count)
+            return lom_fail(error, LOM_ERROR_USAGE, "Index %zu of the mesh is %u, and it has %zu vertices.", k,
+                            (unsigned)mesh->indices[k], mesh->vertex_count);
+    for (size_t k = 0; k < mesh->part_count; k++) {
+        const lom_mesh_part *part = &mesh->parts[k];
+        if (part->first_index > mesh->index_count || part->index_count > mesh->index_count - part->first_index ||
+            part->index_count % 3 != 0 || (part->material >= 0 && (size_t)part->material >= mesh->material_count))
+            return lom_fail(error, LOM_ERROR_USAGE, "Part %zu of the mesh is out of range.", k);
+    }
+    return true;
+}
+
+static bool check_materials(const lom_mesh *mesh, lom_error *error)
+{
+    for (size_t k = 0; k < mesh->material_count; k++) {
+        const lom_material *m = &mesh->materials[k];
+        bool map = m->diffuse_map[0] != 0;
+        if (!plain_name(m->name, sizeof m->name) ||
+            (map && (m->diffuse_map[0] == '-' || !plain_name(m->diffuse_map, sizeof m->diffuse_map))))
+            return lom_fail(error, LOM_ERROR_USAGE, "Material %zu has a name or map that MTL cannot hold.", k);
+        if (!finite_floats(m->ambient, 3) || !finite_floats(m->diffuse, 3) || !finite_floats(m->specular, 3) ||
+            !finite_floats(&m->shininess, 1) || !finite_floats(&m->opacity, 1))
+            return lom_fail(error, LOM_ERROR_USAGE, "Material \"%s\" has a number that is not finite.", m->name);
+    }
+    return true;
+}
+
+/* ---- output ---- */
+
+static lom_bytes finish(struct lom_output *output)
+{
+    if (!output->failed)
+        return output->bytes;
+    lom_release(output->bytes.data);
+    return (lom_bytes){ 0 };
+}
+
+static void put_floats(struct lom_output *output, const char *word, const float *values, int count)
+{
+    lom_put(output, word);
+    for (int i = 0; i < count; i++) {
+        lom_put(output, " ");
+        lom_put_float(output, values[i]);
+    }
+}
+
+/* The number that the reader's 1 - v rounds back to v: a short one when it does, otherwise the double. */
+static void put_flipped(struct lom_output *output, float v)
+{
+    char text[32];
+    float flipped = (float)(1 - (double)v);
+    double parsed;
+    size_t length = lom_print_float(text, flipped);
+    lom_parse_double(text, length, &parsed);
+    if ((float)(1 - parsed) != v)
+        lom_print_double(text, 1 - (double)v);
+    lom_put(output, " ");
+    lom_put(output, text);
+}
+
+static void put_vertices(struct lom_output *output, const lom_mesh *mesh)
+{
+    bool colored = false;
+    for (size_t k = 0; k < mesh->vertex_count; k++)
+        for (int i = 0; i < 3; i++)
+            colored = colored || mesh->vertices[k].color[i] != 1;
+    for (size_t k = 0; k < mesh->vertex_count; k++) {
+        put_floats(output, "v", mesh->vertices[k].position, 3);
+        if (colored)
+            put_floats(output, "", mesh->vertices[k].color, 3);
+        lom_put(output, "\n");
+    }
+    for (size_t k = 0; k < mesh->vertex_count; k++) {
+        put_floats(output, "vt", mesh->vertices[k].uv, 1);
+        put_flipped(output, mesh->vertices[k].uv[1]);
+        lom_put(output, "\n");
+    }
+    for (size_t k = 0; k < mesh->vertex_count; k++) {
+        put_floats(output, "vn", mesh->vertices[k].normal, 3);
+        lom_put(output, "\n");
+    }
+}
+
+static void put_face(struct lom_output *output, const uint32_t corners[3])
+{
+    lom_put(output, "f");
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            lom_put(output, k == 0 ? " " : "/");
+            lom_put_index(output, corners[i] + 1);
+        }
+    lom_put(output, "\n");
+}
+
+lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_error *error)
+{
+    struct lom_output output = { .error = error };
+    if (!check_mesh(mesh, error) || !check_materials(mesh, error))
+        return (lom_bytes){ 0 };
+    if (material_file != NULL && !plain_name(material_file, 4096)) {
+        lom_fail(error, LOM_ERROR_USAGE, "OBJ cannot hold the name of the material file \"%s\".", material_file);
+        return (lom_bytes){ 0 };
+    }
+    if (material_file != NULL) {
+        lom_put(&output, "mtllib ");
+        lom_put(&output, material_file);
+        lom_put(&output, "\n");
+    }
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    put_vertices(&output, mesh);
+    lom_leave_float_state(&state);
+    int material = -1;
+    for (size_t k = 0; k < mesh->part_count; k++) {
+        const lom_mesh_part *part = &mesh->parts[k];
+        if (part->material != material) {
+            material = part->material;
+            lom_put(&output, material >= 0 ? "usemtl " : "usemtl");
+            lom_put(&output, material >= 0 ? mesh->materials[material].name : "");
+            lom_put(&output, "\n");
+        }
+        for (uint32_t i = 0; i < part->index_count; i += 3)
+            put_face(&output, mesh->indices + part->first_index + i);
+    }
+    return finish(&output);
+}
+
+lom_bytes lom_encode_mtl(const lom_mesh *mesh, lom_error *error)
+{
+    struct lom_output output = { .error = error };
+    if (!check_materials(mesh, error))
+        return (lom_bytes){ 0 };
+    lom_put(&output, "# materials\n");
+    for (size_t k = 0; k < mesh->material_count; k++) {
+        const lom_material *m = &mesh->materials[k];
+        lom_put(&output, "newmtl ");
+        lom_put(&output, m->name);
+        put_floats(&output, "\nKa", m->ambient, 3);
+        put_floats(&output, "\nKd", m->diffuse, 3);
+        put_floats(&output, "\nKs", m->specular, 3);
+        put_floats(&output, "\nNs", &m->shininess, 1);
+        put_floats(&output, "\nd", &m->opacity, 1);
+        if (m->diffuse_map[0] != 0) {
+            lom_put(&output, "\nmap_Kd ");
+            lom_put(&output, m->diffuse_map);
+        }
+        lom_put(&output, "\n");
+    }
+    return finish(&output);
+}
