@@ -100,23 +100,47 @@ static bool eliminate(double a[4][4], double b[4][4], int order[4])
     return true;
 }
 
-bool lom_invert(const lom_mat4 *m, lom_mat4 *inverse)
+static bool invert_general(const lom_mat4 *m, lom_mat4 *inverse)
 {
-    lom_mat4 a = *m, b = lom_identity(), result;
+    lom_mat4 a = *m, b = lom_identity();
     double row_scale[4], column_scale[4];
     int order[4] = { 0, 1, 2, 3 };
-    memset(inverse, 0, sizeof *inverse);
     if (!equilibrate(a.m, row_scale, column_scale) || !eliminate(a.m, b.m, order))
         return false;
     for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) {
-            double entry = b.m[i][j] * column_scale[order[i]] * row_scale[j];
-            if (!(__builtin_fabs(entry) < __builtin_inf()))
-                return false;
-            result.m[order[i]][j] = entry;
-        }
-    *inverse = result;
+        for (int j = 0; j < 4; j++)
+            inverse->m[order[i]][j] = b.m[i][j] * column_scale[order[i]] * row_scale[j];
     return true;
+}
+
+static bool all_finite(const lom_mat4 *m)
+{
+    bool finite = true;
+    for (int i = 0; i < 16; i++)
+        finite = finite && __builtin_fabs(m->m[i / 4][i % 4]) < __builtin_inf();
+    return finite;
+}
+
+/* (A t; 0 1) has the inverse (A' -A' t; 0 1): a translation, however large, then takes no part in the elimination. */
+bool lom_invert(const lom_mat4 *m, lom_mat4 *inverse)
+{
+    lom_mat4 linear = *m, result;
+    bool affine = m->m[3][0] == 0 && m->m[3][1] == 0 && m->m[3][2] == 0 && m->m[3][3] == 1;
+    lom_vec3 offset = { 0, 0, 0 };
+    if (affine) {
+        offset = (lom_vec3){ m->m[0][3], m->m[1][3], m->m[2][3] };
+        linear.m[0][3] = linear.m[1][3] = linear.m[2][3] = 0;
+    }
+    bool regular = invert_general(&linear, &result);
+    if (regular && affine) {
+        lom_vec3 back = lom_transform_direction(&result, offset);
+        result.m[0][3] = -back.x;
+        result.m[1][3] = -back.y;
+        result.m[2][3] = -back.z;
+    }
+    regular = regular && all_finite(&result);
+    *inverse = regular ? result : (lom_mat4){ { { 0 } } };
+    return regular;
 }
 
 bool lom_normal_matrix(const lom_mat4 *model, lom_mat4 *normal)

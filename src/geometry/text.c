@@ -94,8 +94,9 @@ bool lom_text_next(struct lom_text *text)
         text->line += length > 0;
         length = length > 0 ? length : 1;
     }
-    text->at += line_end(text->at, text->end);
-    text->line++;
+    length = line_end(text->at, text->end);
+    text->at += length;
+    text->line += length > 0;
     return text->at < text->end;
 }
 

@@ -1,0 +1,404 @@
+/* OBJ and MTL: every statement and form, computed normals against closed forms, places in messages, and write -> read.
+ */
+#include "check.h"
+
+#include <lom/geometry.h>
+
+static lom_mesh *decode(const char *text)
+{
+    lom_error error = { 0 };
+    lom_mesh *mesh = lom_decode_obj(text, strlen(text), "a.obj", &error);
+    CHECK(mesh != NULL, "%s", error.text);
+    return mesh;
+}
+
+/* Some text must be refused with a message that begins with start and holds part. */
+static void refuse_bytes(const char *text, size_t size, const char *start, const char *part)
+{
+    lom_error error = { 0 };
+    lom_mesh *mesh = lom_decode_obj(text, size, "a.obj", &error);
+    CHECK(mesh == NULL && error.code != LOM_OK, "accepted: %s", text);
+    CHECK(strncmp(error.text, start, strlen(start)) == 0 && strstr(error.text, part) != NULL, "%s: \"%s\"", text,
+          error.text);
+    lom_free_mesh(mesh);
+}
+
+static void refuse(const char *text, const char *start, const char *part)
+{
+    refuse_bytes(text, strlen(text), start, part);
+}
+
+static bool same_mesh(const lom_mesh *a, const lom_mesh *b)
+{
+    if (a->vertex_count != b->vertex_count || a->index_count != b->index_count || a->part_count != b->part_count ||
+        a->material_count != b->material_count)
+        return false;
+    return memcmp(a->vertices, b->vertices, a->vertex_count * sizeof *a->vertices) == 0 &&
+           memcmp(a->indices, b->indices, a->index_count * sizeof *a->indices) == 0 &&
+           memcmp(a->parts, b->parts, a->part_count * sizeof *a->parts) == 0 &&
+           memcmp(a->materials, b->materials, a->material_count * sizeof *a->materials) == 0;
+}
+
+static bool near3(const float *a, double x, double y, double z, double error)
+{
+    return __builtin_fabs(a[0] - x) <= error && __builtin_fabs(a[1] - y) <= error && __builtin_fabs(a[2] - z) <= error;
+}
+
+#define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 .25\nvn 0 0 1\nvn 0 0 2\n"
+
+static void forms(void)
+{
+    const char *faces[] = {
+        "f 1 2 3",    "f 1/1 2/2 3/4",       "f 1//1 2//2 3//1",       "f 1/1/1 2/2/2 3/4/1",
+        "f -4 -3 -2", "f -4/-4 -3/-3 -2/-1", "f -4//-2 -3//-1 -2//-2", "f -4/-4/-2 -3/-3/-1 -2/-1/-2"
+    };
+    for (int i = 0; i < 8; i++) {
+        char text[300];
+        snprintf(text, sizeof text, SQUARE "%s\n", faces[i]);
+        lom_mesh *mesh = decode(text);
+        if (mesh == NULL)
+            continue;
+        CHECK(mesh->vertex_count == 3 && mesh->index_count == 3 && mesh->source_triangles == 1, "%s", faces[i]);
+        CHECK(near3(mesh->vertices[2].position, 1, 1, 0, 0), "%s", faces[i]);
+        float v = i % 2 == 1 ? .75f : 0;
+        CHECK(mesh->vertices[2].uv[1] == v, "%s: v %g", faces[i], (double)mesh->vertices[2].uv[1]);
+        CHECK(near3(mesh->vertices[1].normal, 0, 0, i % 4 >= 2 ? 2 : 1, 0), "%s", faces[i]);
+        CHECK(mesh->part_count == 1 && mesh->parts[0].material == -1 && mesh->parts[0].index_count == 3);
+        lom_free_mesh(mesh);
+    }
+}
+
+static void syntax(void)
+{
+    lom_mesh *plain = decode("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    const char *same[] = {
+        "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 3 4\r\n",
+        "v 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3 4",
+        "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4",
+        "# head \\\n v\t0 0 0 # c\nv 1 0 0 #\nv 1.0 +1. .0e3\n  v 0 1e0 0e-9\n\n\nf 1 2 3 4 #",
+        "v 0 0 \\\n0\nv 1 0 0\\\r\n\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n  3 \\\n 4\n",
+        "v 0 0 0 1\nv 1 0 0 2 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0\nf 1 2 3 4\n",
+        "o thing\ng a b\ns off\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\np 1\nvp 1 2\ncstype bezier\nf 1 2 3 4\n",
+        "f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nfo 1 2 3 4\nusemtl\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng x \\\n y \\\nf 1 1 1\nf 1 2 3 4\n",
+    };
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        lom_mesh *mesh = decode(same[i]);
+        CHECK(mesh != NULL && plain != NULL && same_mesh(mesh, plain), "case %zu", i);
+        lom_free_mesh(mesh);
+    }
+    lom_free_mesh(plain);
+    lom_mesh *colored = decode("v 0 0 0 .1 .2 .3\nv 1 0 0 9 .4 .5 .6\nv 1 1 0\nf 1 2 3\n");
+    if (colored != NULL) {
+        CHECK(near3(colored->vertices[0].color, .1f, .2f, .3f, 0) && colored->vertices[0].color[3] == 1);
+        CHECK(near3(colored->vertices[1].color, .4f, .5f, .6f, 0) && near3(colored->vertices[2].color, 1, 1, 1, 0));
+    }
+    lom_free_mesh(colored);
+}
+
+static void refusals(void)
+{
+    refuse("", "a.obj:1: ", "without a face");
+    refuse("v 0 0 0\nv 1 0 0\n\n", "a.obj:4: ", "without a face");
+    refuse("v 0 0\n", "a.obj:1: ", "numbers");
+    refuse("v 0 0 0 0 0\n", "a.obj:1: ", "numbers");
+    refuse("v 0 0 0 0 0 0 0 0\n", "a.obj:1: ", "More than 7");
+    refuse("\n\nv 0 nan 0\n", "a.obj:3: ", "\"nan\" is not a number");
+    refuse("v 0 inf 0\n", "a.obj:1: ", "not a number");
+    refuse("v 0 1e999 0\n", "a.obj:1: ", "1e999 does not fit");
+    refuse("v 0 -3.5e38 0\n", "a.obj:1: ", "does not fit");
+    refuse("v 0 1,5 0\n", "a.obj:1: ", "\"1,5\" is not a number");
+    refuse("v 0 0x10 0\n", "a.obj:1: ", "not a number");
+    refuse("v 0 \\\n0 \\\nz\n", "a.obj:3: ", "\"z\"");
+    refuse("vt\n", "a.obj:1: ", "vt");
+    refuse("vt 1e39\n", "a.obj:1: ", "fit");
+    refuse("vt 1 2 3 4\n", "a.obj:1: ", "at most 3");
+    refuse("vn 1 2\n", "a.obj:1: ", "3 numbers");
+    refuse(SQUARE "f 1 2\n", "a.obj:11: ", "2 corners");
+    refuse(SQUARE "f 1 2 5\n", "a.obj:11: ", "vertex 5");
+    refuse(SQUARE "f 1 2 0\n", "a.obj:11: ", "index of 0");
+    refuse(SQUARE "f 1 2 -5\n", "a.obj:11: ", "out of range");
+    refuse(SQUARE "f 1 2 99999999999999999999\n", "a.obj:11: ", "out of range");
+    refuse(SQUARE "f 1 2 2147483648\n", "a.obj:11: ", "out of range");
+    refuse(SQUARE "f 1/1 2/2 3/5\n", "a.obj:11: ", "texture vertex 5");
+    refuse(SQUARE "f 1//1 2//2 3//3\n", "a.obj:11: ", "normal 3");
+    refuse(SQUARE "f 1/1 2 3/3\n", "a.obj:11: ", "different forms");
+    refuse(SQUARE "f 1/1/1 2/2 3/3/1\n", "a.obj:11: ", "different forms");
+    refuse(SQUARE "f 1 2//1 3\n", "a.obj:11: ", "different forms");
+    const char *corners[] = { "1/", "/1", "1//", "1/1/", "1/1/1/1", "1.5", "1 /2", "a", "1/a", "-", "1///1", "1\\2" };
+    for (size_t i = 0; i < sizeof corners / sizeof *corners; i++) {
+        char text[300];
+        snprintf(text, sizeof text, SQUARE "f %s 2 3\n", corners[i]);
+        refuse(text, "a.obj:11: ", "is not a corner");
+    }
+    refuse_bytes("v 0 0 0\nv \0 0 0\n", 16, "a.obj:2: ", "zero byte");
+    char name[200];
+    snprintf(name, sizeof name, "usemtl %070d\n", 7);
+    refuse(name, "a.obj:1: ", "longer than 63");
+}
+
+static void dedupe(void)
+{
+    lom_mesh *mesh = decode(SQUARE "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\nf 1/2/1 2/2/1 3/3/2\n");
+    if (mesh == NULL)
+        return;
+    CHECK(mesh->vertex_count == 6, "%zu vertices", mesh->vertex_count);
+    const uint32_t expected[9] = { 0, 1, 2, 0, 2, 3, 4, 1, 5 };
+    CHECK(memcmp(mesh->indices, expected, sizeof expected) == 0);
+    lom_free_mesh(mesh);
+}
+
+/* ---- normals ---- */
+
+static void cube_normals(void)
+{
+    lom_mesh *mesh = decode("v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n"
+                            "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+    if (mesh == NULL)
+        return;
+    CHECK(mesh->vertex_count == 8 && mesh->index_count == 36 && mesh->source_triangles == 12);
+    for (int i = 0; i < 8; i++) { /* three faces meet, their sum is the diagonal */
+        const lom_mesh_vertex *v = &mesh->vertices[i];
+        const double s = 0.57735026918962576;
+        CHECK(near3(v->normal, v->position[0] * s, v->position[1] * s, v->position[2] * s, 1e-7));
+    }
+    for (size_t k = 0; k < mesh->index_count; k += 3) { /* counter-clockwise from outside */
+        lom_vec3 p[3];
+        for (int i = 0; i < 3; i++) {
+            const float *q = mesh->vertices[mesh->indices[k + (size_t)i]].position;
+            p[i] = (lom_vec3){ q[0], q[1], q[2] };
+        }
+        lom_vec3 n = lom_vec3_cross(lom_vec3_subtract(p[1], p[0]), lom_vec3_subtract(p[2], p[0]));
+        CHECK(lom_vec3_dot(n, lom_vec3_add(p[0], lom_vec3_add(p[1], p[2]))) > 0);
+    }
+    lom_free_mesh(mesh);
+}
+
+/* Unit face normals are summed: a large face weighs no more than a small one. */
+static void unweighted_normals(void)
+{
+    lom_mesh *mesh = decode("v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 .01\nf 1 2 3\nf 1 3 4\n");
+    const double s = 0.70710678118654752;
+    CHECK(mesh != NULL && near3(mesh->vertices[0].normal, s, 0, s, 1e-7));
+    CHECK(mesh != NULL && near3(mesh->vertices[1].normal, 0, 0, 1, 0) && near3(mesh->vertices[3].normal, 1, 0, 0, 0));
+    lom_free_mesh(mesh);
+    /* tiny and huge faces have directions, too */
+    mesh = decode("v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nv 0 1e30 0\nv 0 0 1e30\nf 1 2 3\nf 1 4 5\n");
+    CHECK(mesh != NULL && near3(mesh->vertices[1].normal, 0, 0, 1, 0) && near3(mesh->vertices[3].normal, 1, 0, 0, 0));
+    CHECK(mesh != NULL && near3(mesh->vertices[0].normal, s, 0, s, 1e-7));
+    lom_free_mesh(mesh);
+}
+
+static void mixed_normals(void)
+{
+    lom_mesh *mesh = decode("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 -3 0\nf 1//1 2//1 3//1\nf 1 3 4\n");
+    if (mesh == NULL)
+        return;
+    const double s = 0.70710678118654752;
+    CHECK(mesh->vertex_count == 6);
+    CHECK(near3(mesh->vertices[0].normal, 0, -3, 0, 0), "a given normal stays as it is");
+    CHECK(near3(mesh->vertices[3].normal, s, 0, s, 1e-7), "all faces at the position count");
+    CHECK(near3(mesh->vertices[5].normal, 1, 0, 0, 0));
+    lom_free_mesh(mesh);
+    mesh = decode("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n");
+    CHECK(mesh != NULL && near3(mesh->vertices[0].normal, 0, 0, 1, 0), "a sum of 0: the first face decides");
+    lom_free_mesh(mesh);
+    mesh = decode("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 1\nf 2 3 2\n");
+    CHECK(mesh != NULL && mesh->index_count == 9 && near3(mesh->vertices[1].normal, 0, 1, 0, 0), "no area: up");
+    lom_free_mesh(mesh);
+    mesh = decode("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nf 1 2 3 1 2 3\nf 1 4 2\n");
+    CHECK(mesh != NULL && near3(mesh->vertices[0].normal, 0, s, s, 1e-7), "a face that passes twice counts once");
+    lom_free_mesh(mesh);
+}
+
+/* ---- materials ---- */
+
+static const char red_mtl[] =
+    "# head\r\nnewmtl red\r\nKa 0.1 0.2 0.3\nKd 1 0 0\nKs .5\nNs 32\nd 0.5\nillum 2\nKe 1 1 1\n"
+    "map_Kd -bm 2 -o 1 2 3 -s 4 -clamp on my tex\\red.png # tail\nmap_Ks nonsense\n"
+    "newmtl glass #1\nd -halo 7\nnewmtl thin\nTr .25\nKd spectral f.rfl 1\nKd xyz 1 2 3\n";
+
+static lom_bytes read_from_table(void *context, const char *name, lom_error *error)
+{
+    int *calls = context;
+    ++*calls;
+    const char *text = strcmp(name, "red.mtl") == 0 ? red_mtl
+                       : strcmp(name, "sub/b c.mtl") == 0
+                           ? "newmtl blue\nKd 0 0 1\nmap_Kd b.png\nnewmtl red\nKd .5 0 0\n"
+                       : strcmp(name, "broken.mtl") == 0   ? "newmtl a\nKd 1 2\n"
+                       : strcmp(name, "nameless.mtl") == 0 ? "\nKd 1 2 3\n"
+                                                           : NULL;
+    if (text == NULL) {
+        lom_fail(error, LOM_ERROR_FILE, "no such file");
+        return (lom_bytes){ 0 };
+    }
+    lom_bytes bytes = { lom_allocate(strlen(text) + 1, 1, error), strlen(text) };
+    memcpy(bytes.data, text, bytes.size);
+    return bytes;
+}
+
+static lom_mesh *decode_with(const char *text, lom_error *error, int *calls)
+{
+    *error = (lom_error){ 0 };
+    *calls = 0;
+    return lom_decode_obj_with(text, strlen(text), "dir/a.obj", read_from_table, calls, error);
+}
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+static void materials(void)
+{
+    lom_error error;
+    int calls;
+    lom_mesh *mesh = decode_with("mtllib red.mtl\n" TRIANGLE "f 1 2 3\nusemtl red\nf 1 2 3\ng x\nusemtl red\nf 1 2 3\n"
+                                 "usemtl thin\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl nowhere\nf 1 2 3\n",
+                                 &error, &calls);
+    CHECK(mesh != NULL && calls == 1, "%s", error.text);
+    if (mesh == NULL)
+        return;
+    CHECK(mesh->material_count == 4 && mesh->part_count == 5, "%zu %zu", mesh->material_count, mesh->part_count);
+    const int part_materials[5] = { -1, 0, 2, 0, 3 };
+    const uint32_t counts[5] = { 3, 6, 3, 3, 3 };
+    uint32_t first = 0;
+    for (int i = 0; i < 5; first += counts[i++])
+        CHECK(mesh->parts[i].material == part_materials[i] && mesh->parts[i].index_count == counts[i] &&
+                  mesh->parts[i].first_index == first,
+              "part %d", i);
+    const lom_material *red = &mesh->materials[0], *thin = &mesh->materials[2];
+    CHECK(strcmp(red->name, "red") == 0 && near3(red->ambient, .1f, .2f, .3f, 0) && near3(red->diffuse, 1, 0, 0, 0));
+    CHECK(near3(red->specular, .5, .5, .5, 0) && red->shininess == 32 && red->opacity == .5f);
+    CHECK(strcmp(red->diffuse_map, "my tex/red.png") == 0, "\"%s\"", red->diffuse_map);
+    CHECK(strcmp(mesh->materials[1].name, "glass") == 0 && mesh->materials[1].opacity == 1);
+    CHECK(thin->opacity == .75f && near3(thin->diffuse, 1, 1, 1, 0) && thin->diffuse_map[0] == 0);
+    CHECK(strstr(mesh->warning, "\"nowhere\"") != NULL, "\"%s\"", mesh->warning);
+    lom_free_mesh(mesh);
+
+    mesh = decode_with("mtllib red.mtl\nmtllib sub/b c.mtl\n" TRIANGLE "usemtl blue\nf 1 2 3\n", &error, &calls);
+    CHECK(mesh != NULL && mesh->material_count == 4 && mesh->warning[0] == 0 && mesh->materials[0].diffuse[0] == .5f &&
+              mesh->materials[0].diffuse_map[0] == 0,
+          "%s", error.text);
+    CHECK(mesh != NULL && strcmp(mesh->materials[3].diffuse_map, "sub/b.png") == 0);
+    lom_free_mesh(mesh);
+
+    mesh = decode_with("mtllib gone.mtl red.mtl\n" TRIANGLE "usemtl red\nf 1 2 3\n", &error, &calls);
+    CHECK(mesh != NULL && mesh->material_count == 3 && strstr(mesh->warning, "dir/a.obj:1: ") == mesh->warning &&
+              strstr(mesh->warning, "gone.mtl") != NULL,
+          "%s", error.text);
+    lom_free_mesh(mesh);
+
+    mesh = decode_with(TRIANGLE "mtllib broken.mtl\nf 1 2 3\n", &error, &calls);
+    CHECK(mesh == NULL && strncmp(error.text, "dir/broken.mtl:2: ", 18) == 0, "%s", error.text);
+    mesh = decode_with(TRIANGLE "mtllib nameless.mtl\nf 1 2 3\n", &error, &calls);
+    CHECK(mesh == NULL && strstr(error.text, "Kd before the first newmtl") != NULL, "%s", error.text);
+}
+
+/* Files on disk: material files are looked for beside the OBJ file. */
+static void files(void)
+{
+    char folder[] = "/tmp/lom_obj_XXXXXX", obj[64], mtl[64];
+    if (mkdtemp(folder) == NULL)
+        return;
+    snprintf(obj, sizeof obj, "%s/a.obj", folder);
+    snprintf(mtl, sizeof mtl, "%s/a.mtl", folder);
+    const char *text = "mtllib a.mtl\n" TRIANGLE "usemtl red\nf 1 2 3\n";
+    lom_error error = { 0 };
+    CHECK(lom_write_file(obj, text, strlen(text), &error) && lom_write_file(mtl, red_mtl, strlen(red_mtl), &error));
+    lom_mesh *mesh = lom_read_obj(obj, &error);
+    CHECK(mesh != NULL && mesh->material_count == 3 && mesh->materials[0].opacity == .5f, "%s", error.text);
+    lom_free_mesh(mesh);
+    remove(mtl);
+    mesh = lom_read_obj(obj, &error);
+    CHECK(mesh != NULL && mesh->material_count == 1 && strstr(mesh->warning, "a.mtl") != NULL, "%s", error.text);
+    lom_free_mesh(mesh);
+    remove(obj);
+    mesh = lom_read_obj(obj, &error);
+    CHECK(mesh == NULL && error.code == LOM_ERROR_FILE && strstr(error.text, obj) != NULL, "%s", error.text);
+    remove(folder);
+}
+
+/* ---- writing ---- */
+
+static void round_trip(void)
+{
+    lom_error error = { 0 };
+    enum { FACES = 300 };
+    lom_mesh *mesh = lom_create_mesh(3 * FACES, 3 * FACES, 3, 2, &error);
+    for (uint32_t k = 0; k < 3 * FACES; k++) {
+        lom_mesh_vertex *v = &mesh->vertices[k];
+        float *values[] = { v->position, v->normal, v->uv, v->color };
+        const int counts[] = { 3, 3, 2, 3 };
+        uint64_t counter = 16 * (uint64_t)k;
+        for (int a = 0; a < 4; a++)
+            for (int i = 0; i < counts[a]; i++)
+                values[a][i] = (float)(lom_random_uniform(5, counter++) * (k % 3 == 0 ? 1e-3 : k % 3 == 1 ? 1 : 40));
+        v->color[3] = 1;
+        mesh->indices[k] = k;
+    }
+    mesh->vertices[1].uv[1] = 0;
+    mesh->vertices[2].uv[1] = 1;
+    mesh->vertices[3].uv[1] = -7.3f;
+    mesh->parts[0] = (lom_mesh_part){ 0, 30, -1 };
+    mesh->parts[1] = (lom_mesh_part){ 30, 60, 1 };
+    mesh->parts[2] = (lom_mesh_part){ 90, 3 * FACES - 90, 0 };
+    mesh->materials[0] = lom_default_material("two words");
+    mesh->materials[1] = lom_default_material("x#y");
+    mesh->materials[1].opacity = .3f;
+    strncpy(mesh->materials[1].diffuse_map, "maps/a b.png", 20);
+    lom_bytes obj = lom_encode_obj(mesh, "m.mtl", &error), mtl = lom_encode_mtl(mesh, &error);
+    CHECK(obj.data != NULL && mtl.data != NULL, "%s", error.text);
+    char folder[] = "/tmp/lom_obj_XXXXXX", obj_path[64], mtl_path[64];
+    if (mkdtemp(folder) == NULL)
+        return;
+    snprintf(obj_path, sizeof obj_path, "%s/m.obj", folder);
+    snprintf(mtl_path, sizeof mtl_path, "%s/m.mtl", folder);
+    CHECK(lom_write_file(obj_path, obj.data, obj.size, &error) && lom_write_file(mtl_path, mtl.data, mtl.size, &error));
+    lom_mesh *back = lom_read_obj(obj_path, &error);
+    CHECK(back != NULL && back->warning[0] == 0 && same_mesh(back, mesh), "%s", error.text);
+    lom_free_mesh(back);
+    lom_free_mesh(mesh);
+    lom_release(obj.data);
+    lom_release(mtl.data);
+    remove(obj_path);
+    remove(mtl_path);
+    remove(folder);
+}
+
+static void refused_writing(void)
+{
+    lom_error error = { 0 };
+    lom_mesh *mesh = decode(TRIANGLE "usemtl red\nf 1 2 3\n");
+    if (mesh == NULL)
+        return;
+    mesh->indices[1] = 3;
+    CHECK(lom_encode_obj(mesh, NULL, &error).data == NULL && strstr(error.text, "Index 1") != NULL, "%s", error.text);
+    mesh->indices[1] = 1;
+    mesh->vertices[2].uv[0] = __builtin_nanf("");
+    error = (lom_error){ 0 };
+    CHECK(lom_encode_obj(mesh, NULL, &error).data == NULL && strstr(error.text, "Vertex 2") != NULL, "%s", error.text);
+    mesh->vertices[2].uv[0] = 0;
+    const char *names[] = { "", " a", "a ", "a\nb", "#a", "a #b", "a\\" };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        mesh->materials[0] = lom_default_material(names[i]);
+        CHECK(lom_encode_mtl(mesh, NULL).data == NULL && lom_encode_obj(mesh, NULL, NULL).data == NULL, "case %zu", i);
+    }
+    memset(mesh->materials[0].name, 'a', sizeof mesh->materials[0].name);
+    CHECK(lom_encode_mtl(mesh, NULL).data == NULL, "a name without an end");
+    lom_free_mesh(mesh);
+}
+
+int main(int argc, char **argv)
+{
+    RUN(forms);
+    RUN(syntax);
+    RUN(refusals);
+    RUN(dedupe);
+    RUN(cube_normals);
+    RUN(unweighted_normals);
+    RUN(mixed_normals);
+    RUN(materials);
+    RUN(files);
+    RUN(round_trip);
+    RUN(refused_writing);
+    return check_result();
+}
