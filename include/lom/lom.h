@@ -5,6 +5,7 @@
 #include <lom/base.h>
 #include <lom/lanes.h>
 #include <lom/image.h>
+#include <lom/texture.h>
 #include <lom/geometry.h>
 #include <lom/scene.h>
 #include <lom/sky.h>

@@ -1,0 +1,46 @@
+/* Whole pictures from one format to another: rows decoded to double, channels matched, rows encoded. */
+#include "convert_rows.h"
+
+#include <string.h>
+
+/* One channel becomes grey, three become their Rec. 709 luminance (ITU-R BT.709, item 3.2) in linear light. */
+static void match_channels(int from, int to, double (*rgba)[4], size_t count)
+{
+    if (from == 1 && to >= 3)
+        for (size_t i = 0; i < count; i++)
+            rgba[i][1] = rgba[i][2] = rgba[i][0];
+    if (from >= 3 && to == 1)
+        for (size_t i = 0; i < count; i++)
+            rgba[i][0] = 0.2126 * rgba[i][0] + 0.7152 * rgba[i][1] + 0.0722 * rgba[i][2];
+}
+
+lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_error *error)
+{
+    const lom_format_info *from = lom_describe_format(image->format), *to = lom_describe_format(format);
+    if (from == NULL || to == NULL) {
+        lom_fail(error, LOM_ERROR_USAGE, "There is no conversion from format %d to format %d.", (int)image->format,
+                 (int)format);
+        return NULL;
+    }
+    lom_image *out = lom_create_image(image->width, image->height, image->depth, format, error);
+    if (out == NULL)
+        return NULL;
+    if (format == image->format) {
+        memcpy(out->pixels, image->pixels, lom_image_size(image));
+        return out;
+    }
+    size_t width = (size_t)image->width, rows = (size_t)image->height * (size_t)image->depth;
+    double(*rgba)[4] = lom_allocate(width, sizeof *rgba, error);
+    if (rgba == NULL) {
+        lom_free_image(out);
+        return NULL;
+    }
+    size_t step_in = width * lom_format_size(image->format), step_out = width * lom_format_size(format);
+    for (size_t y = 0; y < rows; y++) {
+        lom_decode_row(image->format, image->pixels + y * step_in, width, rgba);
+        match_channels(from->channels, to->channels, rgba, width);
+        lom_encode_row(format, (const double(*)[4])rgba, width, out->pixels + y * step_out);
+    }
+    lom_release(rgba);
+    return out;
+}

@@ -1,0 +1,64 @@
+/* Samplers of cube textures: a direction chooses a face and a place on it (OpenGL 4.6, table 8.19); the faces' aprons
+ * hold their neighbours' texels (apron.c), so filtering goes on across edges and corners. */
+#include "sample_lanes.h"
+
+/*        face  s = (sc / ma + 1) / 2   sc   tc   ma
+ *        0  1  +X  -X                  -z +z  -y   |x|
+ *        2  3  +Y  -Y                   x   +z -z  |y|
+ *        4  5  +Z  -Z                  +x -x  -y   |z|   */
+static sample_point point_on_face(const lom_float3 *direction)
+{
+    lom_float x = direction->x, y = direction->y, z = direction->z;
+    lom_float ax = lom_abs(x), ay = lom_abs(y), az = lom_abs(z);
+    lom_mask is_x = (ax >= ay) & (ax >= az);
+    lom_mask is_y = ~is_x & (ay >= az);
+    lom_float major = lom_select(is_x, x, lom_select(is_y, y, z));
+    lom_mask negative = major < 0.0f;
+    lom_float z_signed = lom_select(negative, z, -z); /* -z on +X, z on -X; z on +Y is its negative */
+    lom_float x_signed = lom_select(negative, -x, x);
+    lom_float sc = lom_select(is_x, z_signed, lom_select(is_y, x, x_signed));
+    lom_float tc = lom_select(is_y, -z_signed, -y);
+    lom_float ma = lom_abs(major);
+    lom_float u = sc / ma, v = tc / ma;
+    u = lom_select(lom_abs(u) <= 1.0f, u, (lom_float){ 0 });
+    v = lom_select(lom_abs(v) <= 1.0f, v, (lom_float){ 0 });
+    lom_int axis = lom_select_int(is_x, (lom_int){ 0 }, lom_select_int(is_y, lom_splat_int(2), lom_splat_int(4)));
+    return (sample_point){ .s = u * 0.5f + 0.5f, .t = v * 0.5f + 0.5f, .face = axis - negative };
+}
+
+static void sample_rgba8(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+{
+    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_RGBA8, false, point, lod);
+}
+
+static void sample_srgb8(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+{
+    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_RGBA8, true, point, lod);
+}
+
+static void sample_r32f(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+{
+    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_R32F, false, point, lod);
+}
+
+static void sample_rgba32f(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+{
+    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_RGBA32F, false, point, lod);
+}
+
+void LOM_WIDE(lom_sample_cube_lanes)(const lom_texture *texture, const lom_float3 *direction, const lom_float *lod,
+                                     lom_float4 *out)
+{
+    sample_point point = point_on_face(direction);
+    switch (texture->storage) {
+    case LOM_STORAGE_RGBA8:
+        (texture->srgb ? sample_srgb8 : sample_rgba8)(texture, point, *lod, out);
+        break;
+    case LOM_STORAGE_R32F:
+        sample_r32f(texture, point, *lod, out);
+        break;
+    case LOM_STORAGE_RGBA32F:
+        sample_rgba32f(texture, point, *lod, out);
+        break;
+    }
+}

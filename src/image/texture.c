@@ -1,0 +1,325 @@
+/* Textures: made from a descriptor, read back, freed. In: tightly packed pixels of any format; out: levels with aprons
+ * in one of three storages. Invariant: every index that sample_lanes.h can form lies inside texels[], and every float
+ * stored here is finite. */
+#include "texture.h"
+#include "convert_rows.h"
+
+#include <string.h>
+
+static const uint64_t most_texels = INT32_MAX, most_bytes = UINT64_C(1) << 33;
+
+/* ---- what is asked for ---- */
+
+static int full_level_count(int width, int height, int depth)
+{
+    int largest = width > height ? width : height, count = 1;
+    for (largest = largest > depth ? largest : depth; largest > 1; largest >>= 1)
+        count++;
+    return count;
+}
+
+static bool check_sizes(const lom_texture_desc *desc, lom_error *error)
+{
+    int depth = desc->kind == LOM_TEXTURE_3D ? desc->depth : 1;
+    if (desc->width < 1 || desc->height < 1 || depth < 1 || desc->width > LOM_MAX_SIZE || desc->height > LOM_MAX_SIZE ||
+        depth > LOM_MAX_SIZE)
+        return lom_fail(error, LOM_ERROR_USAGE, "A texture of %d x %d x %d texels is outside 1..%d.", desc->width,
+                        desc->height, depth, LOM_MAX_SIZE);
+    if (desc->kind != LOM_TEXTURE_3D && desc->depth != 0 && desc->depth != 1)
+        return lom_fail(error, LOM_ERROR_USAGE, "A 2D or cube texture has no depth of %d.", desc->depth);
+    if (desc->kind == LOM_TEXTURE_CUBE && desc->width != desc->height)
+        return lom_fail(error, LOM_ERROR_USAGE, "The faces of a cube texture are square, not %d x %d.", desc->width,
+                        desc->height);
+    int full = full_level_count(desc->width, desc->height, depth);
+    if (desc->mips == LOM_MIPS_SUPPLIED &&
+        (desc->level_count < 1 || desc->level_count > full || (desc->level_count > 1 && desc->level_pixels == NULL)))
+        return lom_fail(error, LOM_ERROR_USAGE, "A texture of this size has 1..%d levels, not %d.", full,
+                        desc->level_count);
+    return true;
+}
+
+static bool check_desc(const lom_texture_desc *desc, lom_error *error)
+{
+    const lom_sampler_desc *s = &desc->sampler;
+    if ((unsigned)desc->kind > LOM_TEXTURE_3D || (unsigned)desc->mips > LOM_MIPS_SUPPLIED)
+        return lom_fail(error, LOM_ERROR_USAGE, "There is no texture of kind %d with mips %d.", (int)desc->kind,
+                        (int)desc->mips);
+    if (desc->format != LOM_FORMAT_NONE && lom_describe_format(desc->format) == NULL)
+        return lom_fail(error, LOM_ERROR_USAGE, "There is no texture of format %d.", (int)desc->format);
+    if ((unsigned)s->minify >= LOM_FILTER_COUNT || (unsigned)s->magnify > LOM_FILTER_LINEAR)
+        return lom_fail(error, LOM_ERROR_USAGE, "A sampler cannot minify by filter %d and magnify by filter %d.",
+                        (int)s->minify, (int)s->magnify);
+    if ((unsigned)s->wrap_s >= LOM_WRAP_COUNT || (unsigned)s->wrap_t >= LOM_WRAP_COUNT ||
+        (unsigned)s->wrap_r >= LOM_WRAP_COUNT)
+        return lom_fail(error, LOM_ERROR_USAGE, "A sampler cannot wrap by modes %d, %d, %d.", (int)s->wrap_s,
+                        (int)s->wrap_t, (int)s->wrap_r);
+    if (s->lod_bias != s->lod_bias || s->lod_min != s->lod_min || s->lod_max != s->lod_max)
+        return lom_fail(error, LOM_ERROR_USAGE, "A sampler's bias and bounds of the level of detail cannot be NaN.");
+    return check_sizes(desc, error);
+}
+
+static lom_storage storage_of(const lom_format_info *info)
+{
+    if (info->bits == 8)
+        return LOM_STORAGE_RGBA8;
+    return info->channels == 1 ? LOM_STORAGE_R32F : LOM_STORAGE_RGBA32F;
+}
+
+static float between(float x, float low, float high)
+{
+    return x > low ? (x < high ? x : high) : low;
+}
+
+static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
+{
+    lom_sampler_desc *s = &texture->sampler;
+    *s = desc->sampler;
+    if (s->magnify == LOM_FILTER_DEFAULT)
+        s->magnify = LOM_FILTER_LINEAR;
+    if (s->minify == LOM_FILTER_DEFAULT)
+        s->minify = desc->mips == LOM_MIPS_NONE ? LOM_FILTER_LINEAR : LOM_FILTER_LINEAR_MIPMAP_LINEAR;
+    texture->nearest_within[0] = s->magnify == LOM_FILTER_NEAREST;
+    texture->nearest_within[1] = s->minify == LOM_FILTER_NEAREST || s->minify == LOM_FILTER_NEAREST_MIPMAP_NEAREST ||
+                                 s->minify == LOM_FILTER_NEAREST_MIPMAP_LINEAR;
+    texture->nearest_between =
+        s->minify == LOM_FILTER_NEAREST_MIPMAP_NEAREST || s->minify == LOM_FILTER_LINEAR_MIPMAP_NEAREST;
+    texture->linear_between =
+        s->minify == LOM_FILTER_NEAREST_MIPMAP_LINEAR || s->minify == LOM_FILTER_LINEAR_MIPMAP_LINEAR;
+    bool bounded = s->lod_min != 0 || s->lod_max != 0;
+    texture->lod_min = bounded ? between(s->lod_min, -1000, 1000) : -1000;
+    texture->lod_max = bounded ? between(s->lod_max, -1000, 1000) : 1000;
+    s->lod_bias = between(s->lod_bias, -1000, 1000);
+}
+
+/* ---- layout ---- */
+
+/* Beyond the last level lie the texels that a sample at the far border reads with weight 0. */
+static bool lay_out(lom_texture *texture, const lom_texture_desc *desc, lom_error *error)
+{
+    int depth = desc->kind == LOM_TEXTURE_3D ? desc->depth : 1;
+    uint64_t next = 0, tail = 0;
+    for (int i = 0; i < texture->level_count; i++) {
+        lom_level *l = &texture->level[i];
+        l->width = desc->width >> i > 1 ? desc->width >> i : 1;
+        l->height = desc->height >> i > 1 ? desc->height >> i : 1;
+        l->depth = depth >> i > 1 ? depth >> i : 1;
+        uint64_t pitch = (uint64_t)l->width + 2, slice = pitch * ((uint64_t)l->height + 2); /* < 2^31 */
+        bool deep = texture->kind == LOM_TEXTURE_3D;
+        uint64_t slices = deep ? (uint64_t)l->depth + 2 : (uint64_t)lom_level_layers(texture, i);
+        l->pitch = (size_t)pitch;
+        l->slice = (size_t)slice;
+        l->offset = (size_t)(next + (deep ? slice : 0) + pitch + 1);
+        texture->offset[i] = (int32_t)next;
+        if (i == 0)
+            tail = (deep ? slice : 0) + pitch + 2;
+        next += slice * slices; /* < 2^47, and the sum over at most 16 levels < 2^51 */
+        if (next + tail > most_texels || (next + tail) * lom_texel_size(texture) > most_bytes)
+            return lom_fail(error, LOM_ERROR_LIMIT, "A texture of %d x %d x %d texels is larger than the limit.",
+                            desc->width, desc->height, depth);
+    }
+    texture->texels = lom_allocate((size_t)(next + tail), lom_texel_size(texture), error);
+    return texture->texels != NULL;
+}
+
+int lom_level_layers(const lom_texture *texture, int level)
+{
+    return texture->kind == LOM_TEXTURE_CUBE ? 6 : texture->level[level].depth;
+}
+
+size_t lom_texel_size(const lom_texture *texture)
+{
+    return texture->storage == LOM_STORAGE_RGBA32F ? 16 : 4;
+}
+
+void *lom_texel(const lom_texture *texture, int level, int x, int y, int layer)
+{
+    const lom_level *l = &texture->level[level];
+    ptrdiff_t index = (ptrdiff_t)l->offset + (ptrdiff_t)l->slice * layer + (ptrdiff_t)l->pitch * y + x;
+    return (uint8_t *)texture->texels + index * (ptrdiff_t)lom_texel_size(texture);
+}
+
+/* ---- texels from and to pixels ---- */
+
+static void pack_bytes(int channels, const uint8_t *from, int count, uint32_t *to)
+{
+    for (int i = 0; i < count; i++, from += channels) {
+        uint32_t texel = channels == 4 ? 0 : 0xff000000u;
+        for (int c = 0; c < channels; c++)
+            texel |= (uint32_t)from[c] << 8 * c;
+        to[i] = texel;
+    }
+}
+
+static void unpack_bytes(int channels, const uint32_t *from, int count, uint8_t *to)
+{
+    for (int i = 0; i < count; i++, to += channels)
+        for (int c = 0; c < channels; c++)
+            to[c] = (uint8_t)(from[i] >> 8 * c);
+}
+
+static void pack_floats(int channels, const double (*rgba)[4], int count, float *to)
+{
+    const double most = 0x1p123;
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < channels; c++) {
+            double x = rgba[i][c];
+            x = x == x ? x : 0;
+            *to++ = (float)(x > -most ? (x < most ? x : most) : -most);
+        }
+}
+
+/* The number of floats of a texel; 0 for bytes. */
+static int floats_of(const lom_texture *texture)
+{
+    return texture->storage == LOM_STORAGE_RGBA32F ? 4 : texture->storage == LOM_STORAGE_R32F;
+}
+
+static void store_level(lom_texture *texture, int level, const uint8_t *pixels, double (*rgba)[4])
+{
+    const lom_level *l = &texture->level[level];
+    size_t step = (size_t)l->width * lom_format_size(texture->format);
+    for (int z = 0; z < lom_level_layers(texture, level); z++)
+        for (int y = 0; y < l->height; y++, pixels += step) {
+            void *row = lom_texel(texture, level, 0, y, z);
+            if (texture->storage == LOM_STORAGE_RGBA8) {
+                pack_bytes(lom_describe_format(texture->format)->channels, pixels, l->width, row);
+                continue;
+            }
+            lom_decode_row(texture->format, pixels, (size_t)l->width, rgba);
+            pack_floats(floats_of(texture), (const double(*)[4])rgba, l->width, row);
+        }
+}
+
+static bool store_pixels(lom_texture *texture, const lom_texture_desc *desc, lom_error *error)
+{
+    double(*rgba)[4] = lom_allocate((size_t)desc->width, sizeof *rgba, error);
+    if (rgba == NULL)
+        return false;
+    if (desc->pixels != NULL)
+        store_level(texture, 0, desc->pixels, rgba);
+    for (int i = 1; i < texture->level_count && desc->mips == LOM_MIPS_SUPPLIED; i++)
+        if (desc->level_pixels[i - 1] != NULL)
+            store_level(texture, i, desc->level_pixels[i - 1], rgba);
+    lom_release(rgba);
+    return true;
+}
+
+/* ---- public ---- */
+
+lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
+{
+    if (!check_desc(desc, error))
+        return NULL;
+    lom_texture *texture = lom_allocate(1, sizeof *texture, error);
+    if (texture == NULL)
+        return NULL;
+    texture->kind = desc->kind;
+    texture->format = desc->format == LOM_FORMAT_NONE ? LOM_FORMAT_RGBA8 : desc->format;
+    const lom_format_info *info = lom_describe_format(texture->format);
+    texture->storage = storage_of(info);
+    texture->srgb = info->is_srgb;
+    texture->builds_mips = desc->mips == LOM_MIPS_ALL;
+    int depth = desc->kind == LOM_TEXTURE_3D ? desc->depth : 1;
+    texture->level_count = desc->mips == LOM_MIPS_NONE       ? 1
+                           : desc->mips == LOM_MIPS_SUPPLIED ? desc->level_count
+                                                             : full_level_count(desc->width, desc->height, depth);
+    set_sampler(texture, desc);
+    if (!lay_out(texture, desc, error) || !store_pixels(texture, desc, error)) {
+        lom_free_texture(texture);
+        return NULL;
+    }
+    lom_finish_texture(texture);
+    return texture;
+}
+
+void lom_finish_texture(lom_texture *texture)
+{
+    for (int i = 0; i < texture->level_count; i++) {
+        if (i > 0 && texture->builds_mips)
+            lom_shrink_level(texture, i);
+        lom_fill_apron(texture, i);
+    }
+}
+
+lom_texture *lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error)
+{
+    lom_format format = image->format;
+    if (srgb && format >= LOM_FORMAT_R8 && format <= LOM_FORMAT_RGBA8)
+        format = (lom_format)(format + (LOM_FORMAT_R8_SRGB - LOM_FORMAT_R8));
+    lom_texture_desc desc = {
+        .kind = image->depth > 1 ? LOM_TEXTURE_3D : LOM_TEXTURE_2D,
+        .width = image->width,
+        .height = image->height,
+        .depth = image->depth,
+        .format = format,
+        .pixels = image->pixels,
+        .mips = mips,
+    };
+    return lom_create_texture(&desc, error);
+}
+
+void lom_free_texture(lom_texture *texture)
+{
+    if (texture == NULL)
+        return;
+    lom_release(texture->texels);
+    lom_release(texture);
+}
+
+static void read_row(const lom_texture *texture, const void *row, int width, double (*rgba)[4], uint8_t *to)
+{
+    if (texture->storage == LOM_STORAGE_RGBA8) {
+        unpack_bytes(lom_describe_format(texture->format)->channels, row, width, to);
+        return;
+    }
+    lom_format format = texture->storage == LOM_STORAGE_R32F ? LOM_FORMAT_R32F : LOM_FORMAT_RGBA32F;
+    lom_decode_row(format, row, (size_t)width, rgba);
+    lom_encode_row(texture->format, (const double(*)[4])rgba, (size_t)width, to);
+}
+
+lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lom_error *error)
+{
+    if (level < 0 || level >= texture->level_count || layer < -1 || layer >= lom_level_layers(texture, level)) {
+        lom_fail(error, LOM_ERROR_USAGE, "The texture has no level %d with a layer %d.", level, layer);
+        return NULL;
+    }
+    const lom_level *l = &texture->level[level];
+    int first = layer < 0 ? 0 : layer, count = layer < 0 ? lom_level_layers(texture, level) : 1;
+    lom_image *image = lom_create_image(l->width, l->height, count, texture->format, error);
+    double(*rgba)[4] = image != NULL ? lom_allocate((size_t)l->width, sizeof *rgba, error) : NULL;
+    if (rgba == NULL) {
+        lom_free_image(image);
+        return NULL;
+    }
+    for (int z = 0; z < count; z++)
+        for (int y = 0; y < l->height; y++)
+            read_row(texture, lom_texel(texture, level, 0, y, first + z), l->width, rgba,
+                     lom_image_pixel(image, 0, y, z));
+    lom_release(rgba);
+    return image;
+}
+
+int lom_texture_width(const lom_texture *texture)
+{
+    return texture->level[0].width;
+}
+
+int lom_texture_height(const lom_texture *texture)
+{
+    return texture->level[0].height;
+}
+
+int lom_texture_depth(const lom_texture *texture)
+{
+    return texture->level[0].depth;
+}
+
+int lom_texture_levels(const lom_texture *texture)
+{
+    return texture->level_count;
+}
+
+lom_format lom_texture_format(const lom_texture *texture)
+{
+    return texture->format;
+}

@@ -1,0 +1,56 @@
+/* How a texture lies in memory. Every level has an apron of one texel on all sides (what lies beyond the edge by the
+ * wrap mode), so that a sampler needs one index for its 2 x 2 (x 2) texels: +0, +1, +pitch, +pitch + 1 (+ slice).
+ * The apron's left column is the right end of the row before: pitch = width + 2, and level.offset leaves room for the
+ * row, the texel (and in 3D the slice) before the first. */
+#ifndef LOM_IMAGE_TEXTURE_H
+#define LOM_IMAGE_TEXTURE_H
+
+#include <lom/texture.h>
+
+typedef enum lom_storage {
+    LOM_STORAGE_RGBA8,  /* uint32_t: r | g << 8 | b << 16 | a << 24 (sRGB formats: as encoded) */
+    LOM_STORAGE_R32F,   /* float */
+    LOM_STORAGE_RGBA32F /* 4 floats */
+} lom_storage;
+
+typedef struct lom_level {
+    int width, height, depth;
+    size_t pitch;  /* texels from a row to the next */
+    size_t slice;  /* texels from a slice or cube face to the next */
+    size_t offset; /* texel (0, 0) of slice 0 in texels[] */
+} lom_level;
+
+enum { LOM_MAX_LEVELS = 16 };
+
+struct lom_texture {
+    lom_texture_kind kind;
+    lom_format format;
+    lom_storage storage;
+    int level_count;
+    lom_level level[LOM_MAX_LEVELS];
+    void *texels;             /* what a pass writes must be finite; missing channels 0, missing alpha 255 or 1 */
+    lom_sampler_desc sampler; /* no DEFAULT filters any more */
+    bool srgb;                /* RGBA8 storage holds sRGB codes in r, g, b */
+    bool builds_mips;         /* lom_finish_texture makes levels 1.. from level 0 */
+    /* For the samplers: */
+    bool nearest_within[2];               /* magnified, minified */
+    bool nearest_between, linear_between; /* levels */
+    float lod_min, lod_max;               /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
+    int32_t offset[LOM_MAX_LEVELS];       /* of texel (-1, -1) of slice 0 (in 3D: of slice -1) */
+};
+
+/* After level 0 was written: rebuilds its apron and, if the texture was made with LOM_MIPS_ALL, all levels. */
+void lom_finish_texture(lom_texture *texture);
+
+/* Slices of a level: 6 for a cube, its depth for a 3D texture, else 1. */
+int lom_level_layers(const lom_texture *texture, int level);
+/* Bytes of a texel: 4 or 16. */
+size_t lom_texel_size(const lom_texture *texture);
+/* The address of texel (x, y) of a slice; each coordinate may be one outside, within the apron. */
+void *lom_texel(const lom_texture *texture, int level, int x, int y, int layer);
+/* Fills the apron of a level (apron.c). */
+void lom_fill_apron(lom_texture *texture, int level);
+/* Makes level `level` from the one above it (mipmap.c). */
+void lom_shrink_level(lom_texture *texture, int level);
+
+#endif
