@@ -2,7 +2,8 @@
  * nearest even, denormals kept, nothing trapped, flags clear. Invariant: what lom_leave_float_state restores is bit for
  * bit what was there.
  *
- * x86-64: MXCSR alone, since no code of the library uses x87 (Intel SDM 1, 10.2.3: default 0x1f80). AArch64: FPCR and
+ * x86-64: MXCSR and, because libc looks at its rounding mode, the x87 control word (Intel SDM 1, 10.2.3 and 8.1.5:
+ * defaults 0x1f80 and 0x37f). AArch64: FPCR and
  * FPSR (Arm ARM, C5.2.8; 0 is the default of both). Elsewhere C's fenv.h. The two functions are never inlined, so that
  * no arithmetic of the caller crosses them. */
 #include <lom/base.h>
@@ -12,12 +13,17 @@
 
 void lom_enter_float_state(lom_float_state *state)
 {
-    *state = (lom_float_state){ .saved = { _mm_getcsr() } };
+    uint16_t control, standard = 0x37f;
+    __asm__ volatile("fnstcw %0" : "=m"(control));
+    *state = (lom_float_state){ .saved = { _mm_getcsr(), control } };
     _mm_setcsr(0x1f80);
+    __asm__ volatile("fldcw %0" : : "m"(standard));
 }
 
 void lom_leave_float_state(const lom_float_state *state)
 {
+    uint16_t control = (uint16_t)state->saved[1];
+    __asm__ volatile("fldcw %0" : : "m"(control));
     _mm_setcsr((unsigned)state->saved[0]);
 }
 
