@@ -22,22 +22,35 @@ void lom_toml_place(const lom_toml_source *source, size_t offset, size_t *line, 
     }
 }
 
+/* A message is one line of UTF-8: a quoted key may hold a newline, and a name that was cut half a character. */
+static void make_printable(char *text)
+{
+    for (size_t left = strlen(text); left > 0;) {
+        size_t length = lom_toml_utf8_length((const unsigned char *)text, left);
+        if (length == 0 || (unsigned char)*text < 0x20 || *text == 0x7f)
+            *text = '?';
+        length += length == 0;
+        text += length;
+        left -= length;
+    }
+}
+
 bool lom_toml_fail(const lom_toml_source *source, size_t offset, lom_code code, lom_error *error, const char *format,
                    ...)
 {
-    char sentence[360];
+    char sentence[320], message[sizeof error->text];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    for (char *c = sentence; *c != 0; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?'; /* a quoted key may hold a newline, an error may not */
-    if (source->is_override)
-        return lom_fail(error, code, "%s: %s", source->name, sentence);
     size_t line, column;
     lom_toml_place(source, offset, &line, &column);
-    return lom_fail(error, code, "%s:%zu:%zu: %s", source->name, line, column, sentence);
+    if (source->is_override)
+        snprintf(message, sizeof message, "%s: %s", source->name, sentence);
+    else
+        snprintf(message, sizeof message, "%s:%zu:%zu: %s", source->name, line, column, sentence);
+    make_printable(message);
+    return lom_fail(error, code, "%s", message);
 }
 
 const char *lom_toml_type_name(lom_toml_type type)

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-/* Length of the well-formed UTF-8 sequence at text (Unicode 15, table 3-7), 0 when it is malformed. */
-static size_t sequence_length(const unsigned char *text, size_t left)
+/* Well-formed sequences: Unicode 15, table 3-7. */
+size_t lom_toml_utf8_length(const unsigned char *text, size_t left)
 {
     static const struct {
         unsigned char first, last, low, high, length;
@@ -32,7 +32,7 @@ bool lom_toml_check_utf8(lom_toml_parser *parser)
     const unsigned char *text = (const unsigned char *)parser->source->text;
     size_t size = parser->source->size;
     for (size_t at = 0; at < size;) {
-        size_t length = sequence_length(text + at, size - at);
+        size_t length = lom_toml_utf8_length(text + at, size - at);
         if (length == 0)
             return LOM_TOML_ERROR(parser, at, "the byte 0x%02x is not UTF-8 here.", (unsigned)text[at]);
         at += length;
