@@ -46,6 +46,7 @@ static double turn(const struct lom_polygon *p, int a, int b, int c)
 static void update_turn(struct lom_polygon *p, int corner)
 {
     p->turn[corner] = turn(p, p->previous[corner], corner, p->next[corner]);
+    p->witness[corner] = -1;
 }
 
 static bool same_place(const struct lom_polygon *p, int a, int b)
@@ -55,23 +56,27 @@ static bool same_place(const struct lom_polygon *p, int a, int b)
 
 /* Is the corner convex, and its triangle free of other corners? Only corners that do not turn left can be the first to
  * enter a triangle; those on its border count as inside, so that no triangle passes over a corner on its edge. Corners
- * at the place of one of the triangle's own (a polygon that touches itself) do not. */
-static bool is_ear(const struct lom_polygon *p, int b)
+ * at the place of one of the triangle's own (a polygon that touches itself) do not. The corner that was found inside is
+ * remembered: while it stays and still does not turn left, the answer is no at once. */
+static bool is_ear(struct lom_polygon *p, int b)
 {
-    int a = p->previous[b], c = p->next[b];
-    if (!(p->turn[b] > 0))
+    int a = p->previous[b], c = p->next[b], witness = p->witness[b];
+    if (!(p->turn[b] > 0) || (witness >= 0 && !(p->turn[witness] > 0)))
         return false;
+    p->witness[b] = -1;
     for (int q = p->next[c]; q != a; q = p->next[q])
         if (!(p->turn[q] > 0) && turn(p, a, b, q) >= 0 && turn(p, b, c, q) >= 0 && turn(p, c, a, q) >= 0 &&
-            !same_place(p, q, a) && !same_place(p, q, b) && !same_place(p, q, c))
+            !same_place(p, q, a) && !same_place(p, q, b) && !same_place(p, q, c)) {
+            p->witness[b] = q;
             return false;
+        }
     return true;
 }
 
 /* The rules in the order in which they are given up: an ear; a corner without area; a convex corner; any. */
 enum rule { RULE_EAR, RULE_FLAT, RULE_CONVEX, RULE_ANY };
 
-static bool may_clip(const struct lom_polygon *p, int corner, enum rule rule)
+static bool may_clip(struct lom_polygon *p, int corner, enum rule rule)
 {
     switch (rule) {
     case RULE_EAR:
@@ -110,6 +115,7 @@ static void clip_ears(struct lom_polygon *p, uint32_t *triangle)
         triangle = emit(triangle, before, corner, after);
         p->next[before] = after;
         p->previous[after] = before;
+        p->turn[corner] = __builtin_inf(); /* no witness any more */
         update_turn(p, before);
         update_turn(p, after);
         left--;
