@@ -12,8 +12,9 @@ enum {
     HASH_BITS = 15,
     LEAST_MATCH = 4, /* matches of 3 bytes rarely pay in filtered pixels */
     MOST_MATCH = 258,
-    GOOD_MATCH = 32,   /* long enough not to look for a longer one at the next byte */
-    INSERT_MATCH = 64, /* of a longer match only the first places are remembered */
+    GOOD_MATCH = 32, /* long enough not to look for a longer one at the next byte */
+    INSERT_ALL = 64, /* of a longer match only the last places are remembered */
+    INSERT_LAST = 8,
     WINDOW_MASK = LOM_DEFLATE_WINDOW - 1
 };
 
@@ -58,31 +59,35 @@ static inline uint32_t common_length(const uint8_t *a, const uint8_t *b, uint32_
     return length;
 }
 
-/* The longest match at `at` with a place before it, above `beat` bytes; length 0 when there is none. A short match far
- * away costs as much as its literals, and is not one. */
+/* Takes the place `distance` before `here` when it matches longer than best. A short match far away costs as much as
+ * its literals, and is not taken. best->length is at least LEAST_MATCH - 1 and below most. */
+static inline void try_distance(const uint8_t *here, size_t distance, uint32_t most, match *best)
+{
+    const uint8_t *there = here - distance;
+    if (there[best->length] != here[best->length] || load_32_little(there) != load_32_little(here))
+        return;
+    uint32_t length = common_length(here, there, most);
+    bool pays = length > 5 || distance <= (length == 4 ? 1024 : 8192);
+    if (length > best->length && pays)
+        *best = (match){ length, (uint32_t)distance };
+}
+
+/* The longest match at `at` with a place before it, if longer than `beat` bytes; else distance 0. Nearer places
+ * come first, and a farther one must be longer. */
 static match find(const matcher *m, size_t at, uint32_t beat)
 {
-    match best = { 0, 0 };
+    match best = { beat > LEAST_MATCH - 1 ? beat : LEAST_MATCH - 1, 0 };
     size_t rest = m->size - at;
-    if (rest < LEAST_MATCH || rest <= beat)
+    if (rest <= best.length)
         return best;
     uint32_t most = rest < MOST_MATCH ? (uint32_t)rest : MOST_MATCH;
-    uint32_t longest = beat > LEAST_MATCH - 1 ? beat : LEAST_MATCH - 1;
     const uint8_t *here = m->data + at;
     uint32_t place = m->head[hash_at(m, at)];
-    for (int tries = m->effort; place != 0 && tries > 0 && longest < most; tries--) {
+    for (int tries = m->effort; place != 0 && tries > 0 && best.length < most; tries--) {
         size_t distance = at - (place - 1);
         if (distance > LOM_DEFLATE_WINDOW)
             break;
-        const uint8_t *there = here - distance;
-        if (there[longest] == here[longest] && load_32_little(there) == load_32_little(here)) {
-            uint32_t length = common_length(here, there, most);
-            bool pays = length > 5 || distance <= (length == 4 ? 1024 : 8192);
-            if (length > longest && pays) {
-                longest = length;
-                best = (match){ length, (uint32_t)distance };
-            }
-        }
+        try_distance(here, distance, most, &best);
         uint32_t older = m->chain[(place - 1) & WINDOW_MASK];
         if (older >= place) /* overwritten by a newer place of another chain */
             break;
@@ -91,34 +96,33 @@ static match find(const matcher *m, size_t at, uint32_t beat)
     return best;
 }
 
+/* Remembers the places inside a match: all of a short one; of a long one the last ones, where a run that goes on finds
+ * itself at the same small distance again. */
+static void insert_match(matcher *m, size_t at, uint32_t length)
+{
+    for (uint32_t i = length <= INSERT_ALL ? 1 : length - INSERT_LAST; i < length; i++)
+        insert(m, at + i);
+}
+
 /* Lazy evaluation: a match is given up for a literal when the next byte starts a longer one. */
 static bool compress(matcher *m, lom_deflate_block *block)
 {
     size_t at = 0;
     match now = { 0, 0 };
     while (at < m->size) {
-        if (now.length == 0)
+        if (now.distance == 0)
             now = find(m, at, 0);
         insert(m, at);
-        if (now.length != 0 && now.length < GOOD_MATCH && at + 1 < m->size) {
-            match next = find(m, at + 1, now.length);
-            if (next.length > now.length) {
-                lom_deflate_literal(block, m->data[at++]);
-                now = next;
-                if (!lom_deflate_flush_full(block, m->data, at))
-                    return false;
-                continue;
-            }
-        }
-        if (now.length == 0) {
+        bool lazy = now.distance != 0 && now.length < GOOD_MATCH && at + 1 < m->size;
+        match next = lazy ? find(m, at + 1, now.length) : (match){ 0, 0 };
+        if (now.distance == 0 || next.distance != 0) {
             lom_deflate_literal(block, m->data[at++]);
+            now = next;
         } else {
-            uint32_t inserts = now.length <= INSERT_MATCH ? now.length : INSERT_MATCH / 4;
-            for (uint32_t i = 1; i < inserts; i++)
-                insert(m, at + i);
+            insert_match(m, at, now.length);
             lom_deflate_match(block, now.length, now.distance);
             at += now.length;
-            now.length = 0;
+            now.distance = 0;
         }
         if (!lom_deflate_flush_full(block, m->data, at))
             return false;
