@@ -240,6 +240,16 @@ typedef struct lom_height_map_desc {
  * deepest bed, white the highest summit; the high range lies at the top (-z). */
 lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error);
 
+typedef struct lom_albedo_desc {
+    const char *name; /* one that lom_albedo_name gives */
+    int size;         /* pixels a side, 64..4096; 0: what suits the name */
+    uint64_t seed;
+} lom_albedo_desc;
+/* A colour texture that repeats without a seam, RGB8 sRGB. */
+lom_image *lom_make_albedo(const lom_albedo_desc *desc, lom_error *error);
+/* The names of the textures, from 0; NULL behind the last. */
+const char *lom_albedo_name(size_t index);
+
 #ifdef __cplusplus
 }
 #endif

@@ -59,12 +59,12 @@ static double gradient3(unsigned corner, double x, double y, double z)
     return g[0] * x + g[1] * y + g[2] * z;
 }
 
-double lom_noise2(const lom_noise *noise, double x, double y, int period)
+double lom_noise2_grid(const lom_noise *noise, double x, double y, int columns, int rows)
 {
     const uint8_t *order = noise->order;
     int i[2], j[2];
-    double u = split(x, period, i);
-    double v = split(y, period, j);
+    double u = split(x, columns, i);
+    double v = split(y, rows, j);
     double corner[2][2];
     for (int b = 0; b < 2; b++)
         for (int a = 0; a < 2; a++)
@@ -73,6 +73,11 @@ double lom_noise2(const lom_noise *noise, double x, double y, int period)
     double low = corner[0][0] + (corner[0][1] - corner[0][0]) * s;
     double high = corner[1][0] + (corner[1][1] - corner[1][0]) * s;
     return 1.4142135623730951 * (low + (high - low) * fade(v)); /* |sum| <= sqrt(1/2) */
+}
+
+double lom_noise2(const lom_noise *noise, double x, double y, int period)
+{
+    return lom_noise2_grid(noise, x, y, period, period);
 }
 
 double lom_noise3(const lom_noise *noise, double x, double y, double z, int period)
@@ -183,17 +188,17 @@ double lom_ridged3(const lom_noise *noise, double x, double y, double z, lom_oct
 }
 
 /* The point of a cell lies 0.1 .. 0.9 within it, so that the 3x3 cells around (x, y) hold the two nearest. */
-lom_cell lom_cellular2(const lom_noise *noise, double x, double y, int period)
+lom_cell lom_cellular2(const lom_noise *noise, double x, double y, int columns, int rows)
 {
     const uint8_t *order = noise->order;
     int column[2], row[2];
-    double u = split(x, period, column);
-    double v = split(y, period, row);
+    double u = split(x, columns, column);
+    double v = split(y, rows, row);
     lom_cell cell = { .nearest = 1e9, .second = 1e9 };
     for (int b = -1; b <= 1; b++)
         for (int a = -1; a <= 1; a++) {
-            int i = (column[0] + a + period) % period;
-            int j = (row[0] + b + period) % period;
+            int i = (column[0] + a + columns) % columns;
+            int j = (row[0] + b + rows) % rows;
             unsigned first = order[order[i] + j];
             unsigned other = order[first + 57];
             double dx = u - (a + 0.1 + 0.8 / 255.0 * first);

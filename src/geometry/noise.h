@@ -16,6 +16,8 @@ void lom_seed_noise(lom_noise *noise, uint64_t seed);
 /* Gradient noise (Perlin 2002: fifth-degree fade, gradients on the lattice), mean 0, within [-1, 1]. The lattice
  * repeats after `period` cells, 1..256, in x and y (and z). */
 double lom_noise2(const lom_noise *noise, double x, double y, int period);
+/* The same with a period for each direction. */
+double lom_noise2_grid(const lom_noise *noise, double x, double y, int columns, int rows);
 double lom_noise3(const lom_noise *noise, double x, double y, double z, int period);
 
 /* Sums of octaves: octave i has frequency 2^i, period * 2^i cells (bounded by 256, which period * 2^i then has to
@@ -38,7 +40,8 @@ typedef struct lom_cell {
     double x, y;            /* from the nearest point to (x, y) */
     uint32_t identity;      /* 16 random bits of the nearest point */
 } lom_cell;
-lom_cell lom_cellular2(const lom_noise *noise, double x, double y, int period);
+/* The lattice repeats after `columns` cells in x and `rows` in y, 3..256. */
+lom_cell lom_cellular2(const lom_noise *noise, double x, double y, int columns, int rows);
 
 /* ---- the small functions of procedural shading ---- */
 
