@@ -3,6 +3,7 @@
 #ifndef LOM_CLI_COMMANDS_H
 #define LOM_CLI_COMMANDS_H
 
+int lom_command_make(int argc, char **argv);
 int lom_command_version(int argc, char **argv);
 
 #endif

@@ -15,6 +15,7 @@ typedef struct command {
 } command;
 
 static const command commands[] = {
+    { "make", "make an asset: height map, normal map, sky box, texture, entity", lom_command_make },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -139,10 +139,13 @@ lom_image *lom_make_albedo(const lom_albedo_desc *desc, lom_error *error)
     canvas.color = lom_allocate(pixels, sizeof *canvas.color, error);
     canvas.height = lom_allocate(pixels, sizeof *canvas.height, error);
     lom_image *picture = NULL;
+    lom_float_state state;
+    lom_enter_float_state(&state);
     if (canvas.color != NULL && canvas.height != NULL) {
         albedo->paint(&canvas);
         picture = round_canvas(&canvas, error);
     }
+    lom_leave_float_state(&state);
     lom_release(canvas.color);
     lom_release(canvas.height);
     return picture;

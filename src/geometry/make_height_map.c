@@ -284,6 +284,8 @@ lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error
         return NULL;
     }
     landscape l = { 0 };
+    lom_float_state state;
+    lom_enter_float_state(&state);
     lom_seed_noise(&l.noise, d.seed);
     lom_image *map = NULL;
     if (form_land(&l, &d, error))
@@ -294,6 +296,7 @@ lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error
             uint16_t *pixel = lom_image_pixel(map, x, y, 0);
             *pixel = (uint16_t)(lom_clamp_double((h + lake_depth) / relief, 0, 1) * 65535.0 + 0.5);
         }
+    lom_leave_float_state(&state);
     lom_release(l.height.values);
     lom_release(l.shore.values);
     lom_release(l.uplift.values);

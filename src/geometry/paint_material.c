@@ -12,8 +12,8 @@ static double wavy(const lom_canvas *c, double u, double v, int cells, int count
 static double grain_at(const lom_canvas *c, double u, double v, double shift)
 {
     double bend = 0.02 * wavy(c, u, v, 4, 2, shift);
-    double fine = lom_noise2(&c->noise, (u + bend) * 96 + shift * 7, v * 4, 32);
-    double middle = lom_noise2(&c->noise, (u + bend) * 32 + shift * 5, v * 2 + 0.5, 32);
+    double fine = lom_noise2_grid(&c->noise, (u + bend) * 96 + shift * 7, v * 4, 96, 4);
+    double middle = lom_noise2_grid(&c->noise, (u + bend) * 32 + shift * 5, v * 2 + 0.5, 32, 2);
     return 0.55 * fine + 0.45 * middle;
 }
 
@@ -91,9 +91,9 @@ void lom_paint_log(lom_canvas *c)
             double u = (x + 0.5) / c->size, v = (y + 0.5) / c->size;
             double grain = grain_at(c, u, v, 0.1), stain = wavy(c, u, v, 4, 5, 0.5);
             lom_tint tint = lom_mix_tint(dark, light, 0.55 + 0.55 * grain + 0.6 * stain);
-            double crack = lom_ridged2(&c->noise, u * 16 + 0.35 * wavy(c, u, v, 4, 2, 0.9), v * 2,
-                                       (lom_octaves){ .count = 2, .period = 16, .gain = 0.4 });
-            lom_put_tint(c, x, y, lom_mix_tint(tint, check, 0.8 * lom_smooth_step(0.86, 0.97, crack)));
+            double split = lom_noise2_grid(&c->noise, u * 16 + 0.35 * wavy(c, u, v, 4, 2, 0.9), v * 2, 16, 2);
+            double crack = 1 - (split < 0 ? -split : split) - 0.06 * lom_smooth_step(-0.2, 0.3, stain);
+            lom_put_tint(c, x, y, lom_mix_tint(tint, check, 0.8 * lom_smooth_step(0.95, 0.99, crack)));
         }
 }
 
@@ -124,18 +124,18 @@ void lom_paint_shingles(lom_canvas *c)
 
 void lom_paint_bark(lom_canvas *c)
 {
-    const lom_tint deep = lom_tint_of(46, 36, 30), plate = lom_tint_of(126, 104, 86), red = lom_tint_of(142, 100, 72);
+    const lom_tint deep = lom_tint_of(58, 48, 42), plate = lom_tint_of(124, 110, 98), red = lom_tint_of(134, 108, 86);
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++) {
             double u = (x + 0.5) / c->size, v = (y + 0.5) / c->size;
             double bend = wavy(c, u, v, 4, 3, 0.3);
-            lom_cell scale = lom_cellular2(&c->noise, u * 12 + 0.8 * bend, v * 5 + 0.4 * bend, 12, 5);
-            double plates = lom_smooth_step(0.02, 0.3, scale.second - scale.nearest);
             double rough =
                 lom_fractal2(&c->noise, u * 16, v * 8, (lom_octaves){ .count = 4, .period = 8, .gain = 0.6 });
+            lom_cell scale = lom_cellular2(&c->noise, u * 11 + 1.6 * bend, v * 3 + 0.9 * rough, 11, 3);
+            double plates = lom_smooth_step(-0.05, 0.5, scale.second - scale.nearest + 0.35 * rough);
             lom_tint tint = lom_mix_tint(plate, red, 0.4 + (scale.identity & 255) / 400.0 + rough);
             tint = lom_mix_tint(deep, tint, plates * (0.75 + 0.5 * rough));
-            c->height[lom_canvas_index(c, x, y)] = 6 * plates + 3 * rough;
+            c->height[lom_canvas_index(c, x, y)] = 5 * plates + 3 * rough;
             lom_put_tint(c, x, y, tint);
         }
     lom_shade_relief(c, 0.3);

@@ -192,6 +192,8 @@ bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_err
         faces[i] = NULL;
     if (size < 8 || size > 4096)
         return lom_fail(error, LOM_ERROR_USAGE, "A sky box is made with a side of 8 to 4096, not %d.", size);
+    lom_float_state state;
+    lom_enter_float_state(&state);
     painter p = { .cloudiness = desc->cloudiness, .exposure = 16.0 };
     lom_seed_noise(&p.noise, desc->seed);
     double flat = lom_double_cos(desc->sun_elevation);
@@ -199,15 +201,15 @@ bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_err
                      -lom_double_cos(desc->sun_azimuth) * flat };
     lom_fill_atmosphere(&p.atmosphere, sun, desc->haziness);
     measure_horizon(&p);
-    for (int i = 0; i < 6; i++) {
+    bool done = true;
+    for (int i = 0; i < 6 && done; i++) {
         faces[i] = paint_face(&p, i, size, error);
-        if (faces[i] == NULL) {
-            for (int k = 0; k < i; k++) {
-                lom_free_image(faces[k]);
-                faces[k] = NULL;
-            }
-            return false;
-        }
+        done = faces[i] != NULL;
     }
-    return true;
+    lom_leave_float_state(&state);
+    for (int i = 0; i < 6 && !done; i++) {
+        lom_free_image(faces[i]);
+        faces[i] = NULL;
+    }
+    return done;
 }

@@ -128,6 +128,8 @@ lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error
     s.slope[0] = lom_allocate(pixels, sizeof(double), error);
     s.slope[1] = lom_allocate(pixels, sizeof(double), error);
     lom_image *map = NULL;
+    lom_float_state state;
+    lom_enter_float_state(&state);
     if (s.cosine && s.slopes && s.spectrum && s.slope[0] && s.slope[1]) {
         for (int i = 0; i < s.size; i++)
             s.cosine[i] = lom_double_cos(6.283185307179586 * i / s.size);
@@ -135,6 +137,7 @@ lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error
         sum_waves(&s);
         map = paint_normals(&s, desc->roughness > 0 ? desc->roughness : 0.42, error);
     }
+    lom_leave_float_state(&state);
     lom_release(s.cosine);
     lom_release(s.slopes);
     lom_release(s.spectrum);
@@ -148,8 +151,11 @@ lom_image *lom_make_flow_map(const lom_image *normal_map, lom_error *error)
     lom_image *flow = lom_convert_image(normal_map, LOM_FORMAT_RGB8, error);
     if (flow == NULL)
         return NULL;
+    lom_float_state state;
+    lom_enter_float_state(&state);
     size_t samples = lom_image_size(flow);
     for (size_t i = 0; i < samples; i++)
         flow->pixels[i] = lom_unorm8_of_double(lom_smooth_step(0.2, 0.8, 1.0 - flow->pixels[i] / 255.0));
+    lom_leave_float_state(&state);
     return flow;
 }

@@ -1,0 +1,260 @@
+/* `lom make`. In: the name of an asset, or a kind of picture with its parameters; out: files. Invariant: every asset of
+ * the project stands in the table below with all its parameters, and is a function of them, so `lom make all` gives the
+ * committed files again byte for byte. */
+#include "commands.h"
+#include "options.h"
+
+#include <lom/lom.h>
+#include <lom/sky.h>
+#include <lom/water.h>
+
+#include <string.h>
+#include <sys/stat.h>
+#include <errno.h>
+
+static const double degree = 3.141592653589793 / 180.0;
+
+struct values {
+    const char *output;
+    lom_option_integers size, seed;
+    lom_option_number azimuth, elevation, haziness, cloudiness, roughness;
+};
+
+/* What a recipe needs, with the values of the committed asset, which options of the command line replace. */
+typedef struct parameters {
+    int size;
+    uint64_t seed;
+    double azimuth, elevation, haziness, cloudiness, roughness; /* of the sky and the waves; degrees */
+} parameters;
+
+typedef struct recipe {
+    const char *kind, *name; /* name: of one among several of a kind, else NULL */
+    const char *path;        /* below the assets' folder */
+    bool (*make)(const struct recipe *recipe, const parameters *p, const char *path, lom_error *error);
+    parameters parameters;
+} recipe;
+
+/* ---- what is made ---- */
+
+static bool write_and_free(const char *path, lom_image *image, lom_error *error)
+{
+    bool written = image != NULL && lom_write_image(path, strcmp(path, "-") == 0 ? "png" : NULL, image, error);
+    lom_free_image(image);
+    return written;
+}
+
+static bool make_height_map(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    (void)r;
+    return write_and_free(path, lom_make_height_map(&(lom_height_map_desc){ p->size, p->seed }, error), error);
+}
+
+static bool make_normal_map(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    (void)r;
+    lom_normal_map_desc desc = { p->size, p->seed, p->roughness };
+    return write_and_free(path, lom_make_normal_map(&desc, error), error);
+}
+
+static bool make_flow_map(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    (void)r;
+    lom_normal_map_desc desc = { p->size, p->seed, p->roughness };
+    lom_image *normals = lom_make_normal_map(&desc, error);
+    lom_image *flow = normals != NULL ? lom_make_flow_map(normals, error) : NULL;
+    lom_free_image(normals);
+    return write_and_free(path, flow, error);
+}
+
+static bool make_albedo(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    return write_and_free(path, lom_make_albedo(&(lom_albedo_desc){ r->name, p->size, p->seed }, error), error);
+}
+
+/* path with `word` in the place of its %s; false when it has none, more than one, or is too long. */
+static bool fill_pattern(char *filled, size_t room, const char *path, const char *word, lom_error *error)
+{
+    const char *mark = strstr(path, "%s");
+    if (mark == NULL || strstr(mark + 2, "%s") != NULL)
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "%s: a sky box is six files, so its name needs one %%s for right, left, top, bottom, front and "
+                        "back.",
+                        path);
+    int length = snprintf(filled, room, "%.*s%s%s", (int)(mark - path), path, word, mark + 2);
+    if (length < 0 || (size_t)length >= room)
+        return lom_fail(error, LOM_ERROR_USAGE, "%.200s...: the path is too long.", path);
+    return true;
+}
+
+static bool make_sky_box(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    static const char *const faces[6] = { "right", "left", "top", "bottom", "front", "back" };
+    (void)r;
+    char names[6][1024];
+    for (int i = 0; i < 6; i++)
+        if (!fill_pattern(names[i], sizeof names[i], path, faces[i], error))
+            return false;
+    lom_sky_box_desc desc = { .size = p->size,
+                              .sun_azimuth = p->azimuth * degree,
+                              .sun_elevation = p->elevation * degree,
+                              .haziness = p->haziness,
+                              .cloudiness = p->cloudiness,
+                              .seed = p->seed };
+    lom_image *pictures[6];
+    bool done = lom_make_sky_box(&desc, pictures, error);
+    for (int i = 0; i < 6; i++) {
+        done = done && lom_write_image(names[i], NULL, pictures[i], error);
+        lom_free_image(pictures[i]);
+    }
+    return done;
+}
+
+static const recipe recipes[] = {
+    { "height-map", NULL, "terrain/height.png", make_height_map, { .size = 1024, .seed = 3 } },
+    { "albedo", "grass", "terrain/grass.png", make_albedo, { .seed = 1 } },
+    { "albedo", "forest", "terrain/forest.png", make_albedo, { .seed = 1 } },
+    { "albedo", "rock", "terrain/rock.png", make_albedo, { .seed = 1 } },
+    { "albedo", "shore", "terrain/shore.png", make_albedo, { .seed = 1 } },
+    { "albedo", "snow", "terrain/snow.png", make_albedo, { .seed = 1 } },
+    { "normal-map", NULL, "water/normal.png", make_normal_map, { .size = 512, .seed = 1 } },
+    { "flow-map", NULL, "water/flow.png", make_flow_map, { .size = 512, .seed = 1 } },
+    { "sky-box",
+      NULL,
+      "sky/%s.png",
+      make_sky_box,
+      { .size = 1024, .seed = 2, .azimuth = 62, .elevation = 26, .haziness = 0.8, .cloudiness = 0.7 } },
+};
+enum { RECIPE_COUNT = sizeof recipes / sizeof recipes[0] };
+
+/* ---- the command line ---- */
+
+static const lom_option options[] = {
+    { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "OUT", 0, 0,
+      "where to: a file, or a folder for all" },
+    { "size", 0, LOM_OPTION_INTEGER, offsetof(struct values, size), "N", 8, 4096, "pixels a side" },
+    { "seed", 0, LOM_OPTION_INTEGER, offsetof(struct values, seed), "N", 0, 1e15,
+      "another seed gives another one of its kind" },
+    { "azimuth", 0, LOM_OPTION_NUMBER, offsetof(struct values, azimuth), "DEGREES", -360, 360,
+      "sky-box: where the sun stands, 0 north (-z), 90 east (+x)" },
+    { "elevation", 0, LOM_OPTION_NUMBER, offsetof(struct values, elevation), "DEGREES", 0, 90,
+      "sky-box: the sun's height" },
+    { "haziness", 0, LOM_OPTION_NUMBER, offsetof(struct values, haziness), "H", 0, 10,
+      "sky-box: 0 clean air, 1 a fine day" },
+    { "cloudiness", 0, LOM_OPTION_NUMBER, offsetof(struct values, cloudiness), "C", 0, 1,
+      "sky-box: 0 clear, 1 many clouds" },
+    { "roughness", 0, LOM_OPTION_NUMBER, offsetof(struct values, roughness), "R", 0.01, 4,
+      "normal-map, flow-map: root of the mean squared slope" },
+};
+
+static const lom_command_line line = {
+    .name = "make",
+    .arguments = "KIND [NAME]",
+    .summary =
+        "Makes a picture or a mesh: height-map, normal-map, flow-map, sky-box, albedo NAME; or all of the project's",
+    .details = "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
+               "options a\n"
+               "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
+               "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum_arguments = 1,
+    .maximum_arguments = 2,
+};
+
+static bool is_recipe(const recipe *r, const char *kind, const char *name)
+{
+    if (strcmp(r->kind, kind) != 0)
+        return false;
+    return r->name == NULL ? name == NULL : name != NULL && strcmp(r->name, name) == 0;
+}
+
+static const recipe *find_recipe(const lom_arguments *arguments)
+{
+    for (size_t i = 0; i < RECIPE_COUNT; i++)
+        if (is_recipe(&recipes[i], arguments->items[0], arguments->count > 1 ? arguments->items[1] : NULL))
+            return &recipes[i];
+    return NULL;
+}
+
+static void replace(double *value, const lom_option_number *option)
+{
+    if (option->given)
+        *value = option->value;
+}
+
+static parameters merge(const recipe *r, const struct values *v)
+{
+    parameters p = r->parameters;
+    if (v->size.given)
+        p.size = (int)v->size.value[0];
+    if (v->seed.given)
+        p.seed = (uint64_t)v->seed.value[0];
+    replace(&p.azimuth, &v->azimuth);
+    replace(&p.elevation, &v->elevation);
+    replace(&p.haziness, &v->haziness);
+    replace(&p.cloudiness, &v->cloudiness);
+    replace(&p.roughness, &v->roughness);
+    return p;
+}
+
+static void print_list(void)
+{
+    for (size_t i = 0; i < RECIPE_COUNT; i++)
+        printf("%-10s %-10s %s\n", recipes[i].kind, recipes[i].name != NULL ? recipes[i].name : "", recipes[i].path);
+}
+
+/* Makes the folders that path's file lies in, from `root` characters on. */
+static bool make_folders(char *path, size_t root, lom_error *error)
+{
+    for (size_t i = root; path[i] != '\0'; i++) {
+        if (path[i] != '/' || i == 0)
+            continue;
+        path[i] = '\0';
+        bool made = mkdir(path, 0777) == 0 || errno == EEXIST;
+        int reason = errno;
+        if (!made)
+            lom_fail(error, LOM_ERROR_FILE, "%s: %s.", path, strerror(reason));
+        path[i] = '/';
+        if (!made)
+            return false;
+    }
+    return true;
+}
+
+static bool make_all(const struct values *v, lom_error *error)
+{
+    for (size_t i = 0; i < RECIPE_COUNT; i++) {
+        char path[900];
+        int length = snprintf(path, sizeof path, "%s/%s", v->output, recipes[i].path);
+        if (length < 0 || (size_t)length >= sizeof path)
+            return lom_fail(error, LOM_ERROR_USAGE, "%.200s...: the path is too long.", v->output);
+        parameters p = merge(&recipes[i], &(struct values){ 0 });
+        if (!make_folders(path, strlen(v->output), error) || !recipes[i].make(&recipes[i], &p, path, error))
+            return false;
+    }
+    return true;
+}
+
+int lom_command_make(int argc, char **argv)
+{
+    struct values v = { 0 };
+    lom_arguments arguments;
+    lom_error error = { 0 };
+    int status;
+    if (!lom_parse_options(&line, argc, argv, &v, &arguments, &status))
+        return status;
+    if (strcmp(arguments.items[0], "list") == 0 && arguments.count == 1) {
+        print_list();
+        return LOM_EXIT_DONE;
+    }
+    if (v.output == NULL)
+        return lom_complain("make: -o OUT says where to.");
+    if (strcmp(arguments.items[0], "all") == 0 && arguments.count == 1)
+        return make_all(&v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
+    const recipe *found = find_recipe(&arguments);
+    if (found == NULL)
+        return lom_complain("make: there is no %s%s%s; `lom make list` prints what there is.", arguments.items[0],
+                            arguments.count > 1 ? " " : "", arguments.count > 1 ? arguments.items[1] : "");
+    parameters p = merge(found, &v);
+    return found->make(found, &p, v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
+}
