@@ -60,7 +60,7 @@ wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 
-.PHONY: all demo check lint format bench install clean
+.PHONY: all demo check check-long lint format bench install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -106,6 +106,10 @@ demo: $(BUILD)/lom
 
 check: all $(programs)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
+
+# Every float through every unary lane function: a quarter of an hour.
+check-long: $(BUILD)/tests/lanes/test_mathematics.w4
+	LOM_EXHAUSTIVE=1 $(BUILD)/tests/lanes/test_mathematics.w4
 
 format:
 	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])

@@ -1,0 +1,260 @@
+/* Lane mathematics: every function within 1 ulp of libm's double functions (whose error is far below an ulp of float)
+ * over a stride through all 2^32 floats, pow and atan2 over random and remarkable pairs, NaN results by their bits,
+ * lanes that do not see each other, and one hash that every width, compiler, level and machine must find.
+ * LOM_EXHAUSTIVE=1 walks every float. */
+#include <lom/lanes_mathematics.h>
+
+#include "check.h"
+
+#include <math.h>
+
+typedef void unary_lanes(lom_float *result, const lom_float *x);
+typedef void binary_lanes(lom_float *result, const lom_float *x, const lom_float *y);
+
+#define UNARY(X) X(exp) X(exp2) X(expm1) X(tanh) X(log) X(log2) X(sin) X(cos) X(tan) X(asin) X(acos) X(atan)
+#define WRAP(name)                                                                                                     \
+    static __attribute__((noinline)) void lanes_##name(lom_float *result, const lom_float *x)                          \
+    {                                                                                                                  \
+        *result = lom_##name(*x);                                                                                      \
+    }
+UNARY(WRAP)
+
+static __attribute__((noinline)) void lanes_pow(lom_float *result, const lom_float *x, const lom_float *y)
+{
+    *result = lom_pow(*x, *y);
+}
+
+static __attribute__((noinline)) void lanes_atan2(lom_float *result, const lom_float *y, const lom_float *x)
+{
+    *result = lom_atan2(*y, *x);
+}
+
+static const struct unary {
+    const char *name;
+    unary_lanes *function;
+    double (*oracle)(double);
+} unary[] = {
+#define ROW(name) { #name, lanes_##name, name },
+    UNARY(ROW)
+};
+enum { UNARY_COUNT = sizeof unary / sizeof unary[0], QUIET_NAN = 0x7fc00000 };
+
+static float float_of(uint32_t bits)
+{
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static uint32_t bits_of(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* The distance of got from want in ulps of float at want; 2^128 rounds to infinity as IEEE 754 says. A wrong sign of
+ * zero or a NaN with other bits is infinitely wrong. */
+static double error_in_ulps(float got, double want)
+{
+    if (isnan(want))
+        return bits_of(got) == QUIET_NAN ? 0 : INFINITY;
+    float rounded = (float)want;
+    if (isnan(got) || (signbit(got) != 0) != (signbit(want) != 0))
+        return INFINITY;
+    if (isinf(got) || isinf(rounded))
+        return got == rounded || fabs(want) >= 0x1.fffffep127 ? 0 : INFINITY;
+    uint64_t bits;
+    memcpy(&bits, &want, sizeof bits);
+    int exponent = (int)(bits >> 52 & 2047) - 1023;
+    bits = (uint64_t)((exponent < -126 ? -126 : exponent) - 23 + 1023) << 52; /* the ulp */
+    double ulp;
+    memcpy(&ulp, &bits, sizeof ulp);
+    return fabs(got - want) / ulp;
+}
+
+static void every_float_is_within_1_ulp(void)
+{
+    const char *exhaustive = getenv("LOM_EXHAUSTIVE");
+    uint64_t stride = exhaustive != NULL && exhaustive[0] == '1' ? 1 : 2003; /* a prime */
+    for (int f = 0; f < UNARY_COUNT; f++) {
+        double worst = 0;
+        float at = 0;
+        for (uint64_t start = 0; start >> 32 == 0; start += stride * LOM_LANES) {
+            float in[LOM_LANES], out[LOM_LANES];
+            for (int i = 0; i < LOM_LANES; i++)
+                in[i] = float_of((uint32_t)(start + (uint64_t)i * stride));
+            lom_float x = lom_load(in), y;
+            unary[f].function(&y, &x);
+            lom_store(out, y);
+            for (int i = 0; i < LOM_LANES; i++) {
+                double error = error_in_ulps(out[i], unary[f].oracle(in[i]));
+                if (error > worst)
+                    worst = error, at = in[i];
+            }
+        }
+        CHECK(worst <= 1, "%s(%a) is off by %g ulp", unary[f].name, at, worst);
+        printf("  %-5s %.4f ulp at %a\n", unary[f].name, worst, at);
+        fflush(stdout);
+    }
+}
+
+static void check_pair(const char *name, binary_lanes *function, double (*oracle)(double, double), const float *x,
+                       const float *y, double *worst)
+{
+    float out[LOM_LANES];
+    lom_float vx = lom_load(x), vy = lom_load(y), result;
+    function(&result, &vx, &vy);
+    lom_store(out, result);
+    for (int i = 0; i < LOM_LANES; i++) {
+        double error = error_in_ulps(out[i], oracle(x[i], y[i]));
+        CHECK(error <= 1, "%s(%a, %a) = %a is off by %g ulp", name, x[i], y[i], out[i], error);
+        *worst = error > *worst ? error : *worst;
+    }
+}
+
+static float random_float(uint64_t key, uint64_t i, float low, float high)
+{
+    return low + (high - low) * (float)lom_random_uniform(key, i);
+}
+
+/* Four kinds of pairs: any bits, powers of a cosine, bases near 1 with results of every size, and moderate numbers. */
+static void random_pairs_are_within_1_ulp(void)
+{
+    double worst_pow = 0, worst_atan2 = 0;
+    for (uint64_t i = 0; i < 400000; i += LOM_LANES) {
+        float x[LOM_LANES], y[LOM_LANES];
+        for (uint64_t k = 0; k < LOM_LANES; k++) {
+            uint64_t n = i + k, bits = lom_random_bits(1, n);
+            switch (n % 4) {
+            case 0:
+                x[k] = float_of((uint32_t)bits), y[k] = float_of((uint32_t)(bits >> 32));
+                break;
+            case 1:
+                x[k] = random_float(2, n, 0, 1), y[k] = random_float(3, n, 0, 200);
+                break;
+            case 2:
+                x[k] = random_float(2, n, 0.99f, 1.01f);
+                y[k] = random_float(3, n, -100, 100) / (float)fabs(log(x[k]) + 1e-9);
+                break;
+            default:
+                x[k] = random_float(2, n, 0, 9), y[k] = random_float(3, n, -9, 9);
+            }
+        }
+        check_pair("pow", lanes_pow, pow, x, y, &worst_pow);
+        check_pair("atan2", lanes_atan2, atan2, x, y, &worst_atan2);
+    }
+    printf("  pow   %.4f ulp\n  atan2 %.4f ulp\n", worst_pow, worst_atan2);
+}
+
+static void remarkable_pairs_follow_annex_f(void)
+{
+    static const float number[] = {
+        0.0f, 0x1p-149f, 0x1p-127f, 1e-5f,  0.5f,           0x1.fffffep-1f, 1.0f,  0x1.000002p0f,   1.5f,
+        2.0f, 3.0f,      4.0f,      127.0f, 0x1.fffffep23f, 0x1p24f,        1e30f, 0x1.fffffep127f, INFINITY,
+        NAN
+    };
+    enum { COUNT = sizeof number / sizeof number[0] };
+    double worst = 0;
+    for (int i = 0; i < 4 * COUNT * COUNT; i += LOM_LANES) {
+        float x[LOM_LANES], y[LOM_LANES];
+        for (int k = 0; k < LOM_LANES; k++) {
+            int n = (i + k) % (4 * COUNT * COUNT);
+            x[k] = copysignf(number[n / 4 % COUNT], n & 1 ? -1.0f : 1.0f);
+            y[k] = copysignf(number[n / 4 / COUNT], n & 2 ? -1.0f : 1.0f);
+        }
+        check_pair("pow", lanes_pow, pow, x, y, &worst);
+        check_pair("atan2", lanes_atan2, atan2, x, y, &worst);
+    }
+}
+
+static void integer_powers_by_squaring(void)
+{
+    static const int exponent[] = { 0, 1, 2, 3, 5, 8, 13, 32, 64, 100, -1, -3 };
+    for (uint64_t i = 0; i < 4000; i += LOM_LANES) {
+        float in[LOM_LANES], out[LOM_LANES];
+        for (uint64_t k = 0; k < LOM_LANES; k++)
+            in[k] = random_float(5, i + k, -1.5f, 1.5f);
+        for (size_t e = 0; e < sizeof exponent / sizeof exponent[0]; e++) {
+            int n = exponent[e];
+            lom_store(out, lom_pow_integer(lom_load(in), n));
+            for (int k = 0; k < LOM_LANES; k++) {
+                double want = pow(in[k], n), bound = (abs(n) + 1) * 0x1p-24 * fabs(want) + 64 * 0x1p-149;
+                CHECK(fabs(out[k] - want) <= bound, "%a^%d = %a", in[k], n, out[k]);
+                if (n == 13) { /* the stated order */
+                    float square = in[k] * in[k], fourth = square * square;
+                    CHECK(out[k] == in[k] * fourth * (fourth * fourth));
+                }
+            }
+        }
+    }
+}
+
+/* A lane's bits are the same whatever stands beside it: an argument alone, and beside ones that take the slow ways. */
+static void lanes_do_not_see_each_other(void)
+{
+    static const float company[] = { 1e30f, NAN, INFINITY, -1.0f, 0.0f, 0x1p-149f };
+    for (uint64_t i = 0; i < 3000; i++) {
+        float x = i & 1 ? random_float(7, i, -4, 4) : float_of((uint32_t)lom_random_bits(7, i));
+        float y = random_float(8, i, -4, 4);
+        int lane = (int)(i % LOM_LANES);
+        lom_float alone = lom_splat(x), beside = lom_splat(company[i % 6]), other = lom_splat(y), first, second;
+        beside[lane] = x;
+        for (int f = 0; f < UNARY_COUNT; f++) {
+            unary[f].function(&first, &alone);
+            unary[f].function(&second, &beside);
+            CHECK(bits_of(first[lane]) == bits_of(second[lane]), "%s(%a)", unary[f].name, x);
+        }
+        lanes_pow(&first, &alone, &other);
+        lanes_pow(&second, &beside, &other);
+        CHECK(bits_of(first[lane]) == bits_of(second[lane]), "pow(%a, %a)", x, y);
+        lanes_atan2(&first, &alone, &other);
+        lanes_atan2(&second, &beside, &other);
+        CHECK(bits_of(first[lane]) == bits_of(second[lane]), "atan2(%a, %a)", x, y);
+    }
+}
+
+static uint64_t hash_lanes(uint64_t hash, const lom_float *value)
+{
+    uint8_t bytes[LOM_LANES][4];
+    for (int i = 0; i < LOM_LANES; i++)
+        for (int k = 0; k < 4; k++)
+            bytes[i][k] = (uint8_t)(bits_of((*value)[i]) >> 8 * k);
+    return lom_hash_bytes(hash, bytes, sizeof bytes);
+}
+
+static void the_hash_is_the_recorded_one(void)
+{
+    uint64_t hash = LOM_HASH_START;
+    enum { COUNT = 4096 };
+    for (int f = 0; f < UNARY_COUNT + 3; f++)
+        for (uint64_t i = 0; i < COUNT; i += LOM_LANES) {
+            lom_float x, y, result;
+            for (uint64_t k = 0; k < LOM_LANES; k++) {
+                uint64_t n = i + k;
+                x[k] = n & 1 ? random_float(9, n, -8, 8) : float_of((uint32_t)lom_random_bits(9, n));
+                y[k] = n % 3 ? random_float(10, n, -8, 8) : float_of((uint32_t)lom_random_bits(10, n));
+            }
+            if (f < UNARY_COUNT)
+                unary[f].function(&result, &x);
+            else if (f == UNARY_COUNT)
+                lanes_pow(&result, &x, &y);
+            else if (f == UNARY_COUNT + 1)
+                lanes_atan2(&result, &x, &y);
+            else
+                result = lom_keep_nan(x, lom_pow_integer(x, 37));
+            hash = hash_lanes(hash, &result);
+        }
+    CHECK(hash == UINT64_C(0xf6b4f34185758017), "%016llx", (unsigned long long)hash);
+}
+
+int main(int argc, char **argv)
+{
+    RUN(every_float_is_within_1_ulp);
+    RUN(random_pairs_are_within_1_ulp);
+    RUN(remarkable_pairs_follow_annex_f);
+    RUN(integer_powers_by_squaring);
+    RUN(lanes_do_not_see_each_other);
+    RUN(the_hash_is_the_recorded_one);
+    return check_result();
+}
