@@ -13,7 +13,7 @@ VERSION := $(shell sed -n 's/^\#define LOM_VERSION *"\(.*\)"/\1/p' include/lom/b
 MACHINE := $(shell $(CC) -dumpmachine)
 
 # The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
-FLOAT_FLAGS = -ffp-contract=off -fno-math-errno -fno-trapping-math
+FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
 CFLAGS      = -std=gnu11 -O$(O) -g -fPIC -fvisibility=hidden $(FLOAT_FLAGS) $(WARNINGS)
@@ -68,10 +68,10 @@ all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
 
 $(BUILD)/liblom.a: $(lib_objects)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	@echo "  AR  $@"; $(AR) rcs $@ $^
 
 $(BUILD)/liblom.so: $(lib_objects)
-	$(CC) -shared $(LDFLAGS) -Wl,-soname,liblom.so.0 -o $@ $^ $(LDLIBS)
+	@echo "  LD  $@"; $(CC) -shared $(LDFLAGS) -Wl,-soname,liblom.so.0 -o $@ $^ $(LDLIBS)
 
 $(BUILD)/lom: $(cli_objects) $(BUILD)/liblom.a
 	$(CC) $(LDFLAGS) -o $@ $^ $(CLI_LIBS) $(LDLIBS)
@@ -89,7 +89,7 @@ $(BUILD)/src/%.w$(1).o: src/%.wide.c $(BUILD)/flags
 
 $(BUILD)/tests/%.w$(1): tests/%.wide.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $$(@D)
-	$$(CC) $$(CPPFLAGS) -Itests $$(CFLAGS) $$(FLAGS_$(1)) -MMD -MP $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
+	$$(CC) $$(CPPFLAGS) -Itests $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES -MMD -MP $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
 endef
 $(foreach v,$(VARIANTS),$(eval $(call wide_rule,$(v))))
 

@@ -225,6 +225,17 @@ LOM_INLINE lom_float4 lom_defined_load_rows(const float *const rows[LOM_LANES], 
     return x;
 }
 
+/* The lanes whose mask is set, side by side from `to` on, in lane order; up to LOM_LANES floats are written, those after
+ * the last set lane with unspecified values. */
+LOM_INLINE void lom_defined_compress(float *to, lom_mask mask, lom_float x)
+{
+    int count = 0;
+    for (int i = 0; i < LOM_LANES; i++) {
+        to[count] = x[i];
+        count -= mask[i];
+    }
+}
+
 /* ---- overrides: the same values by an instruction ---- */
 
 #if defined __x86_64__ && !defined LOM_NO_OVERRIDES
@@ -273,6 +284,12 @@ LOM_INLINE lom_float lom_floor(lom_float x)
 LOM_INLINE lom_float lom_round(lom_float x)
 {
     return lom_defined_round(x);
+}
+#endif
+#ifndef LOM_OVERRIDES_COMPRESS
+LOM_INLINE void lom_compress(float *to, lom_mask mask, lom_float x)
+{
+    lom_defined_compress(to, mask, x);
 }
 #endif
 #ifndef LOM_OVERRIDES_GATHER

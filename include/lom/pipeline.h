@@ -69,6 +69,9 @@ enum {
     LOM_VARIANTS = 5 /* 4, 8, 16 lanes, then 8 and 16 lowered */
 };
 
+/* The place of each variant in a shader's tables. */
+enum { LOM_SLOT_4 = 0, LOM_SLOT_8, LOM_SLOT_16, LOM_SLOT_8_plain, LOM_SLOT_16_plain };
+
 /* What a vertex shader gets: LOM_LANES vertices. Missing components are 0, 0, 1 as in OpenGL (x, y, z, w = 0, 0, 0, 1).
  */
 typedef struct lom_attributes {
@@ -174,7 +177,7 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
     }
 #if !defined LOM_ALL_LANES
 #define LOM_SHADER_TABLE(kind, name, type)
-#define LOM_SHADER_SLOT (LOM_LANES == 4 ? 0 : LOM_LANES == 8 ? 1 : 2)
+#define LOM_SHADER_SLOT LOM_PASTE(LOM_SLOT, LOM_VARIANT)
 #define LOM_SHADER_LIST(entry)                                                                                         \
     {                                                                                                                  \
         [LOM_SHADER_SLOT] = LOM_WIDE(entry)                                                                            \

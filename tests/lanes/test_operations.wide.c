@@ -88,6 +88,17 @@ static void gathers_read_what_their_indices_name(void)
     }
 }
 
+static void compress_keeps_set_lanes_in_order(void)
+{
+    for (uint64_t n = 0; n < 70000; n++) {
+        float    a[LOM_LANES], b[LOM_LANES];
+        lom_mask mask = lom_mask_of_bits((uint32_t)n);
+        lom_compress(a, mask, lom_as_float(pattern(6, n)));
+        lom_defined_compress(b, mask, lom_as_float(pattern(6, n)));
+        CHECK(memcmp(a, b, sizeof(float) * (size_t)__builtin_popcount(lom_bits(mask))) == 0, "mask %x", lom_bits(mask));
+    }
+}
+
 static void definitions_have_their_stated_values(void)
 {
     float nan = __builtin_nanf(""), infinity = __builtin_inff();
@@ -112,6 +123,7 @@ int main(int argc, char **argv)
     RUN(definitions_have_their_stated_values);
     RUN(overrides_equal_definitions_on_specials);
     RUN(overrides_equal_definitions_on_random_bits);
+    RUN(compress_keeps_set_lanes_in_order);
     RUN(gathers_read_what_their_indices_name);
     return check_result();
 }

@@ -1,0 +1,148 @@
+/* The pool: in, a function; out, its effects on every worker. A waiting worker spins briefly (a pass has many short
+ * phases) and then sleeps (spinning on a shared core costs whole scheduler quanta). */
+#include "base/threads.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+enum { SPINS = 2000 };
+
+struct lom_pool {
+    int             size;
+    pthread_t      *threads;
+    pthread_mutex_t mutex;
+    pthread_cond_t  wake, finished;
+    atomic_uint     generation; /* odd steps are never seen: it counts the calls of lom_run_pool */
+    atomic_int      running;
+    bool            ending;
+    lom_work       *work;
+    void           *context;
+};
+
+struct worker {
+    lom_pool *pool;
+    int       number;
+};
+
+static void pause_briefly(void)
+{
+#if defined __x86_64__
+    __builtin_ia32_pause();
+#endif
+}
+
+static unsigned wait_for_generation(lom_pool *pool, unsigned seen)
+{
+    for (int i = 0; i < SPINS; i++) {
+        if (atomic_load_explicit(&pool->generation, memory_order_acquire) != seen)
+            return seen + 1;
+        pause_briefly();
+    }
+    pthread_mutex_lock(&pool->mutex);
+    while (atomic_load_explicit(&pool->generation, memory_order_acquire) == seen)
+        pthread_cond_wait(&pool->wake, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+    return seen + 1;
+}
+
+static void *run_worker(void *argument)
+{
+    struct worker *worker = argument;
+    lom_pool      *pool   = worker->pool;
+    int            number = worker->number;
+    lom_release(worker);
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    for (unsigned seen = 0;;) {
+        seen = wait_for_generation(pool, seen);
+        if (pool->ending)
+            return NULL;
+        pool->work(pool->context, number);
+        if (atomic_fetch_sub_explicit(&pool->running, 1, memory_order_acq_rel) == 1) {
+            pthread_mutex_lock(&pool->mutex);
+            pthread_cond_signal(&pool->finished);
+            pthread_mutex_unlock(&pool->mutex);
+        }
+    }
+}
+
+static bool start_worker(lom_pool *pool, int number)
+{
+    struct worker *worker = lom_allocate(1, sizeof *worker, NULL);
+    if (worker == NULL)
+        return false;
+    *worker = (struct worker){ pool, number };
+    if (pthread_create(&pool->threads[number], NULL, run_worker, worker) == 0)
+        return true;
+    lom_release(worker);
+    return false;
+}
+
+lom_pool *lom_create_pool(int threads, lom_error *error)
+{
+    lom_pool *pool = lom_allocate(1, sizeof *pool, error);
+    if (pool == NULL)
+        return NULL;
+    pool->threads = lom_allocate((size_t)threads, sizeof *pool->threads, error);
+    if (pool->threads == NULL) {
+        lom_release(pool);
+        return NULL;
+    }
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->wake, NULL);
+    pthread_cond_init(&pool->finished, NULL);
+    pool->size = 1;
+    while (pool->size < threads && start_worker(pool, pool->size))
+        pool->size++;
+    return pool;
+}
+
+static void advance_generation(lom_pool *pool)
+{
+    pthread_mutex_lock(&pool->mutex);
+    atomic_fetch_add_explicit(&pool->generation, 1, memory_order_release);
+    pthread_cond_broadcast(&pool->wake);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+void lom_free_pool(lom_pool *pool)
+{
+    if (pool == NULL)
+        return;
+    pool->ending = true;
+    advance_generation(pool);
+    for (int i = 1; i < pool->size; i++)
+        pthread_join(pool->threads[i], NULL);
+    pthread_cond_destroy(&pool->finished);
+    pthread_cond_destroy(&pool->wake);
+    pthread_mutex_destroy(&pool->mutex);
+    lom_release(pool->threads);
+    lom_release(pool);
+}
+
+int lom_pool_size(const lom_pool *pool)
+{
+    return pool->size;
+}
+
+void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
+{
+    if (pool->size > 1) {
+        pool->work    = work;
+        pool->context = context;
+        atomic_store_explicit(&pool->running, pool->size - 1, memory_order_relaxed);
+        advance_generation(pool);
+    }
+    work(context, 0);
+    if (pool->size == 1)
+        return;
+    for (int i = 0; i < SPINS; i++) {
+        if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0)
+            return;
+        pause_briefly();
+    }
+    pthread_mutex_lock(&pool->mutex);
+    while (atomic_load_explicit(&pool->running, memory_order_acquire) != 0)
+        pthread_cond_wait(&pool->finished, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}

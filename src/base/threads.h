@@ -1,0 +1,20 @@
+/* A pool of worker threads that run one function together and wait for one another. */
+#ifndef LOM_BASE_THREADS_H
+#define LOM_BASE_THREADS_H
+
+#include <lom/base.h>
+
+typedef struct lom_pool lom_pool;
+typedef void            lom_work(void *context, int worker);
+
+/* A pool of `threads` workers, of which the caller is number 0; each has the default float state. When the system gives
+ * fewer threads the pool is that much smaller: results never depend on it. NULL when memory runs out. */
+lom_pool *lom_create_pool(int threads, lom_error *error);
+/* Ends the workers and frees the pool; NULL is allowed. */
+void lom_free_pool(lom_pool *pool);
+/* Workers of the pool, the caller included. */
+int lom_pool_size(const lom_pool *pool);
+/* Runs work(context, worker) on every worker; returns when all have returned. What they wrote is visible to the caller. */
+void lom_run_pool(lom_pool *pool, lom_work *work, void *context);
+
+#endif

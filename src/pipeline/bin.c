@@ -1,0 +1,44 @@
+/* Stage 4 of 7: bin. In: a chunk's triangles. Out: for each tile the list of those that may touch it, in their order (a
+ * counting sort). Tiles are numbered row by row. */
+#include "pipeline/stages.h"
+
+struct span { /* tiles, inclusive */
+    int x0, y0, x1, y1;
+};
+
+static struct span tiles_of(const struct lom_pass *pass, const lom_triangle *t)
+{
+    int shift = __builtin_ctz((unsigned)pass->tile);
+    return (struct span){ (t->left - pass->tile_x0) >> shift, (t->top - pass->tile_y0) >> shift,
+                          (t->right - pass->tile_x0) >> shift, (t->bottom - pass->tile_y0) >> shift };
+}
+
+void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y, total = 0;
+    if (!lom_reserve((void **)&chunk->tile_first, &chunk->tile_first_capacity, tiles + 2, sizeof(uint32_t))) {
+        chunk->failed = true;
+        return;
+    }
+    uint32_t *first = chunk->tile_first;
+    memset(first, 0, (tiles + 2) * sizeof *first);
+    for (size_t i = 0; i < chunk->triangle_count; i++) {
+        struct span s = tiles_of(pass, &chunk->triangles[i]);
+        for (int y = s.y0; y <= s.y1; y++)
+            for (int x = s.x0; x <= s.x1; x++)
+                first[y * pass->tiles_x + x + 2]++;
+        total += (size_t)(s.x1 - s.x0 + 1) * (size_t)(s.y1 - s.y0 + 1);
+    }
+    if (!lom_reserve((void **)&chunk->tile_list, &chunk->tile_list_capacity, total, sizeof(uint32_t))) {
+        chunk->failed = true;
+        return;
+    }
+    for (size_t i = 2; i < tiles + 2; i++)
+        first[i] += first[i - 1];
+    for (size_t i = 0; i < chunk->triangle_count; i++) {
+        struct span s = tiles_of(pass, &chunk->triangles[i]);
+        for (int y = s.y0; y <= s.y1; y++)
+            for (int x = s.x0; x <= s.x1; x++)
+                chunk->tile_list[first[y * pass->tiles_x + x + 1]++] = (uint32_t)i;
+    }
+}

@@ -1,0 +1,259 @@
+/* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles (cutting
+ * those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins, in order. */
+#include "pipeline/stages.h"
+
+enum { GROUP = 16 }; /* triangles handed to set-up at a time: a whole number of packets at every width */
+#define NO_VERTEX UINT32_MAX
+
+bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size)
+{
+    if (needed <= *capacity)
+        return true;
+    size_t larger = *capacity + *capacity / 2;
+    if (larger < needed)
+        larger = needed;
+    void *grown = lom_allocate(larger, size, NULL);
+    if (grown == NULL)
+        return false;
+    if (*array != NULL)
+        memcpy(grown, *array, *capacity * size);
+    lom_release(*array);
+    *array    = grown;
+    *capacity = larger;
+    return true;
+}
+
+bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
+{
+    size_t       padded = rows + 16; /* the vertex stage writes whole packets */
+    const float *before = chunk->rows;
+    if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats, sizeof(float)) ||
+        !lom_reserve((void **)&chunk->clip, &chunk->clip_capacity, padded * 4, sizeof(float)) ||
+        !lom_reserve((void **)&chunk->codes, &chunk->codes_capacity, padded, sizeof(uint16_t))) {
+        chunk->failed = true;
+        return false;
+    }
+    if (chunk->rows != before)
+        for (size_t i = 0; i < chunk->triangle_count; i++)
+            for (int k = 0; k < 3; k++)
+                chunk->triangles[i].row[k] = chunk->rows + (chunk->triangles[i].row[k] - before);
+    return true;
+}
+
+/* The index at a place of the draw's index buffer, or the place itself; UINT32_MAX for the restart index. */
+static uint32_t index_at(const lom_draw_desc *desc, size_t place)
+{
+    if (desc->indices == NULL)
+        return (uint32_t)(desc->first + place);
+    if (desc->index_bits == 16) {
+        uint16_t index = ((const uint16_t *)desc->indices)[desc->first + place];
+        return desc->restart && index == UINT16_MAX ? UINT32_MAX : index;
+    }
+    return ((const uint32_t *)desc->indices)[desc->first + place];
+}
+
+/* Places of triangle t's corners in the index buffer; the last is the provoking vertex. */
+static void corner_places(lom_topology topology, size_t t, size_t place[3])
+{
+    switch (topology) {
+    default:
+        place[0] = 3 * t;
+        place[1] = 3 * t + 1;
+        place[2] = 3 * t + 2;
+        break;
+    case LOM_TRIANGLE_STRIP: /* every second triangle is turned round */
+        place[0] = t + (t & 1);
+        place[1] = t + 1 - (t & 1);
+        place[2] = t + 2;
+        break;
+    case LOM_TRIANGLE_FAN:
+        place[0] = 0;
+        place[1] = t + 1;
+        place[2] = t + 2;
+        break;
+    }
+}
+
+/* In a strip or fan with restarts the corners count from its own start: the place after the last restart before t. */
+static size_t strip_start(const lom_draw_desc *desc, size_t t)
+{
+    while (desc->restart && t > 0 && index_at(desc, t - 1) != UINT32_MAX)
+        t--;
+    return desc->restart ? t : 0;
+}
+
+/* The vertex numbers of triangle t, or NO_VERTEX in the first where it has none (a restart index, an index out of range). */
+static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start, uint32_t number[3])
+{
+    const lom_draw_desc *desc = &draw->desc;
+    size_t               place[3];
+    corner_places(desc->topology, desc->topology == LOM_TRIANGLES ? t : t - start, place);
+    for (int k = 0; k < 3; k++) {
+        uint32_t index  = index_at(desc, place[k] + (desc->topology == LOM_TRIANGLES ? 0 : start));
+        int64_t  vertex = (int64_t)index + desc->base_vertex;
+        if ((index == UINT32_MAX && desc->restart) || vertex < 0 || vertex >= (int64_t)desc->vertex_count) {
+            number[0] = NO_VERTEX;
+            return;
+        }
+        number[k] = (uint32_t)vertex;
+    }
+}
+
+static void resolve_all_corners(struct lom_chunk *chunk)
+{
+    const struct lom_draw *draw  = chunk->draw;
+    size_t                 start = strip_start(&draw->desc, chunk->first);
+    for (size_t i = 0; i < chunk->count; i++) {
+        size_t t = chunk->first + i;
+        if (draw->desc.restart && t > 0 && index_at(&draw->desc, t - 1) == UINT32_MAX)
+            start = t;
+        resolve_corners(draw, t, start, chunk->corners + 3 * i);
+    }
+}
+
+/* The same for the usual case, a list of 32-bit indices that are all in range: a copy with its extremes. */
+static bool copy_plain_corners(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
+{
+    const lom_draw_desc *desc = &chunk->draw->desc;
+    if (desc->topology != LOM_TRIANGLES || desc->indices == NULL || desc->index_bits != 32 || desc->base_vertex != 0 ||
+        desc->restart)
+        return false;
+    const uint32_t *from = (const uint32_t *)desc->indices + desc->first + 3 * chunk->first;
+    uint32_t        smallest = UINT32_MAX, largest = 0;
+    for (size_t i = 0; i < 3 * chunk->count; i++) {
+        uint32_t index    = from[i];
+        chunk->corners[i] = index;
+        smallest          = index < smallest ? index : smallest;
+        largest           = index > largest ? index : largest;
+    }
+    *low  = smallest;
+    *high = largest;
+    return largest < desc->vertex_count;
+}
+
+static void find_extremes(const struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
+{
+    *low  = UINT32_MAX;
+    *high = 0;
+    for (size_t i = 0; i < 3 * chunk->count; i++) {
+        uint32_t number = chunk->corners[i];
+        if (chunk->corners[i - i % 3] == NO_VERTEX)
+            continue;
+        *low  = number < *low ? number : *low;
+        *high = number > *high ? number : *high;
+    }
+}
+
+/* A list with a vertex for each corner, for triangles that are scattered over many vertices. */
+static bool list_vertices(struct lom_chunk *chunk)
+{
+    if (!lom_reserve((void **)&chunk->vertex_list, &chunk->vertex_list_capacity, 3 * chunk->count, sizeof(uint32_t)))
+        return false;
+    chunk->vertex_count = 0;
+    for (size_t i = 0; i < 3 * chunk->count; i++) {
+        if (chunk->corners[i - i % 3] == NO_VERTEX)
+            continue;
+        chunk->vertex_list[chunk->vertex_count] = chunk->corners[i];
+        chunk->corners[i]                       = (uint32_t)chunk->vertex_count++;
+    }
+    chunk->vertex_base = 0;
+    return true;
+}
+
+/* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
+static bool choose_vertices(struct lom_chunk *chunk)
+{
+    uint32_t low, high;
+    if (!lom_reserve((void **)&chunk->corners, &chunk->corners_capacity, 3 * chunk->count, sizeof(uint32_t)))
+        return false;
+    if (!copy_plain_corners(chunk, &low, &high)) {
+        resolve_all_corners(chunk);
+        find_extremes(chunk, &low, &high);
+    }
+    chunk->vertex_count = low > high ? 0 : (size_t)(high - low) + 1;
+    chunk->vertex_base  = low;
+    chunk->listed       = chunk->vertex_count > 6 * chunk->count;
+    return !chunk->listed || list_vertices(chunk);
+}
+
+struct group { /* triangles on their way to set-up */
+    uint32_t corner[GROUP][3];
+    int      count;
+};
+
+static void send(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group)
+{
+    if (group->count > 0 && !chunk->failed)
+        lom_stages_of(chunk->draw->variant)
+            ->set_up(pass, chunk, (const uint32_t(*)[3])group->corner, group->count);
+    group->count = 0;
+}
+
+static void add(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group, const uint32_t corner[3])
+{
+    memcpy(group->corner[group->count], corner, 3 * sizeof corner[0]);
+    group->count++;
+    if (group->count == GROUP)
+        send(pass, chunk, group);
+}
+
+/* A cut triangle keeps its flat varyings: they are written to the provoking vertex of each piece. */
+static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group,
+                        const uint32_t corner[3], unsigned codes)
+{
+    uint32_t fan[LOM_MAX_FAN][3];
+    int      pieces = lom_clip_triangle(pass, chunk, corner, codes, fan);
+    size_t   pitch  = (size_t)chunk->draw->row_floats;
+    uint32_t flat   = chunk->draw->desc.shader->flat;
+    for (int i = 0; i < pieces; i++) {
+        uint32_t provoking = fan[i][2];
+        if (flat != 0 && provoking != corner[2]) {
+            if (!lom_reserve_rows(chunk, chunk->row_count + 1))
+                return;
+            uint32_t copy = (uint32_t)chunk->row_count++;
+            memcpy(chunk->rows + copy * pitch, chunk->rows + provoking * pitch, pitch * sizeof(float));
+            memcpy(chunk->clip + copy * 4, chunk->clip + provoking * 4, 4 * sizeof(float));
+            for (int v = 0; v < chunk->draw->desc.shader->varyings; v++)
+                if (flat >> v & 1)
+                    chunk->rows[copy * pitch + ROW_HEADER + (size_t)v] =
+                        chunk->rows[corner[2] * pitch + ROW_HEADER + (size_t)v];
+            fan[i][2] = copy;
+        }
+        add(pass, chunk, group, fan[i]);
+    }
+}
+
+static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    struct group group = { .count = 0 };
+    for (size_t t = 0; t < chunk->count; t++) {
+        const uint32_t *number = chunk->corners + 3 * t;
+        if (number[0] == NO_VERTEX)
+            continue;
+        uint32_t base      = chunk->vertex_base;
+        uint32_t corner[3] = { number[0] - base, number[1] - base, number[2] - base };
+        unsigned a = chunk->codes[corner[0]], b = chunk->codes[corner[1]], c = chunk->codes[corner[2]];
+        unsigned any = a | b | c;
+        if ((a & b & c & CODE_REJECT) != 0 || (any & CODE_INVALID) != 0)
+            continue;
+        if ((any & CODE_CLIP) != 0)
+            add_clipped(pass, chunk, &group, corner, any);
+        else
+            add(pass, chunk, &group, corner);
+    }
+    send(pass, chunk, &group);
+}
+
+void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    chunk->triangle_count    = 0;
+    chunk->triangles_clipped = 0;
+    chunk->failed            = !choose_vertices(chunk) || !lom_reserve_rows(chunk, chunk->vertex_count);
+    if (chunk->failed)
+        return;
+    chunk->row_count = chunk->vertex_count;
+    lom_stages_of(chunk->draw->variant)->shade_vertices(pass, chunk);
+    assemble(pass, chunk);
+    if (!chunk->failed)
+        lom_bin_chunk(pass, chunk);
+}

@@ -1,0 +1,137 @@
+/* Opening and closing a device, and what it owns. In: a descriptor. Out: a device whose first error stays with it. */
+#include "pipeline/device.h"
+
+static int lanes_of(int variant)
+{
+    static const int lanes[LOM_VARIANTS] = { 4, 8, 16, 8, 16 };
+    return lanes[variant];
+}
+
+/* The variant that runs `lanes` lanes on this processor. */
+static int choose_variant(int lanes, bool plain)
+{
+#if defined __x86_64__
+    lom_cpu cpu = lom_detect_cpu();
+    if (lanes == 0)
+        lanes = plain ? 4 : cpu.avx512 ? 16 : cpu.avx2 ? 8 : 4;
+    if (lanes == 8)
+        return cpu.avx2 && !plain ? 1 : 3;
+    if (lanes == 16)
+        return cpu.avx512 && !plain ? 2 : 4;
+    return 0;
+#else
+    (void)plain;
+    return lanes == 16 ? 2 : lanes == 8 ? 1 : 0;
+#endif
+}
+
+static bool check_desc(const lom_device_desc *desc, lom_error *error)
+{
+    if (desc->threads < 0 || desc->threads > 256)
+        return lom_fail(error, LOM_ERROR_USAGE, "A device has 1 to 256 threads, not %d.", desc->threads);
+    if (desc->lanes != 0 && desc->lanes != 4 && desc->lanes != 8 && desc->lanes != 16)
+        return lom_fail(error, LOM_ERROR_USAGE, "A device has 4, 8 or 16 lanes, not %d.", desc->lanes);
+    if (desc->tile != 0 && desc->tile != 16 && desc->tile != 32 && desc->tile != 64)
+        return lom_fail(error, LOM_ERROR_USAGE, "A tile has an edge of 16, 32 or 64 pixels, not %d.", desc->tile);
+    if (desc->chunk != 0 && (desc->chunk < 16 || desc->chunk > 65536))
+        return lom_fail(error, LOM_ERROR_USAGE, "A chunk has 16 to 65536 triangles, not %d.", desc->chunk);
+    if (desc->batch < 0 || desc->batch > 1024)
+        return lom_fail(error, LOM_ERROR_USAGE, "A batch has 1 to 1024 chunks, not %d.", desc->batch);
+    return true;
+}
+
+static void resolve_desc(lom_device *device, const lom_device_desc *desc)
+{
+    device->variant      = choose_variant(desc->lanes, desc->plain);
+    device->desc.lanes   = lanes_of(device->variant);
+    device->desc.plain   = device->variant == 0 || device->variant > 2;
+    device->desc.threads = desc->threads != 0 ? desc->threads : lom_default_threads();
+    device->desc.tile    = desc->tile != 0 ? desc->tile : 64;
+    device->desc.chunk   = desc->chunk != 0 ? desc->chunk : 8192;
+    device->desc.batch   = desc->batch != 0 ? desc->batch : 32;
+}
+
+lom_device *lom_open_device(const lom_device_desc *desc)
+{
+    lom_device *device = lom_allocate(1, sizeof *device, NULL);
+    if (device == NULL)
+        return NULL;
+    if (!check_desc(desc, &device->error))
+        return device;
+    resolve_desc(device, desc);
+    device->pool         = lom_create_pool(device->desc.threads, &device->error);
+    device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
+    device->chunks       = lom_allocate((size_t)device->desc.batch, sizeof(struct lom_chunk), &device->error);
+    return device;
+}
+
+static void free_chunk(struct lom_chunk *chunk)
+{
+    lom_release(chunk->corners);
+    lom_release(chunk->vertex_list);
+    lom_release(chunk->rows);
+    lom_release(chunk->clip);
+    lom_release(chunk->codes);
+    lom_release(chunk->triangles);
+    lom_release(chunk->tile_first);
+    lom_release(chunk->tile_list);
+}
+
+void lom_close_device(lom_device *device)
+{
+    if (device == NULL)
+        return;
+    lom_free_pool(device->pool);
+    for (int i = 0; device->chunks != NULL && i < device->desc.batch; i++)
+        free_chunk(&device->chunks[i]);
+    for (size_t i = 0; i < device->texture_count; i++)
+        lom_free_texture(device->textures[i]);
+    lom_release(device->textures);
+    lom_release(device->chunks);
+    lom_release(device->worker_tiles);
+    lom_release(device->tile_memory);
+    lom_release(device->tile_touched);
+    lom_release(device->draws);
+    lom_release(device->uniforms);
+    lom_release(device);
+}
+
+const lom_error *lom_device_error(const lom_device *device)
+{
+    return &device->error;
+}
+
+lom_device_desc lom_describe_device(const lom_device *device)
+{
+    return device->desc;
+}
+
+lom_counters lom_device_counters(const lom_device *device)
+{
+    return device->counters;
+}
+
+lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
+{
+    if (device->error.code != LOM_OK)
+        return NULL;
+    if (!lom_reserve((void **)&device->textures, &device->texture_capacity, device->texture_count + 1,
+                  sizeof *device->textures)) {
+        lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another texture.");
+        return NULL;
+    }
+    lom_texture *texture = lom_create_texture(desc, &device->error);
+    if (texture != NULL)
+        device->textures[device->texture_count++] = texture;
+    return texture;
+}
+
+void lom_release_texture(lom_device *device, lom_texture *texture)
+{
+    for (size_t i = 0; i < device->texture_count; i++)
+        if (device->textures[i] == texture) {
+            device->textures[i] = device->textures[--device->texture_count];
+            lom_free_texture(texture);
+            return;
+        }
+}

@@ -1,0 +1,35 @@
+/* The device: its workers, the memory that passes reuse, and what it owns. */
+#ifndef LOM_PIPELINE_DEVICE_H
+#define LOM_PIPELINE_DEVICE_H
+
+#include "pipeline/stages.h"
+
+struct lom_device {
+    lom_error       error;
+    lom_device_desc desc; /* resolved */
+    int             variant;
+    lom_pool       *pool;
+    lom_counters    counters;
+    lom_texture   **textures;
+    size_t          texture_count, texture_capacity;
+
+    bool             in_pass;
+    struct lom_pass  pass;
+    struct lom_tile *worker_tiles; /* one for each worker */
+    struct lom_chunk *chunks;      /* desc.batch of them */
+    uint8_t         *tile_memory, *tile_touched;
+    size_t           tile_memory_capacity, tile_touched_capacity;
+    struct lom_draw *draws;
+    size_t           draw_capacity;
+    uint8_t         *uniforms; /* copies, 64 bytes aligned; offsets are kept while it grows */
+    size_t           uniforms_size, uniforms_capacity;
+};
+
+/* Checks a descriptor and records it; false with an error on the device. */
+bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
+/* What both rectangles cover. */
+lom_rect lom_intersect_rects(lom_rect a, lom_rect b);
+/* Runs every recorded draw into tile memory and resolves it. */
+bool lom_run_pass(lom_device *device);
+
+#endif

@@ -1,0 +1,139 @@
+/* Recording a draw. In: a descriptor. Out: a checked copy of it and of its uniforms, with the pass's defaults filled in.
+ * Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
+#include "pipeline/device.h"
+
+static size_t attribute_size(lom_attribute_kind kind)
+{
+    static const size_t sizes[] = { 0, 4, 8, 12, 16, 4 };
+    return sizes[kind];
+}
+
+/* Vertices that all attributes together hold. */
+static size_t count_vertices(const lom_draw_desc *desc)
+{
+    size_t count = UINT32_MAX - 1;
+    for (int i = 0; i < desc->shader->attributes; i++) {
+        const lom_attribute *a    = &desc->attribute[i];
+        size_t               size = attribute_size(a->kind);
+        if (a->kind == LOM_ATTRIBUTE_NONE)
+            continue;
+        size_t held = a->data == NULL || a->size < size ? 0 : a->stride == 0 ? SIZE_MAX : (a->size - size) / a->stride + 1;
+        count       = held < count ? held : count;
+    }
+    return count;
+}
+
+static bool check_shader(lom_device *device, const lom_draw_desc *desc)
+{
+    const lom_shader *s = desc->shader;
+    if (s == NULL)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw names no shader.");
+    if (s->attributes < 0 || s->attributes > LOM_MAX_ATTRIBUTES || s->varyings < 0 || s->varyings > LOM_MAX_VARYINGS ||
+        s->clip_distances < 0 || s->cull_distances < 0 || s->clip_distances + s->cull_distances > LOM_MAX_DISTANCES ||
+        s->colors < 0 || s->colors > LOM_MAX_COLORS)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s declares more than a shader may have.", s->name);
+    if ((s->differentiates & ~s->reads) != 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s differentiates a varying that it does not read.",
+                        s->name);
+    if (s->uniforms_size != 0 && desc->uniforms == NULL)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s takes %zu bytes of uniforms, but the draw has none.",
+                        s->name, s->uniforms_size);
+    return true;
+}
+
+static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
+{
+    const char *name = desc->shader->name;
+    if (desc->index_bits != 0 && desc->index_bits != 16 && desc->index_bits != 32)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Indices have 16 or 32 bits, not %d (a draw of %s).",
+                        desc->index_bits, name);
+    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_TRIANGLE_FAN)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of %s has a topology or an instance count that is none.",
+                        name);
+    if (desc->count > UINT32_MAX || desc->first > UINT32_MAX)
+        return lom_fail(&device->error, LOM_ERROR_LIMIT, "A draw of %s has more than 2^32 indices.", name);
+    for (int i = 0; i < desc->shader->attributes; i++)
+        if (desc->attribute[i].kind < LOM_ATTRIBUTE_NONE || desc->attribute[i].kind > LOM_ATTRIBUTE_UNORM8X4)
+            return lom_fail(&device->error, LOM_ERROR_USAGE, "Attribute %d of a draw of %s has no kind.", i, name);
+    return true;
+}
+
+/* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. */
+static int choose_shader_variant(const lom_device *device, const lom_shader *shader)
+{
+    if (shader->vertex[device->variant] != NULL)
+        return device->variant;
+    lom_cpu    cpu                = lom_detect_cpu();
+    const bool runs[LOM_VARIANTS] = { true, cpu.avx2, cpu.avx512, true, true };
+    for (int variant = 0; variant < LOM_VARIANTS; variant++)
+        if (shader->vertex[variant] != NULL && lom_stages_of(variant) != NULL && runs[variant])
+            return variant;
+    return -1;
+}
+
+static size_t count_triangles(const lom_draw_desc *desc)
+{
+    if (desc->topology == LOM_TRIANGLES)
+        return desc->count / 3;
+    return desc->count < 3 ? 0 : desc->count - 2;
+}
+
+static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
+{
+    size_t size   = draw->desc.shader->uniforms_size;
+    size_t offset = (device->uniforms_size + 63) & ~(size_t)63;
+    if (!lom_reserve((void **)&device->uniforms, &device->uniforms_capacity, offset + size, 1))
+        return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw's uniforms.");
+    if (size != 0)
+        memcpy(device->uniforms + offset, draw->desc.uniforms, size);
+    draw->uniforms        = NULL;
+    draw->uniforms_offset = offset;
+    device->uniforms_size = offset + size;
+    return true;
+}
+
+static void derive(const struct lom_pass *pass, struct lom_draw *draw)
+{
+    lom_draw_desc    *desc   = &draw->desc;
+    const lom_shader *shader = desc->shader;
+    size_t            held   = count_vertices(desc);
+    desc->vertex_count       = desc->vertex_count == 0 || desc->vertex_count > held ? held : desc->vertex_count;
+    desc->index_bits         = desc->index_bits == 0 ? 32 : desc->index_bits;
+    desc->instances          = desc->instances == 0 ? 1 : desc->instances;
+    draw->triangles          = count_triangles(desc);
+    draw->distances          = shader->clip_distances + shader->cull_distances;
+    draw->distance_offset    = ROW_HEADER + ((shader->varyings + 3) & ~3);
+    draw->row_floats         = draw->distance_offset + ((draw->distances + 3) & ~3);
+    bool depth               = pass->depth != NULL && !desc->depth_test_off;
+    draw->compare            = !depth                                           ? LOM_COMPARE_ALWAYS
+                               : desc->depth_compare == LOM_COMPARE_DEFAULT ? LOM_COMPARE_GREATER
+                                                                            : desc->depth_compare;
+    draw->depth_write        = depth && !desc->depth_write_off;
+    draw->late_depth         = shader->discards || shader->writes_depth;
+    draw->blends             = false;
+    for (int i = 0; i < pass->colors; i++)
+        draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
+    draw->constant = shader->reads == 0 && !shader->reads_position && !shader->discards && !shader->writes_depth &&
+                     !shader->quads;
+    draw->scissor  = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
+}
+
+bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
+{
+    struct lom_pass *pass = &device->pass;
+    if (!check_shader(device, desc) || !check_geometry(device, desc))
+        return false;
+    if (!lom_reserve((void **)&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws))
+        return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
+    struct lom_draw *draw = &device->draws[pass->draw_count];
+    *draw                 = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc->shader) };
+    if (draw->variant < 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
+                        desc->shader->name);
+    derive(pass, draw);
+    if (!copy_uniforms(device, draw))
+        return false;
+    device->counters.draws++;
+    pass->draw_count++;
+    return true;
+}

@@ -1,0 +1,100 @@
+/* What the raster, fragment and output stages of one width hand to one another: packets of LOM_LANES fragments. */
+#ifndef LOM_PIPELINE_PACKET_H
+#define LOM_PIPELINE_PACKET_H
+
+#include "image/convert_lanes.h"
+#include "pipeline/stages.h"
+
+/* Where the fragments of a packet lie in tile memory. */
+struct lom_places {
+    int32_t pixel[LOM_LANES];
+    bool    block; /* LOM_LANES pixels of a 4x4 window in memory order, from pixel[0] */
+};
+
+/* The fragment stage: shades the first LOM_LANES entries of the queue, of which `count` are fragments, and writes them. */
+void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count);
+/* The constant colour of a draw whose fragment shader reads nothing, into tile->constant. */
+void LOM_WIDE(lom_find_constant)(struct lom_tile *tile);
+/* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */
+void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
+                                const lom_float4 *color);
+
+/* LOM_LANES values of a window in memory order: two runs of 8 pixels, the second two rows of blocks below. */
+LOM_INLINE lom_int lom_load_block(const int32_t *memory, const struct lom_tile *tile)
+{
+#if LOM_LANES == 16
+    lom_int x;
+    memcpy(&x, memory, 32);
+    memcpy((char *)&x + 32, memory + 2 * tile->edge, 32);
+    return x;
+#else
+    (void)tile;
+    return lom_load_int(memory);
+#endif
+}
+
+LOM_INLINE void lom_store_block(int32_t *memory, const struct lom_tile *tile, lom_int x)
+{
+#if LOM_LANES == 16
+    memcpy(memory, &x, 32);
+    memcpy(memory + 2 * tile->edge, (const char *)&x + 32, 32);
+#else
+    (void)tile;
+    lom_store_int(memory, x);
+#endif
+}
+
+LOM_INLINE lom_int lom_load_places(const int32_t *memory, const struct lom_tile *tile, const struct lom_places *places)
+{
+    return places->block ? lom_load_block(memory + places->pixel[0], tile)
+                         : lom_gather_int(memory, lom_load_int(places->pixel));
+}
+
+/* Stores the lanes of mask, in lane order: the last of those at one place stays. */
+LOM_INLINE void lom_store_places(int32_t *memory, const struct lom_tile *tile, const struct lom_places *places,
+                                 lom_mask mask, lom_int x)
+{
+    if (places->block) {
+        int32_t *to = memory + places->pixel[0];
+        if (!lom_all(mask))
+            x = lom_select_int(mask, x, lom_load_block(to, tile));
+        lom_store_block(to, tile, x);
+        return;
+    }
+    int32_t values[LOM_LANES];
+    lom_store_int(values, x);
+    for (uint32_t bits = lom_bits(mask); bits != 0; bits &= bits - 1) {
+        int i                     = __builtin_ctz(bits);
+        memory[places->pixel[i]] = values[i];
+    }
+}
+
+/* Depth in the attachment's units: the float itself, or a whole number for DEPTH16 and DEPTH24. */
+LOM_INLINE lom_float lom_depth_units(const struct lom_pass *pass, lom_float z)
+{
+    return pass->depth_scale == 0 ? z : lom_to_float(lom_unorm_of_lanes(z, (float)pass->depth_scale));
+}
+
+LOM_INLINE lom_mask lom_compare_depth(lom_compare compare, lom_float z, lom_float stored)
+{
+    switch (compare) {
+    case LOM_COMPARE_NEVER:
+        return (lom_mask){ 0 };
+    case LOM_COMPARE_LESS:
+        return z < stored;
+    case LOM_COMPARE_EQUAL:
+        return z == stored;
+    case LOM_COMPARE_LESS_EQUAL:
+        return z <= stored;
+    case LOM_COMPARE_NOT_EQUAL:
+        return z != stored;
+    case LOM_COMPARE_GREATER_EQUAL:
+        return z >= stored;
+    case LOM_COMPARE_ALWAYS:
+        return lom_splat_int(-1);
+    default:
+        return z > stored;
+    }
+}
+
+#endif

@@ -1,0 +1,192 @@
+/* A pass from begin to end. In: attachments and draws. Out: the attachments' texels. Draws are cut into chunks, chunks run
+ * in batches: every chunk to its bins, then every tile through the batch's bins; at the end every tile is resolved. */
+#include "image/convert.h"
+#include "pipeline/device.h"
+
+static lom_rect or_whole(lom_rect rect, lom_rect whole)
+{
+    return rect.width == 0 ? whole : rect;
+}
+
+lom_rect lom_intersect_rects(lom_rect a, lom_rect b)
+{
+    int64_t x0 = a.x > b.x ? a.x : b.x, y0 = a.y > b.y ? a.y : b.y;
+    int64_t ax = (int64_t)a.x + a.width, bx = (int64_t)b.x + b.width;
+    int64_t ay = (int64_t)a.y + a.height, by = (int64_t)b.y + b.height;
+    int64_t x1 = ax < bx ? ax : bx, y1 = ay < by ? ay : by;
+    return (lom_rect){ (int)x0, (int)y0, x1 > x0 ? (int)(x1 - x0) : 0, y1 > y0 ? (int)(y1 - y0) : 0 };
+}
+
+static bool check_attachment(lom_device *device, const lom_texture *texture, bool depth)
+{
+    struct lom_pass *pass = &device->pass;
+    if (texture->kind != LOM_TEXTURE_2D || lom_describe_format(texture->format)->is_depth != depth)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's %s attachment is not a 2D texture of a %s format.",
+                        depth ? "depth" : "colour", depth ? "depth" : "colour");
+    if (pass->width == 0) {
+        pass->width  = texture->level[0].width;
+        pass->height = texture->level[0].height;
+    }
+    if (pass->width != texture->level[0].width || pass->height != texture->level[0].height)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's attachments have different sizes: %dx%d and %dx%d.",
+                        pass->width, pass->height, texture->level[0].width, texture->level[0].height);
+    return true;
+}
+
+/* A clear value as the format holds it: finite, and rounded to 16 bits where it has those. */
+static float round_to_format(lom_format format, float x)
+{
+    const lom_format_info *info  = lom_describe_format(format);
+    float                  bound = 0x1p123f;
+    float                  value = x == x ? x : 0;
+    if (info->bits == 16)
+        value = info->is_float ? lom_float_of_half(lom_half_of(value)) : (float)(lom_unorm_of(value, 65535) / 65535.0);
+    return value > bound ? bound : value < -bound ? -bound : value;
+}
+
+static uint32_t pack_clear(const struct lom_color_target *target)
+{
+    uint32_t packed = 0;
+    for (int c = 0; c < 4; c++) {
+        bool     srgb = target->kind == COLOR_SRGB8 && c < 3;
+        uint32_t code = srgb ? lom_srgb8_of(target->clear[c]) : lom_unorm_of(target->clear[c], 255);
+        packed |= code << 8 * c;
+    }
+    return packed;
+}
+
+static bool add_color(lom_device *device, int i)
+{
+    struct lom_pass         *pass    = &device->pass;
+    lom_texture             *texture = pass->desc.color[i];
+    struct lom_color_target *target  = &pass->color[i];
+    if (!check_attachment(device, texture, false))
+        return false;
+    *target = (struct lom_color_target){ .texture = texture,
+                                         .format  = texture->format,
+                                         .keep    = pass->desc.color_load[i] == LOM_LOAD_KEEP };
+    target->kind = texture->storage != LOM_STORAGE_RGBA8 ? COLOR_FLOAT : texture->srgb ? COLOR_SRGB8 : COLOR_UNORM8;
+    for (int c = 0; c < 4; c++)
+        target->clear[c] = round_to_format(texture->format, pass->desc.clear_color[i][c]);
+    target->clear_bytes = target->kind == COLOR_FLOAT ? 0 : pack_clear(target);
+    pass->colors        = i + 1;
+    return true;
+}
+
+static void add_depth(struct lom_pass *pass)
+{
+    static const double scales[] = { [LOM_FORMAT_DEPTH16] = 65535, [LOM_FORMAT_DEPTH24] = 16777215 };
+    pass->depth                  = pass->desc.depth;
+    lom_format format            = pass->depth->format;
+    pass->depth_scale            = format == LOM_FORMAT_DEPTH32F ? 0 : scales[format];
+    float clear                  = pass->desc.clear_depth > 0 ? pass->desc.clear_depth < 1 ? pass->desc.clear_depth : 1 : 0;
+    pass->clear_depth = pass->depth_scale == 0 ? clear : (float)lom_unorm_of(clear, (uint32_t)pass->depth_scale);
+}
+
+static bool resolve_rects(lom_device *device)
+{
+    struct lom_pass *pass  = &device->pass;
+    pass->frame_width      = pass->desc.frame_width != 0 ? pass->desc.frame_width : pass->width;
+    pass->frame_height     = pass->desc.frame_height != 0 ? pass->desc.frame_height : pass->height;
+    lom_rect frame         = { 0, 0, pass->frame_width, pass->frame_height };
+    lom_rect here          = { pass->desc.origin_x, pass->desc.origin_y, pass->width, pass->height };
+    pass->viewport         = or_whole(pass->desc.viewport, frame);
+    if (pass->desc.origin_x < 0 || pass->desc.origin_y < 0 || pass->frame_width < 1 || pass->frame_height < 1 ||
+        pass->frame_width > LOM_MAX_SIZE || pass->frame_height > LOM_MAX_SIZE ||
+        pass->desc.origin_x > pass->frame_width - pass->width || pass->desc.origin_y > pass->frame_height - pass->height)
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "A pass's attachments (%dx%d at %d,%d) do not lie inside its frame of %dx%d.", pass->width,
+                        pass->height, pass->desc.origin_x, pass->desc.origin_y, pass->frame_width, pass->frame_height);
+    const lom_rect *v = &pass->viewport;
+    if (v->width < 1 || v->height < 1 || v->width > LOM_MAX_SIZE || v->height > LOM_MAX_SIZE || v->x < -LOM_MAX_SIZE ||
+        v->y < -LOM_MAX_SIZE || v->x > LOM_MAX_SIZE || v->y > LOM_MAX_SIZE)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A viewport of %dx%d at %d,%d is out of range.", v->width,
+                        v->height, v->x, v->y);
+    pass->scissor = lom_intersect_rects(lom_intersect_rects(or_whole(pass->desc.scissor, frame), frame), here);
+    pass->scissor = lom_intersect_rects(pass->scissor, pass->viewport);
+    return true;
+}
+
+/* The tile grid is aligned to the frame, so that a crop sees the same 2x2 quads. */
+static bool lay_tiles(lom_device *device)
+{
+    struct lom_pass *pass = &device->pass;
+    int              edge = pass->tile = device->desc.tile;
+    pass->tile_x0    = pass->desc.origin_x / edge * edge;
+    pass->tile_y0    = pass->desc.origin_y / edge * edge;
+    pass->tiles_x    = (pass->desc.origin_x + pass->width - pass->tile_x0 + edge - 1) / edge;
+    pass->tiles_y    = (pass->desc.origin_y + pass->height - pass->tile_y0 + edge - 1) / edge;
+    pass->tile_bytes = pass->depth != NULL ? 4 : 0;
+    for (int i = 0; i < pass->colors; i++)
+        pass->tile_bytes += pass->color[i].kind == COLOR_FLOAT ? 16 : 4;
+    pass->tile_bytes *= (size_t)edge * (size_t)edge;
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    if (!lom_reserve((void **)&device->tile_memory, &device->tile_memory_capacity, tiles * pass->tile_bytes, 1) ||
+        !lom_reserve((void **)&device->tile_touched, &device->tile_touched_capacity, tiles, 1))
+        return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
+                        pass->width, pass->height);
+    pass->tile_memory  = device->tile_memory;
+    pass->tile_touched = device->tile_touched;
+    memset(pass->tile_touched, 0, tiles);
+    return true;
+}
+
+static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
+{
+    struct lom_pass *pass = &device->pass;
+    *pass                 = (struct lom_pass){ .device = device, .desc = *desc };
+    if (desc->samples < 0 || desc->samples > 1)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has 1 sample a pixel, not %d.", desc->samples);
+    for (int i = 0; i < LOM_MAX_COLORS && desc->color[i] != NULL; i++)
+        if (!add_color(device, i))
+            return false;
+    if (desc->depth != NULL) {
+        if (!check_attachment(device, desc->depth, true))
+            return false;
+        add_depth(pass);
+    }
+    if (pass->width == 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has no attachment.");
+    if (desc->min_depth == 0 && desc->max_depth == 0)
+        pass->desc.max_depth = 1;
+    if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 && pass->desc.max_depth <= 1))
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A depth range lies within 0 to 1.");
+    return resolve_rects(device) && lay_tiles(device);
+}
+
+void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
+{
+    if (device->error.code != LOM_OK)
+        return;
+    if (device->in_pass) {
+        lom_fail(&device->error, LOM_ERROR_USAGE, "A pass was begun inside another one.");
+        return;
+    }
+    device->uniforms_size = 0;
+    device->in_pass       = prepare_pass(device, desc);
+    device->counters.passes += device->in_pass;
+}
+
+void lom_draw(lom_device *device, const lom_draw_desc *desc)
+{
+    if (device->error.code != LOM_OK)
+        return;
+    if (!device->in_pass)
+        lom_fail(&device->error, LOM_ERROR_USAGE, "A draw was made outside a pass.");
+    else
+        lom_record_draw(device, desc);
+}
+
+bool lom_end_pass(lom_device *device)
+{
+    if (device->error.code == LOM_OK && !device->in_pass)
+        lom_fail(&device->error, LOM_ERROR_USAGE, "A pass was ended that had not begun.");
+    device->in_pass = false;
+    if (device->error.code != LOM_OK)
+        return false;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool done = lom_run_pass(device);
+    lom_leave_float_state(&state);
+    return done;
+}

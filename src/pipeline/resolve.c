@@ -1,0 +1,201 @@
+/* The two ends of tile memory. In: clear values or the attachments' texels. Out: after the pass, the attachments' texels.
+ * Tile memory holds blocks of 2x2 pixels, rows of blocks from the top; attachments are rows of pixels. */
+#include "pipeline/stages.h"
+
+/* What of a tile lies inside the attachments, in their pixels. */
+struct part {
+    int x, y;           /* attachment pixel of the tile's first pixel; may be negative */
+    int x0, y0, x1, y1; /* tile pixels inside: first, and one past the last */
+};
+
+static struct part part_of(const struct lom_pass *pass, int number)
+{
+    int         x = pass->tile_x0 + number % pass->tiles_x * pass->tile - pass->desc.origin_x;
+    int         y = pass->tile_y0 + number / pass->tiles_x * pass->tile - pass->desc.origin_y;
+    struct part p = { x, y, 0, 0, pass->tile, pass->tile };
+    if (x < 0)
+        p.x0 = -x;
+    if (y < 0)
+        p.y0 = -y;
+    if (x + pass->tile > pass->width)
+        p.x1 = pass->width - x;
+    if (y + pass->tile > pass->height)
+        p.y1 = pass->height - y;
+    return p;
+}
+
+static size_t memory_index(int edge, int x, int y)
+{
+    return (size_t)((y >> 1) * (edge / 2) + (x >> 1)) * 4 + (size_t)((y & 1) * 2 + (x & 1));
+}
+
+static size_t tile_pixels(const struct lom_pass *pass)
+{
+    return (size_t)pass->tile * (size_t)pass->tile;
+}
+
+/* Bytes of attachment i in a tile's memory. */
+static size_t color_bytes(const struct lom_pass *pass, int i)
+{
+    return tile_pixels(pass) * (pass->color[i].kind == COLOR_FLOAT ? 16 : 4);
+}
+
+static void fill_words(uint32_t *to, uint32_t value, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = value;
+}
+
+static uint32_t bits_of(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Float planes of one pixel from a texel of one or four channels. */
+static void load_float_texel(const struct lom_pass *pass, int i, const float *texel, float *planes, size_t index)
+{
+    bool single = pass->color[i].texture->storage == LOM_STORAGE_R32F;
+    for (size_t c = 0; c < 4; c++)
+        planes[c * tile_pixels(pass) + index] = c == 0 || !single ? texel[c] : c == 3 ? 1.0f : 0.0f;
+}
+
+static void load_color(const struct lom_pass *pass, int i, const struct part *p, void *memory)
+{
+    const struct lom_color_target *target = &pass->color[i];
+    for (int y = p->y0; y < p->y1; y++)
+        for (int x = p->x0; x < p->x1; x++) {
+            const void *texel = lom_texel(target->texture, 0, p->x + x, p->y + y, 0);
+            size_t      index = memory_index(pass->tile, x, y);
+            if (target->kind == COLOR_FLOAT)
+                load_float_texel(pass, i, texel, memory, index);
+            else
+                ((uint32_t *)memory)[index] = *(const uint32_t *)texel;
+        }
+}
+
+static void clear_color(const struct lom_pass *pass, int i, void *memory)
+{
+    const struct lom_color_target *target = &pass->color[i];
+    if (target->kind != COLOR_FLOAT) {
+        fill_words(memory, target->clear_bytes, tile_pixels(pass));
+        return;
+    }
+    for (size_t c = 0; c < 4; c++)
+        fill_words((uint32_t *)memory + c * tile_pixels(pass), bits_of(target->clear[c]), tile_pixels(pass));
+}
+
+static void load_depth(const struct lom_pass *pass, const struct part *p, float *memory)
+{
+    for (int y = p->y0; y < p->y1; y++)
+        for (int x = p->x0; x < p->x1; x++) {
+            float z = *(const float *)lom_texel(pass->depth, 0, p->x + x, p->y + y, 0);
+            if (pass->depth_scale != 0)
+                z = (float)__builtin_rint(z * pass->depth_scale);
+            memory[memory_index(pass->tile, x, y)] = z;
+        }
+}
+
+void lom_load_tile(const struct lom_pass *pass, int number)
+{
+    uint8_t    *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
+    struct part p      = part_of(pass, number);
+    if (pass->depth != NULL) {
+        fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
+        if (pass->desc.depth_load == LOM_LOAD_KEEP)
+            load_depth(pass, &p, (float *)(void *)memory);
+        memory += tile_pixels(pass) * 4;
+    }
+    for (int i = 0; i < pass->colors; i++) {
+        clear_color(pass, i, memory);
+        if (pass->color[i].keep)
+            load_color(pass, i, &p, memory);
+        memory += color_bytes(pass, i);
+    }
+}
+
+/* Channels that the format lacks read as 0, a missing alpha as 1. */
+static void missing_bytes(lom_format format, uint32_t *keep, uint32_t *set)
+{
+    int channels = lom_describe_format(format)->channels;
+    *keep        = channels == 4 ? UINT32_MAX : (UINT32_C(1) << 8 * channels) - 1;
+    *set         = channels == 4 ? 0 : UINT32_C(0xff000000);
+}
+
+static void resolve_bytes(const struct lom_pass *pass, int i, const struct part *p, const uint32_t *memory)
+{
+    uint32_t keep, set;
+    missing_bytes(pass->color[i].format, &keep, &set);
+    for (int y = p->y0; y < p->y1; y++) {
+        uint32_t       *row  = lom_texel(pass->color[i].texture, 0, p->x + p->x0, p->y + y, 0);
+        const uint32_t *from = memory + memory_index(pass->tile, 0, y);
+        int             x    = p->x0;
+        for (; (x & 1) != 0 && x < p->x1; x++)
+            *row++ = (from[(x >> 1) * 4 + 1] & keep) | set;
+        for (; x + 1 < p->x1; x += 2, row += 2) {
+            row[0] = (from[x * 2] & keep) | set;
+            row[1] = (from[x * 2 + 1] & keep) | set;
+        }
+        if (x < p->x1)
+            *row = (from[x * 2] & keep) | set;
+    }
+}
+
+static void resolve_floats(const struct lom_pass *pass, int i, const struct part *p, const float *memory)
+{
+    lom_texture *texture  = pass->color[i].texture;
+    bool         single   = texture->storage == LOM_STORAGE_R32F;
+    int          channels = lom_describe_format(pass->color[i].format)->channels;
+    for (int y = p->y0; y < p->y1; y++)
+        for (int x = p->x0; x < p->x1; x++) {
+            float *texel = lom_texel(texture, 0, p->x + x, p->y + y, 0);
+            size_t index = memory_index(pass->tile, x, y);
+            texel[0]     = memory[index];
+            for (size_t c = 1; c < 4 && !single; c++)
+                texel[c] = (int)c < channels ? memory[c * tile_pixels(pass) + index] : c == 3 ? 1.0f : 0.0f;
+        }
+}
+
+static void resolve_depth(const struct lom_pass *pass, const struct part *p, const float *memory)
+{
+    float scale = pass->depth_scale == 0 ? 1.0f : (float)pass->depth_scale;
+    for (int y = p->y0; y < p->y1; y++) {
+        float       *row  = lom_texel(pass->depth, 0, p->x + p->x0, p->y + y, 0);
+        const float *from = memory + memory_index(pass->tile, 0, y);
+        for (int x = p->x0; x < p->x1; x++)
+            *row++ = from[(x >> 1) * 4 + (x & 1)] / scale;
+    }
+}
+
+/* A tile that no fragment touched holds its clear values (or what the attachment held before). */
+static bool nothing_to_do(const struct lom_pass *pass, int number)
+{
+    if (pass->tile_touched[number])
+        return false;
+    for (int i = 0; i < pass->colors; i++)
+        if (!pass->color[i].keep)
+            return false;
+    return pass->depth == NULL || pass->desc.depth_load == LOM_LOAD_KEEP;
+}
+
+void lom_resolve_tile(const struct lom_pass *pass, int number)
+{
+    if (nothing_to_do(pass, number))
+        return;
+    if (!pass->tile_touched[number])
+        lom_load_tile(pass, number);
+    const uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
+    struct part    p      = part_of(pass, number);
+    if (pass->depth != NULL) {
+        resolve_depth(pass, &p, (const float *)(const void *)memory);
+        memory += tile_pixels(pass) * 4;
+    }
+    for (int i = 0; i < pass->colors; i++) {
+        if (pass->color[i].kind == COLOR_FLOAT)
+            resolve_floats(pass, i, &p, (const float *)(const void *)memory);
+        else
+            resolve_bytes(pass, i, &p, (const uint32_t *)(const void *)memory);
+        memory += color_bytes(pass, i);
+    }
+}

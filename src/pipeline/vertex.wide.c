@@ -1,0 +1,161 @@
+/* Stage 1 of 7: vertex. In: a chunk's range (or list) of vertex numbers. Out: for each a row {x, y, depth, 1/w, varyings,
+ * distances}, its clip position and its outcode. Invariant: a row is a function of the vertex alone. */
+#include "pipeline/project.h"
+#include "pipeline/stages.h"
+
+/* LOM_LANES rows of four floats at from + i stride: lane i of (x, y, z, w). */
+LOM_INLINE void store_rows(float *to, size_t stride, lom_float4 x)
+{
+    for (int i = 0; i < LOM_LANES; i++) {
+        float *row = to + (size_t)i * stride;
+        row[0]     = x.x[i];
+        row[1]     = x.y[i];
+        row[2]     = x.z[i];
+        row[3]     = x.w[i];
+    }
+}
+
+/* The vertices at `numbers` as four floats each; every read stays inside attribute->size. */
+static void fetch_floats(const lom_attribute *attribute, const uint32_t *numbers, int components, lom_float4 *out)
+{
+    float        copies[LOM_LANES][4];
+    const float *rows[LOM_LANES];
+    for (int i = 0; i < LOM_LANES; i++) {
+        size_t         offset = (size_t)numbers[i] * attribute->stride;
+        const uint8_t *source = (const uint8_t *)attribute->data + offset;
+        bool           whole  = offset + 16 <= attribute->size && (uintptr_t)source % 4 == 0;
+        if (!whole) {
+            memset(copies[i], 0, sizeof copies[i]);
+            memcpy(copies[i], source, (size_t)components * 4);
+        }
+        rows[i] = whole ? (const float *)(const void *)source : copies[i];
+    }
+    *out = lom_load_rows(rows, 0);
+    if (components < 2)
+        out->y = (lom_float){ 0 };
+    if (components < 3)
+        out->z = (lom_float){ 0 };
+    if (components < 4)
+        out->w = lom_splat(1.0f);
+}
+
+static void fetch_bytes(const lom_attribute *attribute, const uint32_t *numbers, lom_float4 *out)
+{
+    for (int i = 0; i < LOM_LANES; i++) {
+        const uint8_t *source = (const uint8_t *)attribute->data + (size_t)numbers[i] * attribute->stride;
+        out->x[i]             = (float)source[0] / 255.0f;
+        out->y[i]             = (float)source[1] / 255.0f;
+        out->z[i]             = (float)source[2] / 255.0f;
+        out->w[i]             = (float)source[3] / 255.0f;
+    }
+}
+
+static void fetch(const struct lom_draw *draw, const uint32_t *numbers, lom_attributes *in)
+{
+    for (int a = 0; a < draw->desc.shader->attributes; a++) {
+        const lom_attribute *attribute = &draw->desc.attribute[a];
+        lom_float4          *out       = &in->attribute[a];
+        switch (attribute->kind) {
+        case LOM_ATTRIBUTE_NONE:
+            *out = (lom_float4){ .w = lom_splat(1.0f) };
+            break;
+        case LOM_ATTRIBUTE_UNORM8X4:
+            fetch_bytes(attribute, numbers, out);
+            break;
+        default:
+            fetch_floats(attribute, numbers, (int)attribute->kind - LOM_ATTRIBUTE_FLOAT1 + 1, out);
+        }
+    }
+}
+
+/* Not finite, or so large that arithmetic on it would not stay finite. */
+LOM_INLINE lom_mask is_wild(lom_float x)
+{
+    return ~(lom_abs(x) <= 0x1p124f); /* FLT_MAX / 16 */
+}
+
+/* Outcodes of clip positions, as the planes of lom_clip_triangle see them. */
+static lom_int classify(const struct lom_pass *pass, lom_float4 p)
+{
+    lom_float near_distance, far_distance;
+    if (pass->desc.clip_range == LOM_CLIP_ZERO_TO_W) {
+        near_distance = p.w - p.z;
+        far_distance  = p.z;
+    } else {
+        near_distance = p.z + p.w;
+        far_distance  = p.w - p.z;
+    }
+    struct lom_guard guard = lom_guard_of(pass);
+    lom_mask         out   = (lom_abs(p.x) > p.w * guard.x) | (lom_abs(p.y) > p.w * guard.y);
+    return ((near_distance < 0.0f) & CODE_NEAR) | ((far_distance < 0.0f) & CODE_FAR) | (out & CODE_GUARD) |
+           ((p.w < LOM_SMALLEST_W) & CODE_W) | ((is_wild(p.x) | is_wild(p.y) | is_wild(p.z) | is_wild(p.w)) & CODE_INVALID);
+}
+
+/* Perspective division, viewport, snapping (to nearest even) of positions that need no clipping; the rest gets zeros. */
+static lom_float4 project(const struct lom_pass *pass, lom_float4 p, lom_int codes)
+{
+    struct lom_projection f      = lom_projection_of(pass);
+    lom_mask              inside = (codes & (CODE_CLIP | CODE_INVALID)) == 0;
+    lom_float             w      = lom_select(inside, p.w, lom_splat(1.0f));
+    lom_float             one_over_w = 1.0f / w;
+    lom_float             x = lom_select(inside, p.x, (lom_float){ 0 }) / w * f.x_scale + f.x_offset;
+    lom_float             y = lom_select(inside, p.y, (lom_float){ 0 }) / w * f.y_scale + f.y_offset;
+    lom_float             z = lom_select(inside, p.z, (lom_float){ 0 }) / w * f.z_scale + f.z_offset;
+    z                       = lom_clamp(z, lom_splat(f.z_low), lom_splat(f.z_high));
+    return (lom_float4){ lom_as_float(lom_to_int(lom_round(x))), lom_as_float(lom_to_int(lom_round(y))), z,
+                         one_over_w };
+}
+
+static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, float *row, size_t pitch, lom_int *codes)
+{
+    lom_float bound = lom_splat(LOM_LARGEST_DISTANCE);
+    for (int i = 0; i < draw->distances; i++) {
+        lom_float d = vertex->distance[i];
+        *codes |= (d != d) & CODE_INVALID;
+        *codes |= (d < 0.0f) & (1 << i);
+        vertex->distance[i] = lom_clamp(d, -bound, bound);
+    }
+    for (int i = 0; i < draw->distances; i += 4)
+        store_rows(row + draw->distance_offset + i, pitch,
+                   (lom_float4){ vertex->distance[i], vertex->distance[i + 1], vertex->distance[i + 2],
+                                 vertex->distance[i + 3] });
+}
+
+static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, size_t first, lom_vertex *vertex)
+{
+    const struct lom_draw *draw  = chunk->draw;
+    size_t                 pitch = (size_t)draw->row_floats;
+    float                 *row   = chunk->rows + first * pitch;
+    lom_int                codes = classify(pass, vertex->position);
+    store_rows(chunk->clip + first * 4, 4, vertex->position);
+    store_rows(row, pitch, project(pass, vertex->position, codes));
+    for (int v = 0; v < draw->desc.shader->varyings; v += 4)
+        store_rows(row + ROW_HEADER + v, pitch,
+                   (lom_float4){ vertex->varying[v], vertex->varying[v + 1], vertex->varying[v + 2],
+                                 vertex->varying[v + 3] });
+    write_distances(draw, vertex, row, pitch, &codes);
+    for (int i = 0; i < LOM_LANES; i++)
+        chunk->codes[first + (size_t)i] = (uint16_t)codes[i];
+}
+
+void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    const struct lom_draw *draw = chunk->draw;
+    lom_vertex_function   *shade = draw->desc.shader->vertex[draw->variant];
+    lom_vertex             vertex;
+    lom_attributes         in;
+    memset(&vertex, 0, sizeof vertex);
+    memset(&in, 0, sizeof in);
+    in.instance = lom_splat_int(chunk->instance);
+    for (size_t first = 0; first < chunk->vertex_count; first += LOM_LANES) {
+        uint32_t numbers[LOM_LANES];
+        for (size_t i = 0; i < LOM_LANES; i++) {
+            size_t row = first + i < chunk->vertex_count ? first + i : chunk->vertex_count - 1;
+            numbers[i] = chunk->listed ? chunk->vertex_list[row] : chunk->vertex_base + (uint32_t)row;
+        }
+        memcpy(&in.vertex, numbers, sizeof numbers);
+        fetch(draw, numbers, &in);
+        shade(&vertex, &in, draw->uniforms);
+        write_packet(pass, chunk, first, &vertex);
+    }
+}
