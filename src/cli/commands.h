@@ -3,6 +3,9 @@
 #ifndef LOM_CLI_COMMANDS_H
 #define LOM_CLI_COMMANDS_H
 
+int lom_command_compare(int argc, char **argv);
+int lom_command_convert(int argc, char **argv);
+int lom_command_info(int argc, char **argv);
 int lom_command_make(int argc, char **argv);
 int lom_command_version(int argc, char **argv);
 

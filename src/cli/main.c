@@ -15,6 +15,9 @@ typedef struct command {
 } command;
 
 static const command commands[] = {
+    { "compare", "say whether and how much two pictures differ", lom_command_compare },
+    { "info", "say what is in an image, a mesh or a scene", lom_command_info },
+    { "convert", "write an image or a mesh in another form", lom_command_convert },
     { "make", "make an asset: height map, normal map, sky box, texture, entity", lom_command_make },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };

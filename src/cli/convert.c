@@ -1,0 +1,231 @@
+/* `lom convert`. In: an image or a mesh. Out: the same in another kind of file. Invariant: what both kinds can hold is
+ * kept exactly; samples that change their depth are rounded correctly; OUT is complete or untouched. */
+#include "commands.h"
+#include "options.h"
+#include "paths.h"
+
+#include <lom/geometry.h>
+
+#include <string.h>
+
+struct values {
+    const char *format, *bits;
+    lom_option_integers channels;
+    bool srgb;
+};
+
+static const lom_option options[] = {
+    { .name = "format",
+      .kind = LOM_OPTION_CHOICE,
+      .field = offsetof(struct values, format),
+      .value = "png|ppm|pgm|pam|pfm|obj",
+      .help = "the kind of OUT, whatever it is called" },
+    { .name = "bits",
+      .kind = LOM_OPTION_CHOICE,
+      .field = offsetof(struct values, bits),
+      .value = "8|16",
+      .help = "bits a sample; as in IN by default, 8 from floats" },
+    { .name = "channels",
+      .kind = LOM_OPTION_INTEGER,
+      .field = offsetof(struct values, channels),
+      .value = "N",
+      .minimum = 1,
+      .maximum = 4,
+      .help = "1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha" },
+    { .name = "srgb",
+      .kind = LOM_OPTION_FLAG,
+      .field = offsetof(struct values, srgb),
+      .help = "8-bit samples are sRGB-encoded: decode them to pfm, encode them from pfm" },
+};
+
+static const lom_command_line line = {
+    .name = "convert",
+    .arguments = "IN OUT",
+    .summary = "Writes an image or a mesh in another form",
+    .details =
+        "The kind of OUT is its extension or --format: png, ppm, pgm, pam (8 or 16 bits), pfm (floats), obj. IN is "
+        "told\n"
+        "by its content. Samples keep their value in 0..1, correctly rounded; without --srgb no transfer function is\n"
+        "applied. ppm has no alpha, pgm is gray: Rec. 709 luminance of the samples as they are.\n"
+        "An obj is written with its normals, one triangle a face; its materials go to OUT with the extension mtl.",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum_arguments = 2,
+    .maximum_arguments = 2,
+};
+
+/* What an image file can hold: channels[n] is how many n channels become in it. */
+struct kind {
+    const char *name;
+    bool is_float;
+    int channels[5];
+};
+
+static const struct kind kinds[] = {
+    { "png", false, { 0, 1, 2, 3, 4 } }, { "pam", false, { 0, 1, 2, 3, 4 } }, { "ppm", false, { 0, 3, 3, 3, 3 } },
+    { "pgm", false, { 0, 1, 1, 1, 1 } }, { "pfm", true, { 0, 1, 1, 3, 3 } },
+};
+
+static const struct kind *find_kind(const struct values *values, const char *path)
+{
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (values->format != NULL ? strcmp(values->format, kinds[i].name) == 0 : lom_path_is(path, kinds[i].name))
+            return &kinds[i];
+    return NULL;
+}
+
+static lom_format file_format(int channels, int bits, bool is_srgb)
+{
+    static const lom_format formats[4][4] = {
+        { LOM_FORMAT_R8, LOM_FORMAT_RG8, LOM_FORMAT_RGB8, LOM_FORMAT_RGBA8 },
+        { LOM_FORMAT_R8_SRGB, LOM_FORMAT_RG8_SRGB, LOM_FORMAT_RGB8_SRGB, LOM_FORMAT_RGBA8_SRGB },
+        { LOM_FORMAT_R16, LOM_FORMAT_RG16, LOM_FORMAT_RGB16, LOM_FORMAT_RGBA16 },
+        { LOM_FORMAT_R32F, LOM_FORMAT_RG32F, LOM_FORMAT_RGB32F, LOM_FORMAT_RGBA32F },
+    };
+    return formats[bits == 32 ? 3 : bits == 16 ? 2 : is_srgb][channels - 1];
+}
+
+/* In files two channels are gray and alpha, to lom_convert_image red and green. So they pass through four channels:
+ * this spreads 2 (gray, alpha) to 4 (gray, gray, gray, alpha), or gathers 4 to 2. */
+static lom_image *regroup(const lom_image *image, bool is_srgb, int to, lom_error *error)
+{
+    const lom_format_info *info = lom_describe_format(image->format);
+    lom_image *result =
+        lom_create_image(image->width, image->height, image->depth, file_format(to, info->bits, is_srgb), error);
+    if (result == NULL)
+        return NULL;
+    static const int source[5][4] = { [2] = { 0, 3 }, [4] = { 0, 0, 0, 1 } };
+    size_t bytes = (size_t)info->bits / 8, in = lom_format_size(image->format), out = lom_format_size(result->format);
+    size_t pixels = lom_image_size(image) / in;
+    for (size_t i = 0; i < pixels; i++)
+        for (int c = 0; c < to; c++)
+            memcpy(result->pixels + i * out + (size_t)c * bytes, image->pixels + i * in + (size_t)source[to][c] * bytes,
+                   bytes);
+    return result;
+}
+
+/* Replaces *image by result unless that failed. */
+static bool replace(lom_image **image, lom_image *result)
+{
+    if (result == NULL)
+        return false;
+    lom_free_image(*image);
+    *image = result;
+    return true;
+}
+
+static bool convert_to_format(lom_image **image, lom_format format, lom_error *error)
+{
+    return (*image)->format == format || replace(image, lom_convert_image(*image, format, error));
+}
+
+/* Gray of colours is made by conversion to one channel, which has no alpha; so the gray is put beside the alpha of the
+ * four channels. */
+static bool convert_to_gray_alpha(lom_image **image, int bits, bool is_srgb, lom_error *error)
+{
+    if (!convert_to_format(image, file_format(4, bits, is_srgb), error))
+        return false;
+    lom_image *gray = lom_convert_image(*image, file_format(1, bits, is_srgb), error);
+    if (gray == NULL)
+        return false;
+    size_t bytes = (size_t)bits / 8, pixels = lom_image_size(gray) / bytes;
+    for (size_t i = 0; i < pixels; i++)
+        memcpy((*image)->pixels + 4 * i * bytes, gray->pixels + i * bytes, bytes);
+    lom_free_image(gray);
+    return replace(image, regroup(*image, is_srgb, 2, error));
+}
+
+static bool reshape(lom_image **image, const struct kind *kind, const struct values *values, lom_error *error)
+{
+    const lom_format_info *from = lom_describe_format((*image)->format);
+    int channels = values->channels.given ? (int)values->channels.value[0] : kind->channels[from->channels];
+    if (kind->channels[channels] != channels)
+        return lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold %d channels.", kind->name, channels);
+    int bits = kind->is_float ? 32 : from->is_float ? 8 : from->bits;
+    if (values->bits != NULL && !kind->is_float)
+        bits = strcmp(values->bits, "8") == 0 ? 8 : 16;
+    if (kind->is_float && values->bits != NULL)
+        return lom_fail(error, LOM_ERROR_USAGE, "A pfm file holds floats; --bits does not apply to it.");
+    bool srgb = values->srgb && from->is_float != kind->is_float;
+    if (srgb && (from->is_float ? bits : from->bits) != 8)
+        return lom_fail(error, LOM_ERROR_USAGE, "--srgb is for samples of 8 bits.");
+    bool srgb_in = srgb && !from->is_float, srgb_out = srgb && from->is_float;
+    if (srgb_in && !lom_reinterpret_image(*image, file_format(from->channels, 8, true), error))
+        return false;
+    if (channels == 2 && from->channels == 2) /* sample by sample */
+        return convert_to_format(image, file_format(2, bits, srgb_out), error);
+    if (from->channels == 2 && !replace(image, regroup(*image, srgb_in, 4, error)))
+        return false;
+    if (channels == 2)
+        return convert_to_gray_alpha(image, bits, srgb_out, error);
+    return convert_to_format(image, file_format(channels, bits, srgb_out), error);
+}
+
+static bool convert_image(const char *in, const char *out, const struct values *values, lom_error *error)
+{
+    const struct kind *kind = find_kind(values, out);
+    if (kind == NULL)
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "%s: its extension is none of png, ppm, pgm, pam, pfm; --format can say what it is to be.",
+                        out);
+    lom_image *image = lom_read_image(in, error);
+    bool done = image != NULL && reshape(&image, kind, values, error) && lom_write_image(out, kind->name, image, error);
+    lom_free_image(image);
+    return done;
+}
+
+/* Writes the materials beside OUT; *name is what OUT's mtllib line says, "" when there are none. */
+static bool write_materials(const lom_mesh *mesh, const char *out, char *name, size_t size, lom_error *error)
+{
+    char path[4096];
+    name[0] = 0;
+    if (mesh->material_count == 0 || strcmp(out, "-") == 0)
+        return true;
+    const char *extension = lom_path_extension(out);
+    size_t stem = strlen(out) - (*extension != 0 ? strlen(extension) + 1 : 0);
+    int length = snprintf(path, sizeof path, "%.*s.mtl", (int)stem, out);
+    if (length < 0 || (size_t)length >= sizeof path || strlen(lom_path_file(path)) >= size)
+        return lom_fail(error, LOM_ERROR_LIMIT, "%s: the path of its material file is too long.", out);
+    memcpy(name, lom_path_file(path), strlen(lom_path_file(path)) + 1);
+    lom_bytes text = lom_encode_mtl(mesh, error);
+    bool done = text.data != NULL && lom_write_file(path, text.data, text.size, error);
+    lom_release(text.data);
+    return done;
+}
+
+static bool convert_mesh(const char *in, const char *out, lom_error *error)
+{
+    lom_mesh *mesh = lom_read_obj(in, error);
+    if (mesh == NULL)
+        return false;
+    char material_file[256];
+    bool done = write_materials(mesh, out, material_file, sizeof material_file, error);
+    if (done) {
+        lom_bytes text = lom_encode_obj(mesh, material_file[0] != 0 ? material_file : NULL, error);
+        done = text.data != NULL && lom_write_file(out, text.data, text.size, error);
+        lom_release(text.data);
+    }
+    lom_free_mesh(mesh);
+    return done;
+}
+
+int lom_command_convert(int argc, char **argv)
+{
+    struct values values = { .format = NULL };
+    lom_arguments arguments;
+    int status;
+    if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
+        return status;
+    const char *in = arguments.items[0], *out = arguments.items[1];
+    bool to_mesh = values.format != NULL ? strcmp(values.format, "obj") == 0 : lom_path_is(out, "obj");
+    bool from_mesh = lom_path_is(in, "obj");
+    if (from_mesh && !to_mesh)
+        return lom_complain("%s is a mesh: it can be converted to obj only, not to %s.", in, out);
+    if (to_mesh && !from_mesh && strcmp(in, "-") != 0)
+        return lom_complain("%s is no mesh: %s can be made of an obj file only.", in, out);
+    if (to_mesh && (values.bits != NULL || values.channels.given || values.srgb))
+        return lom_complain("%s is a mesh: --bits, --channels and --srgb are for images.", in);
+    lom_error error = { .code = LOM_OK };
+    bool done = to_mesh ? convert_mesh(in, out, &error) : convert_image(in, out, &values, &error);
+    return done ? LOM_EXIT_DONE : lom_complain_error(&error);
+}

@@ -1,0 +1,26 @@
+/* What a path says about its file. In: a path. Out: parts of it. Invariant: letters are compared as ASCII, whatever the
+ * locale says. */
+#include "paths.h"
+
+#include <string.h>
+
+const char *lom_path_file(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+const char *lom_path_extension(const char *path)
+{
+    const char *file = lom_path_file(path), *dot = strrchr(file, '.');
+    return dot != NULL && dot != file ? dot + 1 : "";
+}
+
+bool lom_path_is(const char *path, const char *extension)
+{
+    const char *p = lom_path_extension(path);
+    for (; *p != 0 && *extension != 0; p++, extension++)
+        if ((*p >= 'A' && *p <= 'Z' ? *p - 'A' + 'a' : *p) != *extension)
+            return false;
+    return *p == *extension;
+}

@@ -1,0 +1,14 @@
+/* What a path says about its file. */
+#ifndef LOM_CLI_PATHS_H
+#define LOM_CLI_PATHS_H
+
+#include <lom/base.h>
+
+/* The letters after the last dot of the last part of path, "" when there is none; points into path. */
+const char *lom_path_extension(const char *path);
+/* The part of path behind the last slash; points into path. */
+const char *lom_path_file(const char *path);
+/* Whether the extension of path is the given one (in small letters), whatever the case of path's ASCII letters. */
+bool lom_path_is(const char *path, const char *extension);
+
+#endif

@@ -1,0 +1,99 @@
+#!/bin/sh
+# Proves `lom compare`: exit statuses, thresholds, what is printed, JSON, and the picture of the differences, on pictures
+# whose differences are known by hand.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/cli/cli.sh
+cd "$folder" || exit 1
+
+# 4x2 RGB: b differs in one pixel, green by 3; c is twice the size; w is b with 16 bits; n is far from a.
+printf 'P3 4 2 255\n 10 20 30  40 50 60  70 80 90  0 0 0   1 2 3  4 5 6  7 8 9  255 255 255\n' >a.ppm
+printf 'P3 4 2 255\n 10 20 30  40 50 60  70 83 90  0 0 0   1 2 3  4 5 6  7 8 9  255 255 255\n' >b.ppm
+printf 'P3 2 4 255\n 10 20 30  40 50 60  70 80 90  0 0 0   1 2 3  4 5 6  7 8 9  255 255 255\n' >c.ppm
+printf 'P3 4 2 255\n 200 0 0  0 200 0  0 0 200  99 0 99   99 99 0  9 9 9  0 99 99  0 0 0\n' >n.ppm
+
+statuses() {
+    exits 0 "$lom" compare a.ppm a.ppm && says identical &&
+        exits 1 "$lom" compare a.ppm b.ppm && says "1 of 8" && says "2,0,1,1" && says "3 of 255 at 2,0 (green)" &&
+        exits 1 "$lom" compare a.ppm c.ppm && complains "a.ppm is 4 x 2 and c.ppm is 2 x 4" &&
+        exits 2 "$lom" compare a.ppm missing.ppm && complains "missing.ppm" && [ ! -s "$folder/out" ] &&
+        exits 2 "$lom" compare cli.sh a.ppm && exits 1 "$lom" compare -q a.ppm b.ppm && [ ! -s out ] && [ ! -s err ]
+}
+
+# Each line: status | thresholds for a against b, whose PSNR is 20 log10(255 / sqrt(9 / 24)) = 52.39 dB.
+thresholds() {
+    while IFS='|' read -r status options; do
+        # shellcheck disable=SC2086
+        exits "$status" "$lom" compare a.ppm b.ppm $options || return 1
+    done <<LINES
+0|--max-diff-pixels 1
+1|--max-diff-pixels 0
+0|--max-delta 3
+1|--max-delta 2.99
+0|--min-psnr 52.39
+1|--min-psnr 52.40
+0|--max-flip 0.5
+1|--max-flip 0.000001
+1|--max-flip 0
+0|--max-delta 3 --max-diff-pixels 1 --min-psnr 50 --max-flip 0.5
+1|--max-delta 2 --max-diff-pixels 1 --min-psnr 50 --max-flip 0.5
+1|--max-delta 3 --max-diff-pixels 1 --min-psnr 53 --max-flip 0.5
+0|--max-delta 3 --quiet
+1|--max-flip 0 --quiet
+LINES
+    exits 0 "$lom" compare a.ppm a.ppm --max-delta 0 --max-diff-pixels 0 --min-psnr 1000 --max-flip 0 &&
+        exits 1 "$lom" compare a.ppm n.ppm --max-flip 0.1 && exits 1 "$lom" compare a.ppm c.ppm --max-diff-pixels 999
+}
+
+# Python checks the line as JSON and the values by hand-made numbers.
+json() {
+    for pair in "a.ppm a.ppm 0" "a.ppm b.ppm 1" "a.ppm c.ppm 1"; do
+        # shellcheck disable=SC2086
+        set -- $pair
+        exits "$3" "$lom" compare "$1" "$2" --json && [ "$(wc -l <out)" -eq 1 ] && cp out "$1.$2.json" || return 1
+    done
+    python3 - <<'CODE'
+import json, math
+same, differ, sizes = (json.load(open("a.ppm.%s.ppm.json" % n)) for n in "abc")
+assert same["identical"] is True and same["pixels"] == 0 and same["max_delta"] == 0 and same["rmse"] == 0
+assert same["psnr"] is None and same["ssim"] == 1 and same["flip"] == 0 and same["bbox"] is None
+assert same["width"] == 4 and same["height"] == 2
+assert differ["identical"] is False and differ["pixels"] == 1 and differ["max_delta"] == 3
+assert differ["bbox"] == [2, 0, 1, 1] and differ["max_at"] == [2, 0, 1]
+rmse = math.sqrt(9 / 24)
+assert abs(differ["rmse"] - rmse) < 1e-12 and abs(differ["psnr"] - 20 * math.log10(255 / rmse)) < 1e-9
+assert 0.9 < differ["ssim"] < 1 and 0 < differ["flip"] < 0.2
+assert sizes["identical"] is False and sizes["same_size"] is False and sizes["pixels"] is None
+CODE
+}
+
+# A file name that is no UTF-8 and has quotes is still valid JSON.
+strange_names() {
+    name=$(printf 'q"\\\001\377.ppm')
+    cp a.ppm "$name" && exits 0 "$lom" compare "$name" a.ppm --json && python3 -m json.tool <out
+}
+
+picture() {
+    exits 1 "$lom" compare a.ppm b.ppm --diff d.ppm && exits 1 "$lom" compare a.ppm b.ppm --diff d.png -q &&
+        exits 0 "$lom" compare d.ppm d.png || return 1
+    # green of the third pixel: 64 + 191 sqrt(3 / 255) = 84.7
+    printf 'P3 4 2 255\n 0 0 0  0 0 0  0 85 0  0 0 0   0 0 0  0 0 0  0 0 0  0 0 0\n' >expected.ppm
+    exits 0 "$lom" compare d.ppm expected.ppm &&
+        exits 2 "$lom" compare a.ppm b.ppm --diff - && exits 1 "$lom" compare a.ppm b.ppm --diff - -q && cmp out d.png &&
+        exits 2 "$lom" compare a.ppm b.ppm --diff no/such/folder.png && complains "folder.png"
+}
+
+standard_input() {
+    "$lom" compare - a.ppm <a.ppm
+}
+
+check compare_exit_statuses statuses
+check compare_thresholds thresholds
+if command -v python3 >/dev/null; then
+    check compare_json json
+    check compare_json_of_strange_names strange_names
+else
+    echo "SKIP compare_json: there is no python3"
+fi
+check compare_picture_of_differences picture
+check compare_reads_standard_input standard_input
+exit $failures

@@ -1,0 +1,59 @@
+#!/bin/sh
+# Proves `lom info`: the facts of files made here by hand, as text and as JSON.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/cli/cli.sh
+cd "$folder" || exit 1
+
+printf 'P5 3 2 255\n\001\002\003\004\005\006' >gray.pgm
+printf 'Pf\n2 1\n-1.0\n\000\000\200\077\000\000\000\100' >two.pfm
+# a triangle, a quad and a pentagon: 1 + 2 + 3 triangles, two materials
+printf 'newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n' >shapes.mtl
+{
+    echo 'mtllib shapes.mtl'
+    printf 'v %s\n' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '2 1 0' '3 2 0'
+    printf 'usemtl red\nf 1 2 3\nf 1 2 4 3\nusemtl blue\nf 1 2 5 6 3\n'
+} >shapes.obj
+
+text() {
+    exits 0 "$lom" info gray.pgm two.pfm shapes.obj && says "gray.pgm: image, 3 x 2, R8, hash " &&
+        says "two.pfm: image, 2 x 1, R32F, hash " && says "shapes.obj: mesh, " && says "6 triangles, 2 materials, hash "
+}
+
+json() {
+    exits 0 "$lom" info --json gray.pgm two.pfm shapes.obj && python3 - <<'CODE'
+import json
+gray, pfm, mesh = (json.loads(line) for line in open("out"))
+fields = "file kind width height depth channels bits vertices triangles materials hash".split()
+for facts in gray, pfm, mesh:
+    assert all(name in facts for name in fields), facts
+    assert len(facts["hash"]) == 16 and int(facts["hash"], 16) > 0
+assert gray["file"] == "gray.pgm" and gray["kind"] == "image" and gray["triangles"] is None
+assert [gray[n] for n in ("width", "height", "depth", "channels", "bits")] == [3, 2, 1, 1, 8]
+assert [pfm[n] for n in ("width", "height", "depth", "channels", "bits")] == [2, 1, 1, 1, 32]
+assert mesh["kind"] == "mesh" and mesh["triangles"] == 6 and mesh["materials"] == 2 and mesh["width"] is None
+assert mesh["vertices"] >= 6
+
+# the hash by the definition: FNV-1a of width, height, depth, format as 32-bit little-endian, then the samples
+def fnv(data):
+    h = 0xcbf29ce484222325
+    for byte in data:
+        h = (h ^ byte) * 0x100000001b3 % 2**64
+    return "%016x" % h
+assert gray["hash"] == fnv(b"".join(n.to_bytes(4, "little") for n in (3, 2, 1, 1)) + bytes([1, 2, 3, 4, 5, 6]))
+CODE
+}
+
+# One bad file: status 2, the others are shown.
+bad_files() {
+    head -c 9 gray.pgm >short.pgm
+    exits 2 "$lom" info short.pgm gray.pgm none.obj && says "gray.pgm: image" && complains "short.pgm" && complains "none.obj"
+}
+
+check info_text text
+if command -v python3 >/dev/null; then
+    check info_json json
+else
+    echo "SKIP info_json: there is no python3"
+fi
+check info_goes_on_after_a_bad_file bad_files
+exit $failures
