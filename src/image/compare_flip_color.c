@@ -2,6 +2,7 @@
  * linear light, opponent colours, perceived colours, the error of a pixel. Invariant: all constants follow from the
  * paper's numbers and the sRGB primaries by arithmetic in double. */
 #include "compare_flip.h"
+#include "convert.h"
 
 #include <string.h>
 
@@ -142,16 +143,11 @@ void lom_free_flip_constants(lom_flip_constants *constants)
 
 /* ---- colours ---- */
 
-static double clamp01(double x)
-{
-    return x >= 1 ? 1 : x > 0 ? x : 0; /* a NaN fails both tests */
-}
-
 double lom_flip_linear(const lom_flip_constants *constants, const lom_common_format *common, double sample)
 {
     if (constants->decoded != NULL)
         return constants->decoded[(size_t)sample];
-    return common->is_float ? clamp01(sample) : lom_srgb_decode_double(sample / common->peak);
+    return common->is_float ? lom_unit_of(sample) : lom_srgb_decode_double(sample / common->peak);
 }
 
 /* XYZ relative to white. */
@@ -189,7 +185,7 @@ void lom_flip_perceived(const lom_flip_constants *constants, const double oppone
         xyz[i] = relative[i] * constants->white[i];
     for (int i = 0; i < 3; i++) {
         const double *row = constants->to_rgb[i];
-        rgb[i] = clamp01(row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2]);
+        rgb[i] = lom_unit_of(row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2]);
     }
     relative_xyz(constants, rgb, xyz);
     double fx = compress(xyz[0]), fy = compress(xyz[1]), fz = compress(xyz[2]);
@@ -208,5 +204,5 @@ double lom_flip_pixel(const lom_flip_constants *constants, const double a[3], co
     double color =
         distance < knee ? p_t / knee * distance : p_t + (distance - knee) / (constants->largest - knee) * (1 - p_t);
     double lift = __builtin_sqrt(feature / __builtin_sqrt(2.0));
-    return lom_double_pow(clamp01(color), 1 - clamp01(lift));
+    return lom_double_pow(lom_unit_of(color), 1 - lom_unit_of(lift));
 }

@@ -2,6 +2,7 @@
  * steps of the wider unsigned normalised format or as plain numbers. Invariant: a sample becomes the same number
  * whichever picture it stands in, and every format's numbers are held without loss. */
 #include "compare.h"
+#include "convert.h"
 
 #include <string.h>
 
@@ -42,20 +43,6 @@ double lom_srgb_encode_double(double linear)
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * lom_double_pow(linear, 1 / 2.4) - 0.055;
 }
 
-/* IEEE 754 binary16: 1 sign, 5 exponent (bias 15), 10 fraction. */
-static double half_value(uint16_t half)
-{
-    int exponent = half >> 10 & 31, fraction = half & 1023;
-    double magnitude;
-    if (exponent == 31)
-        magnitude = fraction != 0 ? __builtin_nan("") : __builtin_inf();
-    else if (exponent == 0)
-        magnitude = fraction * 0x1p-24;
-    else
-        magnitude = (1024 + fraction) * (double)(UINT32_C(1) << exponent) * 0x1p-25;
-    return half >> 15 ? -magnitude : magnitude;
-}
-
 /* One sample as it is stored: a number of steps, or a float. */
 static double stored_sample(const lom_format_info *info, const uint8_t *address)
 {
@@ -67,7 +54,7 @@ static double stored_sample(const lom_format_info *info, const uint8_t *address)
         return *address;
     case 16:
         memcpy(&word16, address, sizeof word16);
-        return info->is_float ? half_value(word16) : word16;
+        return info->is_float ? (double)lom_float_of_half(word16) : word16;
     default:
         memcpy(&word32, address, sizeof word32);
         memcpy(&single, address, sizeof single);
@@ -87,8 +74,9 @@ static double map_sample(double stored, const struct mapping *mapping, bool is_c
 {
     if (mapping->divisor == 0)
         return stored * mapping->scale;
-    double value = stored / mapping->divisor;
-    return (double)(float)(mapping->decode && is_color ? lom_srgb_decode_double(value) : value);
+    if (mapping->decode && is_color) /* only samples of 8 bits are sRGB-encoded */
+        return (double)lom_srgb_linear[(size_t)stored];
+    return (double)(float)(stored / mapping->divisor);
 }
 
 void lom_read_common_row(const lom_image *image, const lom_common_format *common, int y, int z, double *out)

@@ -5,6 +5,7 @@
  * The Gaussian is separable, so rows are filtered as they come and kept in a ring; a window's moments are a weighted
  * sum of WINDOW filtered rows. */
 #include "compare.h"
+#include "convert.h"
 
 enum { WINDOW = 11, RADIUS = WINDOW / 2, MOMENTS = 5 };
 static const double sigma = 1.5;
@@ -44,8 +45,8 @@ static void luma_row(const lom_common_format *common, const double *row, int wid
         double encoded[3];
         for (int c = 0; c < common->colors; c++) {
             double value = row[c] / common->peak;
-            if (common->is_float) /* linear light; a NaN fails both tests and becomes 0 */
-                value = lom_srgb_encode_double(value >= 1 ? 1 : value > 0 ? value : 0);
+            if (common->is_float) /* linear light */
+                value = lom_srgb_encode_double(lom_unit_of(value));
             encoded[c] = value;
         }
         out[x] = common->colors == 3 ? 0.299 * encoded[0] + 0.587 * encoded[1] + 0.114 * encoded[2] : encoded[0];
