@@ -250,6 +250,12 @@ lom_image *lom_make_albedo(const lom_albedo_desc *desc, lom_error *error);
 /* The names of the textures, from 0; NULL behind the last. */
 const char *lom_albedo_name(size_t index);
 
+/* A thing that stands at a lake, in metres, y = 0 at the ground or the water's surface; its materials name textures
+ * "NAME.png" of lom_make_albedo(NAME). Freed with lom_free_mesh. */
+lom_mesh *lom_make_entity(const char *name, uint64_t seed, lom_error *error);
+/* The names of the entities, from 0; NULL behind the last. */
+const char *lom_entity_name(size_t index);
+
 #ifdef __cplusplus
 }
 #endif

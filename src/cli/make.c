@@ -109,6 +109,59 @@ static bool make_sky_box(const recipe *r, const parameters *p, const char *path,
     return done;
 }
 
+/* The folder that path lies in, with its slash; empty for none. */
+static bool folder_of(char *folder, size_t room, const char *path, lom_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    if (length >= room)
+        return lom_fail(error, LOM_ERROR_USAGE, "%.200s...: the path is too long.", path);
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    return true;
+}
+
+/* The textures that the mesh names, beside it; all of them belong to the seed of the table. */
+static bool write_textures(const lom_mesh *mesh, const char *folder, lom_error *error)
+{
+    for (size_t i = 0; i < mesh->material_count; i++) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s%s", folder, mesh->materials[i].diffuse_map);
+        lom_albedo_desc desc = { .name = mesh->materials[i].name, .seed = 1 };
+        if (!write_and_free(path, lom_make_albedo(&desc, error), error))
+            return false;
+    }
+    return true;
+}
+
+static bool write_bytes(const char *path, lom_bytes bytes, lom_error *error)
+{
+    bool written = bytes.data != NULL && lom_write_file(path, bytes.data, bytes.size, error);
+    lom_release(bytes.data);
+    return written;
+}
+
+/* NAME.obj, NAME.mtl and the pictures. */
+static bool make_entity(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    char folder[700], material[800], name[64];
+    size_t length = strlen(path);
+    if (length < 5 || strcmp(path + length - 4, ".obj") != 0)
+        return lom_fail(error, LOM_ERROR_USAGE, "%s: an entity is written to a file that ends in .obj.", path);
+    if (!folder_of(folder, sizeof folder, path, error))
+        return false;
+    int used = snprintf(name, sizeof name, "%.*s.mtl", (int)(length - 4 - strlen(folder)), path + strlen(folder));
+    if (used < 0 || (size_t)used >= sizeof name)
+        return lom_fail(error, LOM_ERROR_USAGE, "%s: the name is too long.", path);
+    snprintf(material, sizeof material, "%s%s", folder, name);
+    lom_mesh *mesh = lom_make_entity(r->name, p->seed, error);
+    bool done = mesh != NULL && write_textures(mesh, folder, error) &&
+                write_bytes(material, lom_encode_mtl(mesh, error), error) &&
+                write_bytes(path, lom_encode_obj(mesh, name, error), error);
+    lom_free_mesh(mesh);
+    return done;
+}
+
 static const recipe recipes[] = {
     { "height-map", NULL, "terrain/height.png", make_height_map, { .size = 1024, .seed = 3 } },
     { "albedo", "grass", "terrain/grass.png", make_albedo, { .seed = 1 } },
@@ -123,6 +176,14 @@ static const recipe recipes[] = {
       "sky/%s.png",
       make_sky_box,
       { .size = 1024, .seed = 2, .azimuth = 62, .elevation = 26, .haziness = 0.8, .cloudiness = 0.7 } },
+    { "entity", "boat", "entities/boat.obj", make_entity, { .seed = 1 } },
+    { "entity", "jetty", "entities/jetty.obj", make_entity, { .seed = 1 } },
+    { "entity", "cabin", "entities/cabin.obj", make_entity, { .seed = 1 } },
+    { "entity", "spruce", "entities/spruce.obj", make_entity, { .seed = 1 } },
+    { "entity", "pine", "entities/pine.obj", make_entity, { .seed = 1 } },
+    { "entity", "boulder", "entities/boulder.obj", make_entity, { .seed = 1 } },
+    { "entity", "stones", "entities/stones.obj", make_entity, { .seed = 1 } },
+    { "entity", "reeds", "entities/reeds.obj", make_entity, { .seed = 1 } },
 };
 enum { RECIPE_COUNT = sizeof recipes / sizeof recipes[0] };
 
@@ -149,8 +210,7 @@ static const lom_option options[] = {
 static const lom_command_line line = {
     .name = "make",
     .arguments = "KIND [NAME]",
-    .summary =
-        "Makes a picture or a mesh: height-map, normal-map, flow-map, sky-box, albedo NAME; or all of the project's",
+    .summary = "Makes a picture or a mesh: height-map, normal-map, flow-map, sky-box, albedo NAME, entity NAME; or all",
     .details = "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
                "options a\n"
                "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"

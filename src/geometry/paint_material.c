@@ -160,10 +160,10 @@ void lom_paint_masonry(lom_canvas *c)
     lom_shade_relief(c, 0.35);
 }
 
-/* Twigs that point down the picture, away from the stem. */
+/* Twigs that point down the picture, from the shade of the stem into the light. */
 void lom_paint_needles(lom_canvas *c)
 {
-    const lom_tint gloom = lom_tint_of(22, 30, 18), old = lom_tint_of(44, 60, 32), young = lom_tint_of(96, 114, 58);
+    const lom_tint gloom = lom_tint_of(40, 50, 30), old = lom_tint_of(62, 80, 44), young = lom_tint_of(124, 138, 76);
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++)
             lom_put_tint(c, x, y,
@@ -184,12 +184,18 @@ void lom_paint_needles(lom_canvas *c)
                               .tip = lom_scale_tint(lom_mix_tint(old, young, 0.3 + 0.8 * tone), depth * 1.05) };
         lom_paint_stroke(c, &needle);
     }
+    for (int y = 0; y < c->size; y++)
+        for (int x = 0; x < c->size; x++) {
+            double *color = c->color[lom_canvas_index(c, x, y)];
+            for (int k = 0; k < 3; k++)
+                color[k] *= 0.62 + 0.5 * (y + 0.5) / c->size;
+        }
 }
 
 /* Blades from green (top) to straw (bottom), with veins. */
 void lom_paint_reed(lom_canvas *c)
 {
-    const lom_tint green = lom_tint_of(104, 122, 58), straw = lom_tint_of(176, 158, 100),
+    const lom_tint green = lom_tint_of(104, 116, 66), straw = lom_tint_of(172, 156, 106),
                    foot = lom_tint_of(92, 86, 50);
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++) {
