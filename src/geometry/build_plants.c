@@ -26,12 +26,12 @@ static void build_bough(lom_mesh_builder *builder, uint64_t seed, lom_vec3 foot,
                             .side = side,
                             .normal = leaf_normal(around(angle, 0), 0.75),
                             .length = length,
-                            .width = 0.22 + 0.16 * length,
+                            .width = 0.24 + 0.20 * length,
                             .droop = droop,
                             .u = lom_model_random(seed, 2, 0, 1),
                             .segments = 3 };
     lom_model_leaf_at(builder, &leaf);
-    int twigs = 3 + (int)(length * 3.4);
+    int twigs = 2 + (int)(length * 1.9);
     for (int i = 0; i < twigs; i++)
         for (int hand = -1; hand <= 1; hand += 2) {
             uint64_t which = 10 + 8 * (uint64_t)i + (hand > 0 ? 4 : 0);
@@ -45,7 +45,7 @@ static void build_bough(lom_mesh_builder *builder, uint64_t seed, lom_vec3 foot,
                 .side = lom_vec3_normalize((lom_vec3){ -lom_double_sin(turn), 0.5 * hand, lom_double_cos(turn) }),
                 .normal = leaf_normal(around(turn, 0), 0.55),
                 .length = (0.22 + 0.30 * length * (1 - t)) * lom_model_random(seed, which + 2, 0.8, 1.3),
-                .width = 0.20 + 0.09 * length,
+                .width = 0.26 + 0.11 * length,
                 .droop = 0.45,
                 .u = lom_model_random(seed, which + 3, 0, 1),
                 .segments = 2
@@ -66,18 +66,18 @@ void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed, lom_error *error
                                { { 0, height - 0.2, 0 }, 0.02 } };
     lom_model_tube(builder, stem, 4, 7, (lom_model_map){ 0, 2, 0, 1.2 });
     lom_model_material(builder, "needles", 0, 1);
-    const int whorls = 30;
+    const int whorls = 24;
     for (int i = 0; i < whorls; i++) {
         uint64_t key = seed * 1000 + (uint64_t)i * 16;
         double t = (i + lom_model_random(key, 900, -0.25, 0.25)) / whorls;
         double reach = 2.5 * (1 - t) * (1.12 - 0.3 * t) * (0.95 + 0.05 * lom_double_sin(23 * t + (double)seed)) + 0.25;
-        int boughs = t < 0.8 ? 6 : 4;
+        int boughs = t < 0.75 ? 6 : 5;
         double turn = two_pi * lom_model_random(key, 901, 0, 1);
         for (int k = 0; k < boughs; k++) {
             uint64_t bough = key + (uint64_t)k + 1;
             double angle = turn + two_pi * (k + lom_model_random(bough, 902, -0.25, 0.25)) / boughs;
             double length = reach * lom_model_random(bough, 903, 0.72, 1.12);
-            double y = 0.7 + (height - 1.0) * t + lom_model_random(bough, 904, -0.12, 0.12);
+            double y = 0.7 + (height - 1.0) * t + lom_model_random(bough, 904, -0.22, 0.22);
             build_bough(builder, bough, (lom_vec3){ 0, y, 0 }, angle, length, -0.12 + 0.75 * t * t);
         }
     }
@@ -109,7 +109,7 @@ static void build_tuft(lom_mesh_builder *builder, uint64_t seed, lom_vec3 center
                                 .normal = leaf_normal(along, 0.5),
                                 .length =
                                     radius * lom_model_random(seed, (uint64_t)i * 2, 0.75, 1.1) * lom_vec3_length(out),
-                                .width = radius * 0.2,
+                                .width = radius * 0.26,
                                 .droop = 0.15,
                                 .u = lom_model_random(seed, (uint64_t)i * 2 + 1, 0, 1),
                                 .segments = 1 };
@@ -152,12 +152,12 @@ void lom_build_pine(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
     for (int i = 0; i < LIMBS; i++) {
         uint64_t key = seed * 100 + (uint64_t)i;
         double size = lom_model_random(key, 50, 0.85, 1.25) * (1 - 0.25 * i / LIMBS);
-        build_tuft(builder, key, end[i], size, 84);
+        build_tuft(builder, key, end[i], size, 60);
         for (uint64_t k = 0; k < 2; k++) {
             lom_vec3 beside = { lom_model_random(key, 60 + 3 * k, -0.8, 0.8),
                                 lom_model_random(key, 61 + 3 * k, -0.1, 0.35),
                                 lom_model_random(key, 62 + 3 * k, -0.8, 0.8) };
-            build_tuft(builder, key + 7777 * (k + 1), lom_vec3_add(end[i], beside), size * 0.75, 52);
+            build_tuft(builder, key + 7777 * (k + 1), lom_vec3_add(end[i], beside), size * 0.75, 40);
         }
     }
     build_tuft(builder, seed + 31, stem[RINGS - 1].center, 0.9, 84);

@@ -116,14 +116,14 @@ void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone,
 
 void lom_build_boulder(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
 {
-    lom_model_material(builder, "rock", 0.04, 12);
+    lom_model_material(builder, "stone", 0.04, 12);
     lom_model_stone stone = { { 0, 0.35, 0 }, { 1.35, 0.95, 1.1 }, seed, 3 };
     lom_model_stone_at(builder, &stone, error);
 }
 
 void lom_build_stones(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
 {
-    lom_model_material(builder, "rock", 0.04, 12);
+    lom_model_material(builder, "stone", 0.04, 12);
     for (uint64_t i = 0; i < 11; i++) {
         double size = i < 2 ? lom_model_random(seed, 5 * i, 0.45, 0.7) : lom_model_random(seed, 5 * i, 0.12, 0.34);
         double distance = lom_model_random(seed, 5 * i + 1, 0.2, 1.9), angle = 2.4 * (double)i;

@@ -1,5 +1,5 @@
 /* Entities. In: a name and a seed; out: a mesh whose materials name the textures of lom_make_albedo. Coordinates are
- * rounded to millimetres, so that the written files are short and read back as the same numbers. */
+ * rounded (houses to millimetres, trees to centimetres), so that the files are short and read back the same. */
 #include "geometry/model.h"
 
 #include <string.h>
@@ -7,10 +7,11 @@
 static const struct entity {
     const char *name;
     void (*build)(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
+    double units; /* coordinates are multiples of 1 / units */
 } entities[] = {
-    { "boat", lom_build_boat },     { "jetty", lom_build_jetty }, { "cabin", lom_build_cabin },
-    { "spruce", lom_build_spruce }, { "pine", lom_build_pine },   { "boulder", lom_build_boulder },
-    { "stones", lom_build_stones }, { "reeds", lom_build_reeds },
+    { "boat", lom_build_boat, 1000 },     { "jetty", lom_build_jetty, 1000 }, { "cabin", lom_build_cabin, 1000 },
+    { "spruce", lom_build_spruce, 100 },  { "pine", lom_build_pine, 100 },    { "boulder", lom_build_boulder, 1000 },
+    { "stones", lom_build_stones, 1000 }, { "reeds", lom_build_reeds, 1000 },
 };
 
 const char *lom_entity_name(size_t index)
@@ -18,21 +19,21 @@ const char *lom_entity_name(size_t index)
     return index < sizeof entities / sizeof entities[0] ? entities[index].name : NULL;
 }
 
-static float rounded(float value, double unit)
+static float rounded(float value, double units)
 {
-    return (float)(lom_double_floor(value * unit + 0.5) / unit);
+    return (float)(lom_double_floor(value * units + 0.5) / units);
 }
 
-static void round_mesh(lom_mesh *mesh)
+static void round_mesh(lom_mesh *mesh, double units)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         lom_mesh_vertex *v = &mesh->vertices[i];
         for (int k = 0; k < 3; k++) {
-            v->position[k] = rounded(v->position[k], 1000);
-            v->normal[k] = rounded(v->normal[k], 1000);
+            v->position[k] = rounded(v->position[k], units);
+            v->normal[k] = rounded(v->normal[k], units);
         }
         for (int k = 0; k < 2; k++)
-            v->uv[k] = rounded(v->uv[k], 1000);
+            v->uv[k] = rounded(v->uv[k], units);
     }
 }
 
@@ -52,7 +53,7 @@ lom_mesh *lom_make_entity(const char *name, uint64_t seed, lom_error *error)
     found->build(builder, seed, error);
     lom_mesh *mesh = lom_finish_mesh(builder, 0.8, error);
     if (mesh != NULL)
-        round_mesh(mesh);
+        round_mesh(mesh, found->units);
     lom_leave_float_state(&state);
     return mesh;
 }

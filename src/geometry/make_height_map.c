@@ -26,7 +26,8 @@ static const stroke water[] = {
 };
 static const stroke land[] = {
     { -170, 440, -47, 409, 40, 17 }, /* the cape with the cabin */
-    { 95, 515, 22, 462, 26, 6 },     /* the spit with the reeds */
+    { 95, 515, 30, 476, 26, 8 },     /* the spit in the south */
+    { -4, 432, 1, 428, 3.5, 3 },     /* the shoal with the reeds */
     { 260, 235, 138, 205, 60, 14 },  /* a wooded headland */
     { -260, 130, -128, 96, 70, 16 }, /* another, behind the first */
     { 52, 132, 70, 124, 13, 8 },     /* an islet */
