@@ -175,20 +175,21 @@ double lom_terrain_height(const lom_image *map, double width, double length, dou
 /* ---- shapes: around the origin, counter-clockwise from outside, with normals and uv, one part without material ----
  */
 
-/* 24 vertices, a face 0..1 in uv, upright on the four sides. Sizes > 0. */
+/* 24 vertices, a face 0..1 in uv, upright on the four sides. */
 lom_mesh *lom_make_box(lom_vec3 size, lom_error *error);
 /* Two triangles facing +y; uv (0, 0) at (-width/2, -length/2). */
 lom_mesh *lom_make_quad(double width, double length, lom_error *error);
 /* (columns+1) x (rows+1) vertices facing +y, split like terrain; uv 0..1 over the whole. */
 lom_mesh *lom_make_grid(double width, double length, int columns, int rows, lom_error *error);
-/* (slices+1) x (stacks+1) vertices, u around y from +x towards -z, v from the north pole down; slices >= 3,
- * stacks >= 2; the poles have no degenerate triangles. */
+/* u around y from +x towards -z, v from the north pole down; rows of slices + 1 vertices, at the poles slices (one for
+ * each of the triangles there, none is degenerate); slices >= 3, stacks >= 2. */
 lom_mesh *lom_make_sphere(double radius, int slices, int stacks, lom_error *error);
 /* (columns+1) x (rows+1) vertices; column i at angle A = 2 pi i / columns from +x towards +z, row j at B = 2 pi j /
  * rows of the tube: ((major + minor cos B) cos A, minor sin B, (major + minor cos B) sin A); uv = (i / columns, j /
  * rows). */
 lom_mesh *lom_make_torus(double major, double minor, int columns, int rows, lom_error *error);
-/* Around y from y = 0 (radius bottom) to y = height (radius top; one of them may be 0: a cone), closed by flat caps. */
+/* Around y from y = 0 (radius bottom) to y = height (radius top; one of them may be 0: a cone), closed by flat caps; u
+ * around like the sphere's, v from the top down. */
 lom_mesh *lom_make_cylinder(double bottom, double top, double height, int slices, lom_error *error);
 
 /* ---- working on meshes ---- */
