@@ -1,0 +1,61 @@
+/* lom/render.h - from a scene to pictures: the plan (which passes, and why) and running it, frame after frame. */
+#ifndef LOM_RENDER_H
+#define LOM_RENDER_H
+
+#include <lom/pipeline.h>
+#include <lom/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lom_renderer lom_renderer;
+
+/* Loads everything the scene names and makes ready to draw it. The scene is not copied: it outlives the renderer. NULL on
+ * failure. Freed with lom_free_renderer. The zero device descriptor is a good one. */
+lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *device, lom_error *error);
+void          lom_free_renderer(lom_renderer *renderer); /* NULL is allowed */
+
+typedef struct lom_frame_desc {
+    int width, height; /* of the whole frame; 0: the scene's */
+    int frame;         /* its time is frame / fps seconds */
+    lom_rect crop;     /* the part that is drawn and returned; width 0: all of it */
+} lom_frame_desc;
+
+/* ---- the plan ---- */
+
+enum { LOM_MAX_STEPS = 16, LOM_MAX_STEP_TEXT = 160 };
+
+/* One pass, or one that was left out. */
+typedef struct lom_step {
+    char name[24]; /* "scene", "visibility", "reflection", "refraction", "water" */
+    bool runs;
+    char text[LOM_MAX_STEP_TEXT]; /* what it draws from what into what; or why it was left out */
+    int  width, height;           /* of its target */
+    lom_rect scissor;             /* the part of it that is drawn; width 0: all of it */
+} lom_step;
+
+typedef struct lom_plan {
+    int      count;
+    lom_step step[LOM_MAX_STEPS];
+} lom_plan;
+
+/* ---- a frame ---- */
+
+typedef struct lom_frame {
+    lom_image   *image;    /* the picture, in the scene's output format; freed with lom_free_image */
+    lom_plan     plan;     /* what was done for it */
+    lom_counters counters; /* work of this frame */
+} lom_frame;
+
+/* Draws one frame; any frame alone gives the bytes that it has in a run. False on failure (image is then NULL). */
+bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *frame, lom_error *error);
+
+/* The device that draws, for its descriptor and counters. */
+const lom_device *lom_renderer_device(const lom_renderer *renderer);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,69 @@
+/* What the shaders of every model layer share: matrices and vectors as floats, transformations and light over lanes. */
+#ifndef LOM_PIPELINE_UNIFORMS_H
+#define LOM_PIPELINE_UNIFORMS_H
+
+#include <lom/lanes_mathematics.h>
+#include <lom/pipeline.h>
+
+struct lom_matrix_uniform {
+    float m[4][4]; /* m[row][column], rounded once from double */
+};
+
+/* One directional light, Phong. */
+struct lom_light_uniform {
+    float to_light[3]; /* unit length */
+    float color[3];
+    float ambient[3];
+};
+
+LOM_INLINE lom_float3 lom_uniform3(const float v[3])
+{
+    return lom_splat3(v[0], v[1], v[2]);
+}
+
+LOM_INLINE lom_float lom_transform_row(const float row[4], lom_float3 p)
+{
+    return p.x * row[0] + p.y * row[1] + p.z * row[2] + row[3];
+}
+
+/* m (p, 1) */
+LOM_INLINE lom_float4 lom_transform4(const struct lom_matrix_uniform *m, lom_float3 p)
+{
+    return (lom_float4){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p),
+                         lom_transform_row(m->m[3], p) };
+}
+
+/* The upper three rows of m (p, 1). */
+LOM_INLINE lom_float3 lom_transform3(const struct lom_matrix_uniform *m, lom_float3 p)
+{
+    return (lom_float3){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p) };
+}
+
+/* The upper 3x3 of m times v. */
+LOM_INLINE lom_float3 lom_rotate3(const struct lom_matrix_uniform *m, lom_float3 v)
+{
+    return (lom_float3){ v.x * m->m[0][0] + v.y * m->m[0][1] + v.z * m->m[0][2],
+                         v.x * m->m[1][0] + v.y * m->m[1][1] + v.z * m->m[1][2],
+                         v.x * m->m[2][0] + v.y * m->m[2][1] + v.z * m->m[2][2] };
+}
+
+/* Phong's specular term max(R.E, 0)^shininess of the light, R its reflection; 0 where the light is behind the surface. */
+LOM_INLINE lom_float lom_phong_specular(const struct lom_light_uniform *light, lom_float3 normal, lom_float3 to_eye,
+                                        float shininess)
+{
+    lom_float3 to_light  = lom_uniform3(light->to_light);
+    lom_float  facing    = lom_dot3(normal, to_light);
+    lom_float3 reflected = lom_sub3(lom_scale3(normal, 2.0f * facing), to_light);
+    lom_float  cosine    = lom_max(lom_dot3(reflected, to_eye), (lom_float){ 0 });
+    if (!lom_any((facing > 0.0f) & (cosine > 0.0f)))
+        return (lom_float){ 0 };
+    return lom_select(facing > 0.0f, lom_pow(cosine, lom_splat(shininess)), (lom_float){ 0 });
+}
+
+/* max(N.L, 0) */
+LOM_INLINE lom_float lom_lambert(const struct lom_light_uniform *light, lom_float3 normal)
+{
+    return lom_max(lom_dot3(normal, lom_uniform3(light->to_light)), (lom_float){ 0 });
+}
+
+#endif

@@ -1,0 +1,218 @@
+/* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks that are culled as a whole, entities
+ * placed in the world with a material for each part, the water's maps. */
+#include "render/renderer.h"
+#include "water/lake.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { BLOCK = 64 }; /* quads along an edge of a terrain block */
+
+static void widen_box(lom_box *box, const float p[3])
+{
+    box->low.x  = p[0] < box->low.x ? p[0] : box->low.x;
+    box->low.y  = p[1] < box->low.y ? p[1] : box->low.y;
+    box->low.z  = p[2] < box->low.z ? p[2] : box->low.z;
+    box->high.x = p[0] > box->high.x ? p[0] : box->high.x;
+    box->high.y = p[1] > box->high.y ? p[1] : box->high.y;
+    box->high.z = p[2] > box->high.z ? p[2] : box->high.z;
+}
+
+static struct lom_terrain_block make_block(const lom_mesh *mesh, uint32_t first, uint32_t count)
+{
+    struct lom_terrain_block block = { first, count, { { 1e300, 1e300, 1e300 }, { -1e300, -1e300, -1e300 } } };
+    for (uint32_t i = first; i < first + count; i++)
+        widen_box(&block.bounds, mesh->vertices[mesh->indices[i]].position);
+    return block;
+}
+
+/* Reorders the grid's triangles block by block; a block keeps the order of its quads. */
+static bool make_blocks(lom_renderer *renderer, int columns, int rows, lom_error *error)
+{
+    lom_mesh *mesh = renderer->terrain;
+    int       across = (columns + BLOCK - 1) / BLOCK, down = (rows + BLOCK - 1) / BLOCK;
+    uint32_t *ordered = lom_allocate(mesh->index_count, sizeof *ordered, error);
+    renderer->blocks  = lom_allocate((size_t)across * (size_t)down, sizeof *renderer->blocks, error);
+    if (ordered == NULL || renderer->blocks == NULL) {
+        lom_release(ordered);
+        return false;
+    }
+    uint32_t *old = mesh->indices, at = 0;
+    mesh->indices = ordered;
+    for (int block = 0; block < across * down; block++) {
+        int      x0 = block % across * BLOCK, y0 = block / across * BLOCK;
+        int      width = columns - x0 < BLOCK ? columns - x0 : BLOCK;
+        uint32_t first = at;
+        for (int y = y0; y < y0 + BLOCK && y < rows; y++) {
+            size_t quad = (size_t)y * (size_t)columns + (size_t)x0;
+            memcpy(ordered + at, old + 6 * quad, 6 * (size_t)width * sizeof *old);
+            at += 6 * (uint32_t)width;
+        }
+        renderer->blocks[renderer->block_count++] = make_block(mesh, first, at - first);
+    }
+    lom_release(old);
+    return true;
+}
+
+bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    if (t->given == 0)
+        return true;
+    lom_image *map = lom_read_image(t->height_map, error);
+    if (map == NULL)
+        return false;
+    renderer->terrain = lom_make_terrain(map, t->size[0], t->size[1], t->height, t->base, error);
+    bool done = renderer->terrain != NULL && make_blocks(renderer, map->width - 1, map->height - 1, error);
+    lom_free_image(map);
+    if (done && t->texture != NULL)
+        done = lom_load_texture(renderer, t->texture, true, error) != NULL;
+    for (size_t i = 0; done && i < t->layer_count; i++)
+        done = lom_load_texture(renderer, t->layers[i].map, true, error) != NULL;
+    if (done && t->layer_count > LOM_MAX_TERRAIN_LAYERS)
+        return lom_fail(error, LOM_ERROR_LIMIT, "%s: a terrain has at most %d layers, and this one has %zu.",
+                        renderer->scene->path, LOM_MAX_TERRAIN_LAYERS, t->layer_count);
+    if (done && t->detail_map != NULL)
+        done = lom_load_texture(renderer, t->detail_map, false, error) != NULL;
+    if (done && t->normal_map != NULL)
+        done = lom_load_texture(renderer, t->normal_map, false, error) != NULL;
+    return done;
+}
+
+bool lom_load_water(lom_renderer *renderer, lom_error *error)
+{
+    const lom_water_params *w = &renderer->scene->water;
+    if (w->given == 0 || w->normal_map == NULL)
+        return true;
+    renderer->normal_map = lom_load_texture(renderer, w->normal_map, false, error);
+    if (renderer->normal_map == NULL)
+        return false;
+    if (w->flow_map != NULL)
+        renderer->flow_map = lom_load_texture(renderer, w->flow_map, false, error);
+    if (w->flow_map != NULL || !w->flow)
+        return renderer->flow_map != NULL || !w->flow;
+    lom_image *file = lom_read_image(w->normal_map, error);
+    lom_image *flow = file == NULL ? NULL : lom_make_flow_map(file, error);
+    lom_image *rgba = flow == NULL ? NULL : lom_convert_image(flow, LOM_FORMAT_RGBA8, error);
+    if (rgba != NULL)
+        renderer->flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width  = rgba->width,
+                                                                                     .height = rgba->height,
+                                                                                     .pixels = rgba->pixels,
+                                                                                     .mips   = LOM_MIPS_ALL });
+    lom_free_image(file);
+    lom_free_image(flow);
+    lom_free_image(rgba);
+    return renderer->flow_map != NULL;
+}
+
+/* T Rz Ry Rx S */
+static lom_mat4 place(const lom_renderer *renderer, const lom_entity *entity, const lom_image *ground)
+{
+    const lom_terrain *t        = &renderer->scene->terrain;
+    lom_vec3           position = entity->position;
+    if (entity->on_ground && ground != NULL)
+        position.y += lom_terrain_height(ground, t->size[0], t->size[1], t->height, t->base, position.x, position.z);
+    lom_mat4 scale = lom_scaling(entity->scale), turn = lom_rotation(entity->rotation), move = lom_translation(position);
+    lom_mat4 turned = lom_multiply(&turn, &scale);
+    return lom_multiply(&move, &turned);
+}
+
+static void copy3(float out[3], const double in[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)in[i];
+}
+
+/* The mesh's own material, where the entity does not say otherwise. */
+static bool load_material(lom_renderer *renderer, const lom_entity *entity, const lom_material *own,
+                          struct lom_material_uniform *out, lom_error *error)
+{
+    const lom_scene_material *over = &entity->material;
+    lom_material              base = own != NULL ? *own : lom_default_material("");
+    memcpy(out->ambient, base.ambient, sizeof out->ambient);
+    memcpy(out->diffuse, base.diffuse, sizeof out->diffuse);
+    memcpy(out->specular, base.specular, sizeof out->specular);
+    out->shininess = base.shininess;
+    out->texture   = NULL;
+    if (over->given & LOM_MATERIAL_AMBIENT)
+        copy3(out->ambient, over->ambient);
+    if (over->given & LOM_MATERIAL_DIFFUSE)
+        copy3(out->diffuse, over->diffuse);
+    if (over->given & LOM_MATERIAL_SPECULAR)
+        copy3(out->specular, over->specular);
+    if (over->given & LOM_MATERIAL_SHININESS)
+        out->shininess = (float)over->shininess;
+    char        path[4096];
+    const char *texture = (over->given & LOM_MATERIAL_TEXTURE) != 0 ? over->texture : NULL;
+    if (texture == NULL && base.diffuse_map[0] != 0) {
+        const char *slash  = strrchr(entity->mesh, '/');
+        int         folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
+        snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, base.diffuse_map);
+        texture = path;
+    }
+    if (texture != NULL)
+        out->texture = lom_load_texture(renderer, texture, true, error);
+    return texture == NULL || out->texture != NULL;
+}
+
+static bool load_parts(lom_renderer *renderer, struct lom_loaded_entity *loaded, lom_error *error)
+{
+    const lom_mesh *mesh = loaded->drawn;
+    loaded->parts        = lom_allocate(mesh->part_count, sizeof *loaded->parts, error);
+    if (loaded->parts == NULL)
+        return false;
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const lom_mesh_part *part = &mesh->parts[i];
+        const lom_material  *own  = part->material < 0 ? NULL : &mesh->materials[part->material];
+        loaded->parts[i].first    = part->first_index;
+        loaded->parts[i].count    = part->index_count;
+        if (!load_material(renderer, loaded->entity, own, &loaded->parts[i].material, error))
+            return false;
+    }
+    return true;
+}
+
+static const lom_mesh *find_mesh(const lom_renderer *renderer, const char *path)
+{
+    for (size_t i = 0; i < renderer->entity_count; i++)
+        if (renderer->entities[i].mesh != NULL && strcmp(renderer->entities[i].entity->mesh, path) == 0)
+            return renderer->entities[i].mesh;
+    return NULL;
+}
+
+static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const lom_image *ground, lom_error *error)
+{
+    struct lom_loaded_entity *loaded = &renderer->entities[renderer->entity_count];
+    loaded->entity                   = entity;
+    loaded->drawn                    = find_mesh(renderer, entity->mesh);
+    if (loaded->drawn == NULL)
+        loaded->drawn = loaded->mesh = lom_read_obj(entity->mesh, error);
+    renderer->entity_count++;
+    if (loaded->drawn == NULL)
+        return false;
+    loaded->world_from_model = place(renderer, entity, ground);
+    if (!lom_normal_matrix(&loaded->world_from_model, &loaded->normal_from_model))
+        return lom_fail(error, LOM_ERROR_INPUT, "%s: an entity's scale makes its matrix singular.", entity->mesh);
+    loaded->bounds = lom_transform_box(&loaded->world_from_model, lom_mesh_bounds(loaded->drawn));
+    return load_parts(renderer, loaded, error);
+}
+
+bool lom_load_entities(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene  = renderer->scene;
+    lom_image       *ground = NULL;
+    renderer->entities      = lom_allocate(scene->entity_count, sizeof *renderer->entities, error);
+    if (renderer->entities == NULL)
+        return false;
+    if (scene->terrain.given != 0) {
+        ground = lom_read_image(scene->terrain.height_map, error);
+        if (ground == NULL)
+            return false;
+    }
+    bool done = true;
+    for (size_t i = 0; done && i < scene->entity_count; i++)
+        if (scene->entities[i].visible)
+            done = load_entity(renderer, &scene->entities[i], ground, error);
+    lom_free_image(ground);
+    return done;
+}

@@ -1,0 +1,58 @@
+/* Making and freeing a renderer. In: a scene. Out: a device with everything that the scene names. */
+#include "render/renderer.h"
+#include "sky/sky_draw.h"
+
+static bool load(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    renderer->sky = lom_load_sky(renderer->device, &scene->sky, scene->output.transfer == LOM_TRANSFER_SRGB, error);
+    if (renderer->sky == NULL && scene->sky.given != 0 && scene->sky.faces[0] != NULL)
+        return false;
+    return lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) && lom_load_water(renderer, error);
+}
+
+lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)
+{
+    lom_float_state state;
+    lom_renderer   *renderer = lom_allocate(1, sizeof *renderer, error);
+    if (renderer == NULL)
+        return NULL;
+    lom_enter_float_state(&state);
+    renderer->scene  = scene;
+    renderer->device = lom_open_device(desc);
+    bool done        = renderer->device != NULL;
+    if (!done)
+        lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for a device.");
+    if (done && lom_device_error(renderer->device)->code != LOM_OK)
+        done = lom_fail(error, lom_device_error(renderer->device)->code, "%s", lom_device_error(renderer->device)->text);
+    done = done && load(renderer, error);
+    lom_leave_float_state(&state);
+    if (done)
+        return renderer;
+    lom_free_renderer(renderer);
+    return NULL;
+}
+
+void lom_free_renderer(lom_renderer *renderer)
+{
+    if (renderer == NULL)
+        return;
+    for (size_t i = 0; i < renderer->entity_count; i++) {
+        lom_free_mesh(renderer->entities[i].mesh);
+        lom_release(renderer->entities[i].parts);
+    }
+    for (size_t i = 0; i < renderer->path_count; i++)
+        lom_release(renderer->paths[i]);
+    lom_free_mesh(renderer->terrain);
+    lom_release(renderer->entities);
+    lom_release(renderer->blocks);
+    lom_release(renderer->paths);
+    lom_release(renderer->textures);
+    lom_close_device(renderer->device);
+    lom_release(renderer);
+}
+
+const lom_device *lom_renderer_device(const lom_renderer *renderer)
+{
+    return renderer->device;
+}
