@@ -7,8 +7,10 @@
 #include <lom/image.h>
 #include <lom/texture.h>
 #include <lom/geometry.h>
+#include <lom/pipeline.h>
 #include <lom/scene.h>
 #include <lom/sky.h>
 #include <lom/water.h>
+#include <lom/render.h>
 
 #endif

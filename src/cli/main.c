@@ -19,6 +19,8 @@ static const command commands[] = {
     { "info", "say what is in an image, a mesh or a scene", lom_command_info },
     { "convert", "write an image or a mesh in another form", lom_command_convert },
     { "make", "make an asset: height map, normal map, sky box, texture, entity", lom_command_make },
+    { "plan", "say which passes a scene needs, why, and what was left out", lom_command_plan },
+    { "render", "draw a scene", lom_command_render },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

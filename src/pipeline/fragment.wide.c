@@ -202,7 +202,7 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count)
     struct rows            rows;
     struct lom_places      places = { .block = q->block };
     pad_packet(q, count);
-    rows.uniform = q->triangle[0] == q->triangle[LOM_LANES - 1];
+    rows.uniform = q->triangle[0] == q->triangle[count - 1];
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < LOM_LANES; i++)
             rows.row[k][i] = q->triangle[i]->row[k];
