@@ -214,7 +214,8 @@ static const lom_command_line line = {
     .details = "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
                "options a\n"
                "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
-               "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.",
+               "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.\n"
+               "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
@@ -295,6 +296,14 @@ static bool make_all(const struct values *v, lom_error *error)
     return true;
 }
 
+static bool make_scene_docs(const char *path, lom_error *error)
+{
+    lom_bytes page = lom_write_scene_documentation(error);
+    bool written = page.data != NULL && lom_write_file(path, page.data, page.size, error);
+    lom_release(page.data);
+    return written;
+}
+
 int lom_command_make(int argc, char **argv)
 {
     struct values v = { 0 };
@@ -311,6 +320,8 @@ int lom_command_make(int argc, char **argv)
         return lom_complain("make: -o OUT says where to.");
     if (strcmp(arguments.items[0], "all") == 0 && arguments.count == 1)
         return make_all(&v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
+    if (strcmp(arguments.items[0], "scene-docs") == 0 && arguments.count == 1)
+        return make_scene_docs(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     const recipe *found = find_recipe(&arguments);
     if (found == NULL)
         return lom_complain("make: there is no %s%s%s; `lom make list` prints what there is.", arguments.items[0],

@@ -7,6 +7,8 @@
 
 #include <lom/scene.h>
 
+enum { LOM_SCENE_MAX_TABLES = 16384 }; /* of one array: entities, layers, key frames; names are compared in pairs */
+
 struct lom_scene_memory {
     lom_arena arena;
     const char **files; /* every file the scene names, each once */

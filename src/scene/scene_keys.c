@@ -207,7 +207,7 @@ static const lom_key entity[] = {
     { "visible", LOM_KEY_BOOL, AT(lom_entity, visible), .initial = { 1 }, .text = "Whether it is drawn." },
 };
 static const lom_key_table entity_table = { sizeof(lom_entity), entity, COUNT(entity),
-                                            "A mesh that stands in the scene. There may be any number of them." };
+                                            "A mesh that stands in the scene. There may be 16384 of them." };
 
 static const lom_key quality[] = {
     { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar" }, .text = "Model of the water." },

@@ -225,6 +225,10 @@ static bool read_tables(lom_reader *reader, const lom_key *key, const lom_toml_v
 {
     if (value->type != LOM_TOML_ARRAY)
         return fail_type(reader, key, value, "an array of tables");
+    if (value->count > LOM_SCENE_MAX_TABLES)
+        return lom_toml_fail(value->source, value->offset, LOM_ERROR_LIMIT, reader->error,
+                             "\"%s\" has %zu tables, more than the limit of %d.", key->name, value->count,
+                             LOM_SCENE_MAX_TABLES);
     char *structs = lom_arena_take(&reader->scene->memory->arena, value->count, key->table->size, reader->error);
     if (structs == NULL)
         return false;

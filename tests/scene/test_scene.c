@@ -258,6 +258,27 @@ static void contradictions(void)
     WRONG(cases);
 }
 
+/* As many entities as there may be, each with a name, and one more. */
+static void many_entities(void)
+{
+    enum { ROOM = 64, MOST = 16384 };
+    char *text = malloc((size_t)ROOM * (MOST + 1));
+    size_t used = 0;
+    for (int i = 0; i <= MOST; i++) {
+        lom_error error = { 0 };
+        if (i == MOST) {
+            lom_scene *scene = lom_decode_scene(text, used, "lake.toml", NULL, 0, &error);
+            CHECK(scene != NULL && scene->entity_count == MOST, "%s", error.text);
+            lom_free_scene(scene);
+        }
+        used += (size_t)snprintf(text + used, ROOM, "[[entity]]\nname='entity %d'\nmesh='a'\n", i);
+    }
+    lom_error error = { 0 };
+    CHECK(lom_decode_scene(text, used, "lake.toml", NULL, 0, &error) == NULL && error.code == LOM_ERROR_LIMIT, "%s",
+          error.text);
+    free(text);
+}
+
 /* ---- overrides ---- */
 
 static void overrides(void)
@@ -366,6 +387,7 @@ int main(int argc, char **argv)
     RUN(wrong_values);
     RUN(wrong_files);
     RUN(contradictions);
+    RUN(many_entities);
     RUN(overrides);
     RUN(wrong_overrides);
     RUN(damaged);
