@@ -62,7 +62,7 @@ wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 
-.PHONY: all demo check check-long lint format bench install clean
+.PHONY: all demo check check-long lint format bench bench-mathematics install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -92,6 +92,10 @@ $(BUILD)/src/%.w$(1).o: src/%.wide.c $(BUILD)/flags
 $(BUILD)/tests/%.w$(1): tests/%.wide.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $$(@D)
 	$$(CC) $$(CPPFLAGS) -Itests $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES -MMD -MP $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
+
+$(BUILD)/bench/%.w$(1): bench/%.wide.c $(BUILD)/liblom.a
+	@mkdir -p $$(@D)
+	$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
 endef
 $(foreach v,$(VARIANTS),$(eval $(call wide_rule,$(v))))
 
@@ -112,6 +116,10 @@ check: all $(programs)
 # Every float through every unary lane function: a quarter of an hour.
 check-long: $(BUILD)/tests/lanes/test_mathematics.w4
 	LOM_EXHAUSTIVE=1 $(BUILD)/tests/lanes/test_mathematics.w4
+
+# Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
+bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))
+	for program in $^; do $$program || exit 1; done
 
 format:
 	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])

@@ -32,8 +32,8 @@ check()
 }
 
 for compiler in gcc clang; do
-    check mathematics_"$compiler"_O0_4_lanes "" $compiler -O0 -DLOM_LANES=4
-    check mathematics_"$compiler"_O3_16_lanes "" $compiler -O3 -DLOM_LANES=16
+    check mathematics_"$compiler"_O0_4_lanes "" "$compiler" -O0 -DLOM_LANES=4
+    check mathematics_"$compiler"_O3_16_lanes "" "$compiler" -O3 -DLOM_LANES=16
 done
 check mathematics_gcc_O2_8_lanes_native "" gcc -O2 -march=native -DLOM_LANES=8
 check mathematics_aarch64 "qemu-aarch64 -L /usr/aarch64-linux-gnu" aarch64-linux-gnu-gcc -O2 -DLOM_LANES=8
