@@ -1,16 +1,17 @@
 /* The nearest of some names. In: a word that is none of them. Out: the one it was most likely meant to be, for "did you
  * mean". Invariant: the answer depends on the texts alone; of equally near names the first wins. */
+#include "nearest.h"
+
 #include <lom/base.h>
 
 #include <string.h>
 
-enum { MAXIMUM = 64 }; /* longer words get no suggestion */
-
-/* Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours count 1 each. Three
- * rows of the table of prefixes are enough (Wagner and Fischer 1974; the swap: Damerau 1964). */
-static size_t distance(const char *a, size_t a_length, const char *b, size_t b_length)
+/* Three rows of the table of prefixes are enough (Wagner and Fischer 1974; the swap: Damerau 1964). */
+size_t lom_edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
-    size_t rows[3][MAXIMUM + 1];
+    size_t rows[3][LOM_NEAREST_LONGEST + 1];
+    if (a_length > LOM_NEAREST_LONGEST || b_length > LOM_NEAREST_LONGEST)
+        return SIZE_MAX;
     for (size_t j = 0; j <= b_length; j++)
         rows[0][j] = j;
     for (size_t i = 1; i <= a_length; i++) {
@@ -32,13 +33,11 @@ static size_t distance(const char *a, size_t a_length, const char *b, size_t b_l
 
 const char *lom_nearest_name(const char *word, size_t length, const char *const *names, size_t count)
 {
-    if (length == 0 || length > MAXIMUM)
-        return NULL;
     const char *nearest = NULL;
     size_t best = length / 3 + 1; /* at most one mistake in three letters, and one more */
     for (size_t i = 0; i < count; i++) {
         size_t name_length = strlen(names[i]);
-        size_t d = name_length <= MAXIMUM ? distance(word, length, names[i], name_length) : SIZE_MAX;
+        size_t d = lom_edit_distance(word, length, names[i], name_length);
         if (d < name_length && (d < best || (d == best && nearest == NULL))) {
             nearest = names[i];
             best = d;

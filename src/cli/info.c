@@ -102,7 +102,7 @@ static bool find_image_facts(const char *path, struct facts *facts, lom_error *e
     if (image == NULL)
         return false;
     const lom_format_info *format = lom_describe_format(image->format);
-    facts->kind = "image";
+    facts->kind = image->depth > 1 ? "volume" : "image";
     facts->format = format->name;
     facts->width = image->width;
     facts->height = image->height;

@@ -14,6 +14,8 @@ printf 'newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n' >shapes.mtl
     printf 'usemtl red\nf 1 2 3\nf 1 2 4 3\nusemtl blue\nf 1 2 5 6 3\n'
 } >shapes.obj
 
+printf 'title = "nothing"\n[output]\nwidth = 32\nheight = 20\nformat = "rgb16"\n' >bare.toml
+
 text() {
     exits 0 "$lom" info gray.pgm two.pfm shapes.obj && says "gray.pgm: image, 3 x 2, R8, hash " &&
         says "two.pfm: image, 2 x 1, R32F, hash " && says "shapes.obj: mesh, " && says "6 triangles, 2 materials, hash "
@@ -43,6 +45,13 @@ assert gray["hash"] == fnv(b"".join(n.to_bytes(4, "little") for n in (3, 2, 1, 1
 CODE
 }
 
+# A scene has the size of its picture; its hash is that of its files.
+scene() {
+    exits 0 "$lom" info bare.toml && says "bare.toml: scene, 32 x 20, hash " && cp out first && echo '# more' >>bare.toml &&
+        exits 0 "$lom" info bare.toml && ! cmp -s out first && echo 'outptu = 1' >wrong.toml &&
+        exits 2 "$lom" info wrong.toml && complains 'wrong.toml:1:1' && complains 'did you mean "output"'
+}
+
 # One bad file: status 2, the others are shown.
 bad_files() {
     head -c 9 gray.pgm >short.pgm
@@ -55,5 +64,6 @@ if command -v python3 >/dev/null; then
 else
     echo "SKIP info_json: there is no python3"
 fi
+check info_scene scene
 check info_goes_on_after_a_bad_file bad_files
 exit $failures
