@@ -97,7 +97,7 @@ void lom_paint_forest(lom_canvas *c)
 
 void lom_paint_rock(lom_canvas *c)
 {
-    const lom_tint dark = lom_tint_of(84, 80, 76), gray = lom_tint_of(134, 130, 124), warm = lom_tint_of(156, 143, 126);
+    const lom_tint dark = lom_tint_of(78, 79, 82), gray = lom_tint_of(126, 128, 131), warm = lom_tint_of(146, 139, 130);
     const lom_tint lichen = lom_tint_of(118, 120, 92);
     lom_octaves rough = { .count = 6, .period = 6, .gain = 0.6 };
     for (int y = 0; y < c->size; y++)

@@ -70,7 +70,7 @@ void lom_paint_planks(lom_canvas *c)
 /* Oil paint that has flaked at the edges of the boards. */
 void lom_paint_paint(lom_canvas *c)
 {
-    paint_boards(c, &(wood){ lom_tint_of(126, 44, 34), lom_tint_of(176, 72, 54), 4, 0.18, 0.5 });
+    paint_boards(c, &(wood){ lom_tint_of(116, 46, 38), lom_tint_of(160, 74, 58), 4, 0.18, 0.5 });
     const lom_tint bare = lom_tint_of(150, 130, 104);
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++) {

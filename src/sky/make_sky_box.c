@@ -44,7 +44,7 @@ static double cumulus_density(const painter *p, lom_vec3 q, lom_octaves octaves)
     double cover = lom_fractal3(&p->noise, q.x * 1.6 + 40.5, q.y * 1.1 + 9.5, q.z * 1.6 + 11.5, large);
     double heaps = lom_fractal3(&p->noise, q.x * 3.1 + 7.5, q.y * 5.0 + 3.5, q.z * 3.1 + 5.5, octaves);
     double base = lom_smooth_step(0.12, 0.16, q.y + 0.05 * cover);
-    double height = lom_smooth_step(0.14, 0.5, q.y) + 2 * lom_smooth_step(0.45, 0.85, q.y);
+    double height = lom_smooth_step(0.14, 0.5, q.y) + 2.5 * lom_smooth_step(0.30, 0.6, q.y);
     return base * (heaps * 0.95 + cover * 0.9 - 0.2 - 0.42 * height + 0.36 * p->cloudiness);
 }
 
@@ -64,7 +64,7 @@ static layer cirrus(const painter *p, lom_vec3 d)
     const lom_vec3 sun = p->atmosphere.sun;
     double cosine = d.x * sun.x + d.y * sun.y + d.z * sun.z;
     double forward = 1.0 / (1.35 - cosine);
-    l.opacity = 0.62 * p->cloudiness * density;
+    l.opacity = 0.56 * p->cloudiness * density;
     for (int k = 0; k < 3; k++)
         l.color[k] = p->atmosphere.sunlight[k] * (0.075 + 0.016 * forward) + 0.6 * p->horizon[k];
     return l;
