@@ -44,6 +44,8 @@ static const uint32_t nibbles[16] = {
 
 uint32_t lom_crc32(uint32_t crc, const void *data, size_t size)
 {
+    if (size == 0)
+        return crc;
     const uint8_t *p = data, *end = p + size;
     uint32_t r = ~crc;
     if (size >= WORTH_TABLES)

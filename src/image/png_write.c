@@ -17,12 +17,14 @@ typedef struct filter_state {
 } filter_state;
 
 /* ---- the five filters (section 9.2) ----
- * out[i] = row[i] - prediction from row[i - step], above[i] and above[i - step]; step zeros stand before both rows. */
+ * out[i] = row[i] - a prediction from the pixel to the left (step bytes before), above, and above to the left; step
+ * zeros stand before both rows. */
 
 static void filter_sub(uint8_t *restrict out, const uint8_t *restrict row, size_t size, size_t step)
 {
+    const uint8_t *left = row - step;
     for (size_t i = 0; i < size; i++)
-        out[i] = (uint8_t)(row[i] - row[i - step]);
+        out[i] = (uint8_t)(row[i] - left[i]);
 }
 
 static void filter_up(uint8_t *restrict out, const uint8_t *restrict row, const uint8_t *restrict above, size_t size)
@@ -34,15 +36,17 @@ static void filter_up(uint8_t *restrict out, const uint8_t *restrict row, const 
 static void filter_average(uint8_t *restrict out, const uint8_t *restrict row, const uint8_t *restrict above,
                            size_t size, size_t step)
 {
+    const uint8_t *left = row - step;
     for (size_t i = 0; i < size; i++)
-        out[i] = (uint8_t)(row[i] - ((row[i - step] + above[i]) >> 1));
+        out[i] = (uint8_t)(row[i] - ((left[i] + above[i]) >> 1));
 }
 
 static void filter_paeth(uint8_t *restrict out, const uint8_t *restrict row, const uint8_t *restrict above, size_t size,
                          size_t step)
 {
+    const uint8_t *left = row - step, *corner = above - step;
     for (size_t i = 0; i < size; i++)
-        out[i] = (uint8_t)(row[i] - png_paeth(row[i - step], above[i], above[i - step]));
+        out[i] = (uint8_t)(row[i] - png_paeth(left[i], above[i], corner[i]));
 }
 
 /* The sum of the bytes as signed numbers without sign: the usual guess at what will compress best (section 12.8). */

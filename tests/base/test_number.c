@@ -6,6 +6,7 @@
 #include <lom/base.h>
 
 #include <fenv.h>
+#include <locale.h>
 #include <math.h>
 
 static uint64_t double_bits(double value)
@@ -413,6 +414,23 @@ static void any_rounding_mode(void)
     }
 }
 
+/* Locales whose decimal sign is a comma, where there are any. */
+static void any_locale(void)
+{
+    static const char *const locales[] = { "de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "tr_TR.UTF-8", "ar_EG.UTF-8" };
+    for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
+        if (setlocale(LC_ALL, locales[i]) == NULL)
+            continue;
+        double value = 0;
+        char text[32];
+        CHECK(lom_parse_double("1.5e1", 5, &value) == 5 && value == 15, "%s: %g", locales[i], value);
+        CHECK(lom_parse_double("1,5", 3, &value) == 1 && value == 1, "%s: %g", locales[i], value);
+        lom_print_double(text, 0.25);
+        CHECK(strcmp(text, "0.25") == 0, "%s: %s", locales[i], text);
+    }
+    setlocale(LC_ALL, "C");
+}
+
 int main(int argc, char **argv)
 {
     RUN(edges);
@@ -424,5 +442,6 @@ int main(int argc, char **argv)
     RUN(random_texts);
     RUN(forms);
     RUN(any_rounding_mode);
+    RUN(any_locale);
     return check_result();
 }
