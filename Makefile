@@ -1,6 +1,7 @@
 # lom: make, make demo, make check, make lint, make install. See README.md.
 #   make CC=clang O=0 BUILD=dir     another compiler, level and folder
 #   make SAN=address check          address, undefined, thread or memory sanitizer
+#   make fuzz SECONDS=60            every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 CC     = gcc
 AR     = ar
 O      = 3
@@ -61,8 +62,9 @@ tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
 wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
+fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: all demo check check-long lint format bench bench-mathematics install clean
+.PHONY: fuzz all demo check check-long lint format bench bench-mathematics install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -107,10 +109,26 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
+# A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.
+$(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< tests/fuzz/main.c $(BUILD)/liblom.a $(LDLIBS)
+
+$(BUILD)/tests/fuzz/fuzz_%: LDFLAGS += -fsanitize=fuzzer
+
+SECONDS = 60
+fuzz:
+	$(MAKE) CC=clang BUILD=build-fuzz SAN=address,undefined,fuzzer-no-link $(fuzz_targets:%=build-fuzz/tests/fuzz/%)
+	for target in $(fuzz_targets); do \
+	    mkdir -p build-fuzz/corpus/$$target tests/fuzz/corpus/$$target; \
+	    build-fuzz/tests/fuzz/$$target -max_total_time=$(SECONDS) -artifact_prefix=build-fuzz/ -print_final_stats=1 \
+	        build-fuzz/corpus/$$target tests/fuzz/corpus/$$target || exit 1; \
+	done
+
 demo: $(BUILD)/lom
 	$(BUILD)/lom render assets/scenes/lake.toml -o demo.png
 
-check: all $(programs)
+check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
 
 # Every float through every unary lane function: a quarter of an hour.

@@ -1,0 +1,27 @@
+/* Any bytes as PNM, PAM or PFM: no crash; what is read can be written and read again to the same pixels. */
+#include <lom/image.h>
+
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size > 1 << 16 || (size > 0 && data[0] != 'P'))
+        return 0;
+    lom_error error = { 0 };
+    lom_image *image = lom_decode_image(data, size, "fuzz", &error);
+    if ((image == NULL) != (error.code != LOM_OK))
+        abort();
+    if (image != NULL && lom_image_size(image) < 1 << 20) {
+        const char *kind = lom_describe_format(image->format)->is_float ? "pfm" : "pam";
+        lom_bytes file = lom_encode_image(kind, image, &error);
+        lom_image *back = lom_decode_image(file.data, file.size, "fuzz", &error);
+        if (back == NULL || lom_hash_image(back) != lom_hash_image(image))
+            abort();
+        lom_free_image(back);
+        lom_release(file.data);
+    }
+    lom_free_image(image);
+    return 0;
+}
