@@ -120,9 +120,9 @@ SECONDS = 60
 fuzz:
 	$(MAKE) CC=clang BUILD=build-fuzz SAN=address,undefined,fuzzer-no-link $(fuzz_targets:%=build-fuzz/tests/fuzz/%)
 	for target in $(fuzz_targets); do \
-	    mkdir -p build-fuzz/corpus/$$target tests/fuzz/corpus/$$target; \
+	    mkdir -p build-fuzz/corpus/$$target; \
 	    build-fuzz/tests/fuzz/$$target -max_total_time=$(SECONDS) -artifact_prefix=build-fuzz/ -print_final_stats=1 \
-	        build-fuzz/corpus/$$target tests/fuzz/corpus/$$target || exit 1; \
+	        build-fuzz/corpus/$$target $$(ls -d tests/fuzz/corpus/$$target 2>/dev/null) || exit 1; \
 	done
 
 demo: $(BUILD)/lom
