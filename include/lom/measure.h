@@ -1,0 +1,52 @@
+/* lom/measure.h - workloads to time, and timing them.
+ *
+ * The workloads are those of bench/peers/README.md, drawn from its formulas by the pipeline; what its harness draws on
+ * an implementation of OpenGL is the same picture. Setting up is not timed; a frame is.
+ */
+#ifndef LOM_MEASURE_H
+#define LOM_MEASURE_H
+
+#include <lom/pipeline.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- workloads ---- */
+
+typedef struct lom_workload lom_workload;
+
+int lom_workload_count(void);
+/* "clear", "fill", "blend", "depth", "mesh", "terrain", "water", "cloud", and "cloud-skip", which draws the bytes of
+ * "cloud" with less work: empty space is skipped. NULL outside 0 .. count - 1. */
+const char *lom_workload_name(int index);
+/* One line that says what is drawn. */
+const char *lom_workload_summary(int index);
+
+/* Sets up a workload at a size of 1..16384 pixels a side: meshes, textures, targets. NULL on failure; freed with
+ * lom_free_workload. It belongs to no device: devices of any threads and lanes may draw it, one at a time. */
+lom_workload *lom_create_workload(const char *name, int width, int height, lom_error *error);
+void lom_free_workload(lom_workload *workload);
+
+/* Draws one frame, every time the same; complete when it returns. */
+bool lom_draw_workload(lom_workload *workload, lom_device *device, lom_error *error);
+/* The picture of the last frame, RGBA8; "depth" is shown by one more pass as 1 - (1 - z) * 4. Freed with
+ * lom_free_image; NULL on failure. */
+lom_image *lom_workload_picture(lom_workload *workload, lom_device *device, lom_error *error);
+
+/* ---- timing ---- */
+
+typedef struct lom_timing {
+    int frames;
+    double median_ms, min_ms; /* of a frame */
+} lom_timing;
+
+/* Draws `warm_up` frames untimed (0 or more), then `frames` (1..10000), each timed by the monotonic clock. */
+bool lom_time_workload(lom_workload *workload, lom_device *device, int warm_up, int frames, lom_timing *timing,
+                       lom_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

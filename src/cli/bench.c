@@ -1,0 +1,133 @@
+/* `lom bench`. In: names of workloads and what to draw them with; out: a line for each with its time a frame and the
+ * hash of its picture. Invariant: the hash depends on the workload and the size alone. */
+#include "commands.h"
+#include "options.h"
+
+#include <lom/measure.h>
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct bench_options {
+    lom_option_integers size, frames, warm_up, threads;
+    const char *lanes, *output;
+    bool plain, json, list;
+} bench_options;
+
+static const lom_option options[] = {
+    { "size", 0, LOM_OPTION_INTEGER, offsetof(bench_options, size), "WxH", 1, 16384,
+      "pixels of the picture (1280x720)" },
+    { "frames", 0, LOM_OPTION_INTEGER, offsetof(bench_options, frames), "N", 1, 10000, "frames to time (20)" },
+    { "warm-up", 0, LOM_OPTION_INTEGER, offsetof(bench_options, warm_up), "N", 0, 10000,
+      "frames drawn before, untimed (2)" },
+    { "threads", 0, LOM_OPTION_INTEGER, offsetof(bench_options, threads), "N", 1, 256,
+      "worker threads (as many as the machine has for us)" },
+    { "lanes", 0, LOM_OPTION_CHOICE, offsetof(bench_options, lanes), "auto|4|8|16", 0, 0,
+      "values side by side (the widest the processor has)" },
+    { "plain", 0, LOM_OPTION_FLAG, offsetof(bench_options, plain), NULL, 0, 0,
+      "lower the lanes to the processor's baseline instructions" },
+    { "output", 'o', LOM_OPTION_TEXT, offsetof(bench_options, output), "OUT", 0, 0,
+      "keep the last frame; with one workload only" },
+    { "json", 0, LOM_OPTION_FLAG, offsetof(bench_options, json), NULL, 0, 0, "one JSON object a line" },
+    { "list", 0, LOM_OPTION_FLAG, offsetof(bench_options, list), NULL, 0, 0, "say which workloads there are" },
+};
+
+static const lom_command_line line = {
+    .name = "bench",
+    .arguments = "[NAME]...",
+    .summary = "Draws workloads again and again and says how long a frame takes",
+    .details = "The workloads are those of bench/peers/README.md; without a NAME all of them run. `make bench-peers`\n"
+               "compares with other renderers that draw the same.",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum_arguments = 0,
+    .maximum_arguments = -1,
+};
+
+static int64_t given_or(const lom_option_integers *option, int64_t otherwise)
+{
+    return option->given ? option->value[0] : otherwise;
+}
+
+static void report(const bench_options *o, const char *name, const lom_image *picture, const lom_timing *timing,
+                   const lom_device *device)
+{
+    lom_device_desc device_desc = lom_describe_device(device);
+    char median[32], least[32];
+    /* three decimals: finer is noise */
+    lom_print_double(median, lom_double_floor(timing->median_ms * 1000 + 0.5) / 1000);
+    lom_print_double(least, lom_double_floor(timing->min_ms * 1000 + 0.5) / 1000);
+    if (o->json)
+        printf("{\"workload\":\"%s\",\"width\":%d,\"height\":%d,\"threads\":%d,\"lanes\":%d,\"frames\":%d,"
+               "\"median_ms\":%s,\"min_ms\":%s,\"hash\":\"%016" PRIx64 "\"}\n",
+               name, picture->width, picture->height, device_desc.threads, device_desc.lanes, timing->frames, median,
+               least, lom_hash_image(picture));
+    else
+        printf("%-10s  %dx%d  %d threads  %2d lanes  %d frames  median %8s ms  min %8s ms  %016" PRIx64 "\n", name,
+               picture->width, picture->height, device_desc.threads, device_desc.lanes, timing->frames, median, least,
+               lom_hash_image(picture));
+    fflush(stdout);
+}
+
+static bool run_one(const bench_options *o, const char *name, lom_device *device, lom_error *error)
+{
+    int width = o->size.given ? (int)o->size.value[0] : 1280, height = o->size.given ? (int)o->size.value[1] : 720;
+    lom_timing timing;
+    lom_workload *workload = lom_create_workload(name, width, height, error);
+    bool done = workload != NULL && lom_time_workload(workload, device, (int)given_or(&o->warm_up, 2),
+                                                      (int)given_or(&o->frames, 20), &timing, error);
+    lom_image *picture = done ? lom_workload_picture(workload, device, error) : NULL;
+    done = picture != NULL && (o->output == NULL || lom_write_image(o->output, NULL, picture, error));
+    if (done)
+        report(o, name, picture, &timing, device);
+    lom_free_image(picture);
+    lom_free_workload(workload);
+    return done;
+}
+
+static void list_workloads(void)
+{
+    for (int i = 0; i < lom_workload_count(); i++)
+        printf("%-10s  %s\n", lom_workload_name(i), lom_workload_summary(i));
+}
+
+static lom_device *open_device(const bench_options *o, lom_error *error)
+{
+    static const struct {
+        const char *word;
+        int lanes;
+    } widths[] = { { "4", 4 }, { "8", 8 }, { "16", 16 } };
+    lom_device_desc desc = { .threads = (int)given_or(&o->threads, 0), .plain = o->plain };
+    for (int i = 0; i < 3; i++)
+        if (o->lanes != NULL && strcmp(o->lanes, widths[i].word) == 0)
+            desc.lanes = widths[i].lanes;
+    lom_device *device = lom_open_device(&desc);
+    if (device == NULL)
+        lom_fail(error, LOM_ERROR_MEMORY, "There is no memory for a device.");
+    else if (lom_device_error(device)->code != LOM_OK)
+        *error = *lom_device_error(device);
+    return device;
+}
+
+int lom_command_bench(int argc, char **argv)
+{
+    bench_options o = { 0 };
+    lom_arguments names;
+    int status;
+    if (!lom_parse_options(&line, argc, argv, &o, &names, &status))
+        return status;
+    if (o.list) {
+        list_workloads();
+        return LOM_EXIT_DONE;
+    }
+    if (o.output != NULL && names.count != 1)
+        return lom_complain("--output keeps the frame of one workload, but %d are named.", names.count);
+    lom_error error = { 0 };
+    lom_device *device = open_device(&o, &error);
+    int count = names.count != 0 ? names.count : lom_workload_count();
+    for (int i = 0; i < count && error.code == LOM_OK; i++)
+        run_one(&o, names.count != 0 ? names.items[i] : lom_workload_name(i), device, &error);
+    lom_close_device(device);
+    return error.code == LOM_OK ? LOM_EXIT_DONE : lom_complain_error(&error);
+}

@@ -1,0 +1,222 @@
+/* Workloads: their table and what each needs. In: a name and a size; out: meshes, textures and targets, ready to be
+ * drawn any number of times. Invariant: nothing here depends on a device, so that every device draws the same data. */
+#include "workload.h"
+
+#include "peer_pictures.h"
+
+#include <string.h>
+
+static const lom_workload_view torus_view = {
+    .eye = { 0, 1.6f, 2.2f }, .light = { 0.5f, 0.7f, 0.3f }, .near_plane = 0.5f, .far_plane = 10
+};
+static const lom_workload_view lake_view = { .eye = { -30, 7, 35 },
+                                             .target = { -20, 0, 10 },
+                                             .light = { 0.35f, 0.5f, -0.6f },
+                                             .near_plane = 0.5f,
+                                             .far_plane = 200 };
+static const lom_workload_view cloud_view = { .eye = { 0.25f, 0.15f, 1.05f },
+                                              .target = { 0, 0.02f, 0 },
+                                              .light = { 0.5f, 0.7f, 0.3f },
+                                              .near_plane = 0.05f,
+                                              .far_plane = 10 };
+
+static const lom_workload_kind kinds[] = {
+    { "clear", "one colour and one depth", lom_draw_clear, NULL, 0, false, false },
+    { "fill", "8 opaque layers over the whole window", lom_draw_fill, NULL, 0, false, false },
+    { "blend", "8 translucent layers over the whole window", lom_draw_blend, NULL, 0, false, false },
+    { "depth", "a torus of 200 000 triangles, depth only", lom_draw_depth, &torus_view, LOM_NEEDS_TORUS, true, false },
+    { "mesh", "a torus of 200 000 triangles, lit at each pixel", lom_draw_mesh, &torus_view, LOM_NEEDS_TORUS, false,
+      false },
+    { "terrain", "522 242 triangles with colour and normal textures, and a sky", lom_draw_terrain, &lake_view,
+      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE, false, false },
+    { "water", "the terrain three times, and a lake that reflects and refracts it", lom_draw_water, &lake_view,
+      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE | LOM_NEEDS_LAKE, false, false },
+    { "cloud", "100 steps through a volume, every one taken", lom_draw_cloud, &cloud_view,
+      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, false },
+    { "cloud-skip", "the same picture with empty space skipped", lom_draw_cloud, &cloud_view,
+      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, true },
+};
+enum { KIND_COUNT = sizeof kinds / sizeof kinds[0], MAX_SIZE = 16384 };
+
+int lom_workload_count(void)
+{
+    return KIND_COUNT;
+}
+
+const char *lom_workload_name(int index)
+{
+    return index >= 0 && index < KIND_COUNT ? kinds[index].name : NULL;
+}
+
+const char *lom_workload_summary(int index)
+{
+    return index >= 0 && index < KIND_COUNT ? kinds[index].summary : NULL;
+}
+
+static const lom_workload_kind *find_kind(const char *name, lom_error *error)
+{
+    const char *names[KIND_COUNT];
+    for (int i = 0; i < KIND_COUNT; i++) {
+        names[i] = kinds[i].name;
+        if (strcmp(name, kinds[i].name) == 0)
+            return &kinds[i];
+    }
+    const char *near = lom_nearest_name(name, strlen(name), names, KIND_COUNT);
+    if (near != NULL)
+        lom_fail(error, LOM_ERROR_USAGE, "There is no workload \"%s\" (did you mean \"%s\"?).", name, near);
+    else
+        lom_fail(error, LOM_ERROR_USAGE, "There is no workload \"%s\".", name);
+    return NULL;
+}
+
+/* A texture with all its levels, repeated; takes the image. */
+static lom_texture *tile_texture(lom_image *image, lom_error *error)
+{
+    lom_texture *texture = image != NULL ? lom_texture_of_image(image, false, LOM_MIPS_ALL, error) : NULL;
+    lom_free_image(image);
+    return texture;
+}
+
+static lom_texture *sky_texture(lom_error *error)
+{
+    lom_image *image = lom_peer_sky(error);
+    if (image == NULL)
+        return NULL;
+    lom_texture_desc desc = { .kind = LOM_TEXTURE_CUBE,
+                              .width = image->width,
+                              .height = image->height,
+                              .format = LOM_FORMAT_RGBA8,
+                              .pixels = image->pixels };
+    lom_texture *texture = lom_create_texture(&desc, error);
+    lom_free_image(image);
+    return texture;
+}
+
+static bool make_ground(lom_workload *w, lom_error *error)
+{
+    w->albedo = tile_texture(lom_peer_albedo(error), error);
+    w->normals = tile_texture(lom_peer_normals(512, 16, 21, 12, error), error);
+    w->sky = sky_texture(error);
+    return w->albedo != NULL && w->normals != NULL && w->sky != NULL && lom_peer_terrain(&w->terrain, error);
+}
+
+static bool make_lake(lom_workload *w, lom_error *error)
+{
+    w->dudv = tile_texture(lom_peer_dudv(error), error);
+    w->waves = tile_texture(lom_peer_normals(512, 16, 31, 12, error), error);
+    return w->dudv != NULL && w->waves != NULL && lom_peer_water(&w->water, error);
+}
+
+static bool make_cloud(lom_workload *w, lom_error *error)
+{
+    lom_image *image = lom_peer_cloud(error);
+    w->cloud = image != NULL ? lom_create_volume(image, error) : NULL;
+    lom_free_image(image);
+    return w->cloud != NULL;
+}
+
+static bool make_target(lom_workload *w, int target, lom_error *error)
+{
+    lom_texture_desc color = { .width = w->width,
+                               .height = w->height,
+                               .format = LOM_FORMAT_RGBA8,
+                               .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+    lom_texture_desc depth = color;
+    depth.format = LOM_FORMAT_DEPTH24;
+    depth.sampler.minify = LOM_FILTER_NEAREST;
+    depth.sampler.magnify = LOM_FILTER_NEAREST;
+    w->color[target] = lom_create_texture(&color, error);
+    w->depth[target] = w->color[target] != NULL ? lom_create_texture(&depth, error) : NULL;
+    return w->depth[target] != NULL;
+}
+
+static bool make_all(lom_workload *w, lom_error *error)
+{
+    unsigned needs = w->kind->needs;
+    int targets = needs & LOM_NEEDS_LAKE ? LOM_TARGETS : 1;
+    for (int i = 0; i < targets; i++)
+        if (!make_target(w, i, error))
+            return false;
+    return (!(needs & LOM_NEEDS_TORUS) || lom_peer_torus(&w->torus, error)) &&
+           (!(needs & LOM_NEEDS_CUBE) || lom_peer_cube(&w->cube, error)) &&
+           (!(needs & LOM_NEEDS_GROUND) || make_ground(w, error)) &&
+           (!(needs & LOM_NEEDS_LAKE) || make_lake(w, error)) && (!(needs & LOM_NEEDS_CLOUD) || make_cloud(w, error));
+}
+
+static void set_view(lom_workload *w)
+{
+    const lom_workload_view *view = w->kind->view;
+    if (view == NULL)
+        return;
+    const float *l = view->light;
+    float length = __builtin_sqrtf(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+    for (int k = 0; k < 3; k++)
+        w->light[k] = l[k] / length;
+    w->to_clip = lom_peer_view(view->eye, view->target, 60, (float)w->width / (float)w->height, view->near_plane,
+                               view->far_plane);
+    w->mirrored_to_clip = lom_peer_mirror(&w->to_clip);
+}
+
+lom_workload *lom_create_workload(const char *name, int width, int height, lom_error *error)
+{
+    const lom_workload_kind *kind = find_kind(name, error);
+    if (kind == NULL)
+        return NULL;
+    if (width < 1 || height < 1 || width > MAX_SIZE || height > MAX_SIZE) {
+        lom_fail(error, LOM_ERROR_USAGE, "A workload of %d x %d pixels is not within 1..%d a side.", width, height,
+                 MAX_SIZE);
+        return NULL;
+    }
+    lom_workload *w = lom_allocate(1, sizeof *w, error);
+    if (w == NULL)
+        return NULL;
+    w->kind = kind;
+    w->width = width;
+    w->height = height;
+    set_view(w);
+    if (!make_all(w, error)) {
+        lom_free_workload(w);
+        return NULL;
+    }
+    return w;
+}
+
+void lom_free_workload(lom_workload *w)
+{
+    if (w == NULL)
+        return;
+    lom_texture *const textures[] = { w->albedo, w->normals, w->sky, w->dudv, w->waves };
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        lom_free_texture(textures[i]);
+    for (int i = 0; i < LOM_TARGETS; i++) {
+        lom_free_texture(w->color[i]);
+        lom_free_texture(w->depth[i]);
+    }
+    lom_peer_free_mesh(&w->torus);
+    lom_peer_free_mesh(&w->cube);
+    lom_peer_free_mesh(&w->terrain);
+    lom_peer_free_mesh(&w->water);
+    lom_free_volume(w->cloud);
+    lom_release(w);
+}
+
+static bool device_failed(const lom_device *device, lom_error *error)
+{
+    const lom_error *held = lom_device_error(device);
+    if (held->code != LOM_OK)
+        lom_fail(error, held->code, "%s", held->text);
+    return held->code != LOM_OK;
+}
+
+bool lom_draw_workload(lom_workload *workload, lom_device *device, lom_error *error)
+{
+    workload->kind->draw(workload, device);
+    return !device_failed(device, error);
+}
+
+lom_image *lom_workload_picture(lom_workload *workload, lom_device *device, lom_error *error)
+{
+    if (workload->kind->show_depth)
+        lom_show_depth(workload, device);
+    return device_failed(device, error) ? NULL : lom_read_texture(workload->color[LOM_MAIN], 0, 0, error);
+}

@@ -1,0 +1,59 @@
+/* What a workload holds once it is set up; shared by the files of this folder. */
+#ifndef LOM_MEASURE_WORKLOAD_H
+#define LOM_MEASURE_WORKLOAD_H
+
+#include "peer_meshes.h"
+
+#include <lom/march.h>
+#include <lom/measure.h>
+
+/* What has to be made for a workload. */
+enum {
+    LOM_NEEDS_TORUS = 1,
+    LOM_NEEDS_CUBE = 2,
+    LOM_NEEDS_GROUND = 4, /* terrain, its textures, the sky */
+    LOM_NEEDS_LAKE = 8,   /* the water's plane, its textures, targets of two more passes */
+    LOM_NEEDS_CLOUD = 16
+};
+
+enum { LOM_MAIN = 0, LOM_REFLECTION, LOM_REFRACTION, LOM_TARGETS };
+
+typedef struct lom_workload_view {
+    float eye[3], target[3]; /* metres */
+    float light[3];          /* towards it, of any length */
+    float near_plane, far_plane;
+} lom_workload_view;
+
+typedef struct lom_workload_kind {
+    const char *name, *summary;
+    void (*draw)(lom_workload *workload, lom_device *device);
+    const lom_workload_view *view; /* NULL: drawn in window coordinates */
+    unsigned needs;
+    bool show_depth; /* the picture is of the depth */
+    bool skip;       /* marches over empty space */
+} lom_workload_kind;
+
+struct lom_workload {
+    const lom_workload_kind *kind;
+    int width, height;
+    lom_texture *color[LOM_TARGETS], *depth[LOM_TARGETS];
+    lom_peer_mesh torus, cube, terrain, water;
+    lom_texture *albedo, *normals, *sky, *dudv, *waves;
+    lom_volume *cloud;
+    lom_peer_matrix to_clip, mirrored_to_clip;
+    float light[3]; /* unit length */
+};
+
+/* Frames of the kinds, in workload_draw.c. */
+void lom_draw_clear(lom_workload *workload, lom_device *device);
+void lom_draw_fill(lom_workload *workload, lom_device *device);
+void lom_draw_blend(lom_workload *workload, lom_device *device);
+void lom_draw_depth(lom_workload *workload, lom_device *device);
+void lom_draw_mesh(lom_workload *workload, lom_device *device);
+void lom_draw_terrain(lom_workload *workload, lom_device *device);
+void lom_draw_water(lom_workload *workload, lom_device *device);
+void lom_draw_cloud(lom_workload *workload, lom_device *device);
+/* The depth of the main target as gray, into its colour. */
+void lom_show_depth(lom_workload *workload, lom_device *device);
+
+#endif

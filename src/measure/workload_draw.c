@@ -1,0 +1,226 @@
+/* The frames of the workloads. In: what workload.c made; out: passes and draws on a device. Invariant: states, clears
+ * and uniforms are those of bench/peers/README.md, in its order. */
+#include "workload.h"
+
+#include "peer_shaders.h"
+
+#include <string.h>
+
+static lom_attribute attribute(const lom_peer_mesh *mesh, size_t offset, lom_attribute_kind kind)
+{
+    return (lom_attribute){ .data = (const char *)mesh->vertices + offset,
+                            .size = mesh->vertex_count * sizeof(lom_peer_vertex) - offset,
+                            .stride = sizeof(lom_peer_vertex),
+                            .kind = kind };
+}
+
+static lom_attribute positions(const lom_peer_mesh *mesh)
+{
+    return attribute(mesh, offsetof(lom_peer_vertex, position), LOM_ATTRIBUTE_FLOAT3);
+}
+
+static lom_attribute normals(const lom_peer_mesh *mesh)
+{
+    return attribute(mesh, offsetof(lom_peer_vertex, normal), LOM_ATTRIBUTE_FLOAT3);
+}
+
+static lom_attribute coordinates(const lom_peer_mesh *mesh)
+{
+    return attribute(mesh, offsetof(lom_peer_vertex, uv), LOM_ATTRIBUTE_FLOAT2);
+}
+
+/* All triangles of a mesh, back faces left out. */
+static lom_draw_desc mesh_draw(const lom_shader *shader, const lom_peer_mesh *mesh, const void *uniforms,
+                               lom_compare compare)
+{
+    return (lom_draw_desc){ .shader = shader,
+                            .uniforms = uniforms,
+                            .attribute = { positions(mesh) },
+                            .indices = mesh->indices,
+                            .index_bits = 32,
+                            .count = mesh->index_count,
+                            .cull = LOM_CULL_BACK,
+                            .depth_compare = compare };
+}
+
+static void begin(lom_workload *w, lom_device *device, int target, float r, float g, float b)
+{
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { w->color[target] },
+                                             .depth = w->depth[target],
+                                             .clip_range = LOM_CLIP_MINUS_W_TO_W,
+                                             .clear_color = { { r, g, b, 1 } },
+                                             .clear_depth = 1 });
+}
+
+void lom_draw_clear(lom_workload *w, lom_device *device)
+{
+    begin(w, device, LOM_MAIN, 0.1f, 0.2f, 0.3f);
+    lom_end_pass(device);
+}
+
+static const lom_blend straight_alpha = { .enabled = true,
+                                          .source_color = LOM_FACTOR_SOURCE_ALPHA,
+                                          .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+                                          .source_alpha = LOM_FACTOR_SOURCE_ALPHA,
+                                          .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA };
+static const lom_blend multiplied_alpha = { .enabled = true,
+                                            .source_color = LOM_FACTOR_ONE,
+                                            .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+                                            .source_alpha = LOM_FACTOR_ONE,
+                                            .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA };
+
+static void draw_layers(lom_workload *w, lom_device *device, lom_blend blend, float alpha)
+{
+    begin(w, device, LOM_MAIN, 0.1f, 0.2f, 0.3f);
+    for (int i = 0; i < 8; i++) {
+        lom_peer_flat flat = { .z = -0.9f + 0.2f * (float)i,
+                               .color = { (float)(i + 1) / 8.0f, 1 - (float)i / 8.0f, 0.5f, alpha } };
+        lom_draw(device, &(lom_draw_desc){ .shader = &lom_peer_flat_shader,
+                                           .uniforms = &flat,
+                                           .count = 4,
+                                           .vertex_count = 4,
+                                           .topology = LOM_TRIANGLE_STRIP,
+                                           .depth_test_off = true,
+                                           .blend = { blend } });
+    }
+    lom_end_pass(device);
+}
+
+void lom_draw_fill(lom_workload *w, lom_device *device)
+{
+    draw_layers(w, device, (lom_blend){ .enabled = false }, 1);
+}
+
+void lom_draw_blend(lom_workload *w, lom_device *device)
+{
+    draw_layers(w, device, straight_alpha, 0.25f);
+}
+
+void lom_draw_depth(lom_workload *w, lom_device *device)
+{
+    lom_peer_depth uniforms;
+    memcpy(uniforms.to_clip, w->to_clip.m, sizeof uniforms.to_clip);
+    lom_begin_pass(
+        device, &(lom_pass_desc){ .depth = w->depth[LOM_MAIN], .clip_range = LOM_CLIP_MINUS_W_TO_W, .clear_depth = 1 });
+    lom_draw_desc draw = mesh_draw(&lom_peer_depth_shader, &w->torus, &uniforms, LOM_COMPARE_LESS);
+    lom_draw(device, &draw);
+    lom_end_pass(device);
+}
+
+void lom_show_depth(lom_workload *w, lom_device *device)
+{
+    lom_peer_show show = { .depth = w->depth[LOM_MAIN] };
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { w->color[LOM_MAIN] }, .clip_range = LOM_CLIP_MINUS_W_TO_W });
+    lom_draw(device, &(lom_draw_desc){ .shader = &lom_peer_show_shader,
+                                       .uniforms = &show,
+                                       .count = 4,
+                                       .vertex_count = 4,
+                                       .topology = LOM_TRIANGLE_STRIP,
+                                       .depth_test_off = true });
+    lom_end_pass(device);
+}
+
+void lom_draw_mesh(lom_workload *w, lom_device *device)
+{
+    lom_peer_lit lit;
+    memcpy(lit.to_clip, w->to_clip.m, sizeof lit.to_clip);
+    memcpy(lit.eye, w->kind->view->eye, sizeof lit.eye);
+    memcpy(lit.light, w->light, sizeof lit.light);
+    begin(w, device, LOM_MAIN, 0.1f, 0.1f, 0.15f);
+    lom_draw_desc draw = mesh_draw(&lom_peer_lit_shader, &w->torus, &lit, LOM_COMPARE_LESS);
+    draw.attribute[1] = normals(&w->torus);
+    lom_draw(device, &draw);
+    lom_end_pass(device);
+}
+
+/* The terrain, cut where up * y + offset < 0; up = 0: all of it. */
+static void draw_ground(lom_workload *w, lom_device *device, bool mirrored, float up, float offset)
+{
+    lom_peer_ground ground = { .albedo = w->albedo, .normals = w->normals, .clip = { 0, up, 0, offset } };
+    const float *eye = w->kind->view->eye;
+    memcpy(ground.to_clip, mirrored ? w->mirrored_to_clip.m : w->to_clip.m, sizeof ground.to_clip);
+    memcpy(ground.eye, (float[3]){ eye[0], mirrored ? -eye[1] : eye[1], eye[2] }, sizeof ground.eye);
+    memcpy(ground.light, w->light, sizeof ground.light);
+    const lom_shader *shader = up != 0 ? &lom_peer_clipped_ground_shader : &lom_peer_ground_shader;
+    lom_draw_desc draw = mesh_draw(shader, &w->terrain, &ground, LOM_COMPARE_LESS_EQUAL);
+    draw.attribute[1] = normals(&w->terrain);
+    draw.attribute[2] = coordinates(&w->terrain);
+    draw.front_clockwise = mirrored;
+    lom_draw(device, &draw);
+}
+
+/* The sky is seen from the inside of its cube. */
+static void draw_sky(lom_workload *w, lom_device *device, bool mirrored)
+{
+    lom_peer_dome dome = { .cube = w->sky };
+    memcpy(dome.to_clip, mirrored ? w->mirrored_to_clip.m : w->to_clip.m, sizeof dome.to_clip);
+    lom_draw_desc draw = mesh_draw(&lom_peer_dome_shader, &w->cube, &dome, LOM_COMPARE_LESS_EQUAL);
+    draw.cull = LOM_CULL_NONE;
+    draw.depth_write_off = true;
+    lom_draw(device, &draw);
+}
+
+void lom_draw_terrain(lom_workload *w, lom_device *device)
+{
+    begin(w, device, LOM_MAIN, 0, 0, 0);
+    draw_ground(w, device, false, 0, 0);
+    draw_sky(w, device, false);
+    lom_end_pass(device);
+}
+
+static void draw_lake(lom_workload *w, lom_device *device)
+{
+    lom_peer_lake lake = { .move = 0.06f,
+                           .near_plane = w->kind->view->near_plane,
+                           .far_plane = w->kind->view->far_plane,
+                           .per_width = 1 / (float)w->width,
+                           .per_height = 1 / (float)w->height,
+                           .reflection = w->color[LOM_REFLECTION],
+                           .refraction = w->color[LOM_REFRACTION],
+                           .refraction_depth = w->depth[LOM_REFRACTION],
+                           .dudv = w->dudv,
+                           .normals = w->waves };
+    memcpy(lake.to_clip, w->to_clip.m, sizeof lake.to_clip);
+    memcpy(lake.eye, w->kind->view->eye, sizeof lake.eye);
+    memcpy(lake.light, w->light, sizeof lake.light);
+    lom_draw_desc draw = mesh_draw(&lom_peer_lake_shader, &w->water, &lake, LOM_COMPARE_LESS_EQUAL);
+    draw.attribute[1] = coordinates(&w->water);
+    draw.blend[0] = straight_alpha;
+    lom_draw(device, &draw);
+}
+
+void lom_draw_water(lom_workload *w, lom_device *device)
+{
+    begin(w, device, LOM_REFLECTION, 0, 0, 0);
+    draw_ground(w, device, true, 1, 0.05f);
+    draw_sky(w, device, true);
+    lom_end_pass(device);
+    begin(w, device, LOM_REFRACTION, 0.02f, 0.10f, 0.18f);
+    draw_ground(w, device, false, -1, 0.2f);
+    lom_end_pass(device);
+    begin(w, device, LOM_MAIN, 0, 0, 0);
+    draw_ground(w, device, false, 0, 0);
+    draw_sky(w, device, false);
+    draw_lake(w, device);
+    lom_end_pass(device);
+}
+
+void lom_draw_cloud(lom_workload *w, lom_device *device)
+{
+    lom_peer_puff puff = { .march = { .volume = w->cloud,
+                                      .steps = 100,
+                                      .absorption = 0.15f,
+                                      .shade = 0.6f,
+                                      .opaque = 0.9f,
+                                      .walk = !w->kind->skip } };
+    memcpy(puff.to_clip, w->to_clip.m, sizeof puff.to_clip);
+    for (int k = 0; k < 3; k++) {
+        puff.eye[k] = w->kind->view->eye[k] + 0.5f;
+        puff.march.light_offset[k] = w->light[k] * 0.08f;
+    }
+    begin(w, device, LOM_MAIN, 0.25f, 0.45f, 0.75f);
+    lom_draw_desc draw = mesh_draw(&lom_peer_puff_shader, &w->cube, &puff, LOM_COMPARE_LESS);
+    draw.blend[0] = multiplied_alpha;
+    lom_draw(device, &draw);
+    lom_end_pass(device);
+}
