@@ -211,6 +211,15 @@ LOM_INLINE lom_int lom_defined_gather_int(const int32_t *from, lom_int index)
     return x;
 }
 
+/* Neighbours: from[index[i]] and from[index[i] + 1] in lane i. */
+LOM_INLINE void lom_defined_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
+{
+    for (int i = 0; i < LOM_LANES; i++) {
+        (*first)[i] = from[index[i]];
+        (*second)[i] = from[index[i] + 1];
+    }
+}
+
 /* Four consecutive floats at rows[i] + offset, transposed: lane i of member k is the k-th float of row i. */
 LOM_INLINE lom_float4 lom_defined_load_rows(const float *const rows[LOM_LANES], size_t offset)
 {
@@ -300,6 +309,12 @@ LOM_INLINE lom_float lom_gather(const float *from, lom_int index)
 LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
 {
     return lom_defined_gather_int(from, index);
+}
+#endif
+#ifndef LOM_OVERRIDES_PAIRS
+LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
+{
+    lom_defined_gather_pairs(from, index, first, second);
 }
 #endif
 

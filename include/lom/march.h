@@ -64,8 +64,8 @@ LOM_INLINE lom_volume_place lom_find_in_volume(const lom_volume *volume, lom_flo
  * a factor of a power of two is exact, so it may be taken out after the first interpolation. */
 LOM_INLINE lom_float lom_sample_density(const lom_volume *volume, lom_volume_place place)
 {
-    lom_int word = place.index + place.index;
-    lom_int low = lom_gather_int(volume->density, word), high = lom_gather_int(volume->density + 1, word);
+    lom_int low, high;
+    lom_gather_pairs(volume->density, place.index + place.index, &low, &high);
     lom_float v00 = lom_mix(lom_to_float(low & 0xff), lom_to_float(high & 0xff), place.z);
     lom_float v10 = lom_mix(lom_to_float(low & 0xff00), lom_to_float(high & 0xff00), place.z) * 0x1p-8f;
     lom_float v01 = lom_mix(lom_to_float(low & 0xff0000), lom_to_float(high & 0xff0000), place.z) * 0x1p-16f;
@@ -88,8 +88,9 @@ LOM_INLINE lom_float3 lom_sample_volume_color(const lom_volume *volume, lom_volu
 {
     lom_int corner[8];
     int pitch = volume->width + 1, slice = pitch * (volume->height + 1);
-    for (int i = 0; i < 8; i++)
-        corner[i] = lom_gather_int(volume->color + (i & 1) + (i >> 1 & 1) * pitch + (i >> 2) * slice, place.index);
+    for (int i = 0; i < 8; i += 2)
+        lom_gather_pairs(volume->color + (i >> 1 & 1) * pitch + (i >> 2) * slice, place.index, &corner[i],
+                         &corner[i + 1]);
     return (lom_float3){ lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
                          lom_volume_channel(corner, 0xff00, place) * (0x1p-8f / 255.0f),
                          lom_volume_channel(corner, 0xff0000, place) * (0x1p-16f / 255.0f) };

@@ -21,6 +21,7 @@ static const command commands[] = {
     { "make", "make an asset: height map, normal map, sky box, texture, entity", lom_command_make },
     { "plan", "say which passes a scene needs, why, and what was left out", lom_command_plan },
     { "render", "draw a scene", lom_command_render },
+    { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

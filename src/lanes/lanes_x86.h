@@ -6,10 +6,18 @@
 
 #include <immintrin.h>
 
+/* Two pairs of neighbours, each one 64-bit load. */
+LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
+{
+    __m128 low = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)a));
+    return _mm_castps_si128(_mm_loadh_pi(low, (const __m64 *)(const void *)b));
+}
+
 #if LOM_LANES == 16 && defined __AVX512F__ && defined __AVX512DQ__ && defined __AVX512BW__ && defined __AVX512VL__
 #define LOM_OVERRIDES_ARITHMETIC
 #define LOM_OVERRIDES_ROUNDING
 #define LOM_OVERRIDES_GATHER
+#define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_COMPRESS
 
 /* In a register and stored whole: the compressing store to memory is many times slower on AMD. */
@@ -76,6 +84,25 @@ LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
     return (lom_int)_mm512_i32gather_epi32((__m512i)index, from, 4);
 }
 
+/* Scalar loads of 64 bits: 0.85 of the time of 64-bit gathers in a march through a volume, 0.75 of 32-bit ones. */
+LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
+{
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    int32_t at[16];
+    _mm512_storeu_si512(at, (__m512i)index);
+    __m256i quarter[4];
+    for (int i = 0; i < 4; i++) {
+        __m128i a = lom_load_two_pairs(from + at[4 * i], from + at[4 * i + 1]);
+        __m128i b = lom_load_two_pairs(from + at[4 * i + 2], from + at[4 * i + 3]);
+        quarter[i] = _mm256_inserti128_si256(_mm256_castsi128_si256(a), b, 1);
+    }
+    __m512i low = _mm512_inserti64x4(_mm512_castsi256_si512(quarter[0]), quarter[1], 1);
+    __m512i high = _mm512_inserti64x4(_mm512_castsi256_si512(quarter[2]), quarter[3], 1);
+    *first = (lom_int)_mm512_permutex2var_epi32(low, even, high);
+    *second = (lom_int)_mm512_permutex2var_epi32(low, odd, high);
+}
+
 /* Quarter q of t[i] holds row 4 q + i; the unpacks transpose each quarter, so rows come out in order within it. */
 LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
 {
@@ -96,6 +123,7 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
 #define LOM_OVERRIDES_ARITHMETIC
 #define LOM_OVERRIDES_ROUNDING
 #define LOM_OVERRIDES_GATHER
+#define LOM_OVERRIDES_PAIRS
 
 LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
 {
@@ -155,6 +183,18 @@ LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
     return (lom_int)_mm256_i32gather_epi32(from, (__m256i)index, 4);
 }
 
+LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
+{
+    int32_t at[8];
+    memcpy(at, &index, sizeof at);
+    __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(lom_load_two_pairs(from + at[0], from + at[1])),
+                                        lom_load_two_pairs(from + at[4], from + at[5]), 1);
+    __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(lom_load_two_pairs(from + at[2], from + at[3])),
+                                        lom_load_two_pairs(from + at[6], from + at[7]), 1);
+    *first = (lom_int)_mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _MM_SHUFFLE(2, 0, 2, 0));
+    *second = (lom_int)_mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _MM_SHUFFLE(3, 1, 3, 1));
+}
+
 LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
 {
     __m256 t[4];
@@ -170,6 +210,7 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
 
 #elif LOM_LANES == 4
 #define LOM_OVERRIDES_ARITHMETIC
+#define LOM_OVERRIDES_PAIRS
 
 LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
 {
@@ -206,6 +247,14 @@ LOM_INLINE lom_int lom_to_int(lom_float x)
 LOM_INLINE uint32_t lom_bits(lom_mask mask)
 {
     return (uint32_t)_mm_movemask_ps((__m128)mask);
+}
+
+LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
+{
+    __m128 low = _mm_castsi128_ps(lom_load_two_pairs(from + index[0], from + index[1]));
+    __m128 high = _mm_castsi128_ps(lom_load_two_pairs(from + index[2], from + index[3]));
+    *first = (lom_int)_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0));
+    *second = (lom_int)_mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1));
 }
 
 LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)

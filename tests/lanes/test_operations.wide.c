@@ -83,6 +83,10 @@ static void gathers_read_what_their_indices_name(void)
         CHECK(same_int(lom_gather_int((const int32_t *)table, index),
                        lom_defined_gather_int((const int32_t *)table, index)),
               "gather_int %d", index[0]);
+        lom_int first[2], second[2];
+        lom_gather_pairs((const int32_t *)table, index, &first[0], &second[0]);
+        lom_defined_gather_pairs((const int32_t *)table, index, &first[1], &second[1]);
+        CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs %d", index[0]);
         lom_float4 a = lom_load_rows(rows, 1), b = lom_defined_load_rows(rows, 1);
         CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "load_rows %d", index[0]);
     }
