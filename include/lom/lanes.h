@@ -214,10 +214,13 @@ LOM_INLINE lom_int lom_defined_gather_int(const int32_t *from, lom_int index)
 /* Neighbours: from[index[i]] and from[index[i] + 1] in lane i. */
 LOM_INLINE void lom_defined_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
 {
+    lom_int a = { 0 }, b = { 0 };
     for (int i = 0; i < LOM_LANES; i++) {
-        (*first)[i] = from[index[i]];
-        (*second)[i] = from[index[i] + 1];
+        a[i] = from[index[i]];
+        b[i] = from[index[i] + 1];
     }
+    *first = a;
+    *second = b;
 }
 
 /* Four consecutive floats at rows[i] + offset, transposed: lane i of member k is the k-th float of row i. */
@@ -234,8 +237,8 @@ LOM_INLINE lom_float4 lom_defined_load_rows(const float *const rows[LOM_LANES], 
     return x;
 }
 
-/* The lanes whose mask is set, side by side from `to` on, in lane order; up to LOM_LANES floats are written, those after
- * the last set lane with unspecified values. */
+/* The lanes whose mask is set, side by side from `to` on, in lane order; up to LOM_LANES floats are written, those
+ * after the last set lane with unspecified values. */
 LOM_INLINE void lom_defined_compress(float *to, lom_mask mask, lom_float x)
 {
     int count = 0;
