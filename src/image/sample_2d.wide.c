@@ -2,39 +2,46 @@
  * storage, so that nothing is decided per texel. */
 #include "sample_lanes.h"
 
-static void sample_rgba8(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+LOM_INLINE void sample_as(lom_storage storage, bool srgb, const lom_texture *texture, const lom_float2 *at,
+                          lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_2D, LOM_STORAGE_RGBA8, false, point, lod);
+    sample_point point;
+    point.s = sample_wrap(at->x, texture->sampler.wrap_s);
+    point.t = sample_wrap(at->y, texture->sampler.wrap_t);
+    *out = sample_texture(texture, LOM_TEXTURE_2D, storage, srgb, &point, lod);
 }
 
-static void sample_srgb8(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+static void sample_rgba8(const lom_texture *texture, const lom_float2 *at, lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_2D, LOM_STORAGE_RGBA8, true, point, lod);
+    sample_as(LOM_STORAGE_RGBA8, false, texture, at, lod, out);
 }
 
-static void sample_r32f(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+static void sample_srgb8(const lom_texture *texture, const lom_float2 *at, lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_2D, LOM_STORAGE_R32F, false, point, lod);
+    sample_as(LOM_STORAGE_RGBA8, true, texture, at, lod, out);
 }
 
-static void sample_rgba32f(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+static void sample_r32f(const lom_texture *texture, const lom_float2 *at, lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_2D, LOM_STORAGE_RGBA32F, false, point, lod);
+    sample_as(LOM_STORAGE_R32F, false, texture, at, lod, out);
+}
+
+static void sample_rgba32f(const lom_texture *texture, const lom_float2 *at, lom_float lod, lom_float4 *out)
+{
+    sample_as(LOM_STORAGE_RGBA32F, false, texture, at, lod, out);
 }
 
 void LOM_WIDE(lom_sample_lanes)(const lom_texture *texture, const lom_float2 *at, const lom_float *lod, lom_float4 *out)
 {
-    sample_point point = { .s = sample_wrap(at->x, texture->sampler.wrap_s),
-                           .t = sample_wrap(at->y, texture->sampler.wrap_t) };
     switch (texture->storage) {
     case LOM_STORAGE_RGBA8:
-        (texture->srgb ? sample_srgb8 : sample_rgba8)(texture, point, *lod, out);
+        (texture->srgb ? sample_srgb8 : sample_rgba8)(texture, at, *lod, out);
         break;
     case LOM_STORAGE_R32F:
-        sample_r32f(texture, point, *lod, out);
+        sample_r32f(texture, at, *lod, out);
         break;
     case LOM_STORAGE_RGBA32F:
-        sample_rgba32f(texture, point, *lod, out);
+        sample_rgba32f(texture, at, *lod, out);
         break;
     }
 }

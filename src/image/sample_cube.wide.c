@@ -6,7 +6,7 @@
  *        0  1  +X  -X                  -z +z  -y   |x|
  *        2  3  +Y  -Y                   x   +z -z  |y|
  *        4  5  +Z  -Z                  +x -x  -y   |z|   */
-static sample_point point_on_face(const lom_float3 *direction)
+LOM_INLINE void choose_face(const lom_float3 *direction, sample_point *point)
 {
     lom_float x = direction->x, y = direction->y, z = direction->z;
     lom_float ax = lom_abs(x), ay = lom_abs(y), az = lom_abs(z);
@@ -23,42 +23,51 @@ static sample_point point_on_face(const lom_float3 *direction)
     u = lom_select(lom_abs(u) <= 1.0f, u, (lom_float){ 0 });
     v = lom_select(lom_abs(v) <= 1.0f, v, (lom_float){ 0 });
     lom_int axis = lom_select_int(is_x, (lom_int){ 0 }, lom_select_int(is_y, lom_splat_int(2), lom_splat_int(4)));
-    return (sample_point){ .s = u * 0.5f + 0.5f, .t = v * 0.5f + 0.5f, .face = axis - negative };
+    point->s = u * 0.5f + 0.5f;
+    point->t = v * 0.5f + 0.5f;
+    point->face = axis - negative;
 }
 
-static void sample_rgba8(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+LOM_INLINE void sample_as(lom_storage storage, bool srgb, const lom_texture *texture, const lom_float3 *at,
+                          lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_RGBA8, false, point, lod);
+    sample_point point;
+    choose_face(at, &point);
+    *out = sample_texture(texture, LOM_TEXTURE_CUBE, storage, srgb, &point, lod);
 }
 
-static void sample_srgb8(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+static void sample_rgba8(const lom_texture *texture, const lom_float3 *at, lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_RGBA8, true, point, lod);
+    sample_as(LOM_STORAGE_RGBA8, false, texture, at, lod, out);
 }
 
-static void sample_r32f(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+static void sample_srgb8(const lom_texture *texture, const lom_float3 *at, lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_R32F, false, point, lod);
+    sample_as(LOM_STORAGE_RGBA8, true, texture, at, lod, out);
 }
 
-static void sample_rgba32f(const lom_texture *texture, sample_point point, lom_float lod, lom_float4 *out)
+static void sample_r32f(const lom_texture *texture, const lom_float3 *at, lom_float lod, lom_float4 *out)
 {
-    *out = sample_texture(texture, LOM_TEXTURE_CUBE, LOM_STORAGE_RGBA32F, false, point, lod);
+    sample_as(LOM_STORAGE_R32F, false, texture, at, lod, out);
 }
 
-void LOM_WIDE(lom_sample_cube_lanes)(const lom_texture *texture, const lom_float3 *direction, const lom_float *lod,
+static void sample_rgba32f(const lom_texture *texture, const lom_float3 *at, lom_float lod, lom_float4 *out)
+{
+    sample_as(LOM_STORAGE_RGBA32F, false, texture, at, lod, out);
+}
+
+void LOM_WIDE(lom_sample_cube_lanes)(const lom_texture *texture, const lom_float3 *at, const lom_float *lod,
                                      lom_float4 *out)
 {
-    sample_point point = point_on_face(direction);
     switch (texture->storage) {
     case LOM_STORAGE_RGBA8:
-        (texture->srgb ? sample_srgb8 : sample_rgba8)(texture, point, *lod, out);
+        (texture->srgb ? sample_srgb8 : sample_rgba8)(texture, at, *lod, out);
         break;
     case LOM_STORAGE_R32F:
-        sample_r32f(texture, point, *lod, out);
+        sample_r32f(texture, at, *lod, out);
         break;
     case LOM_STORAGE_RGBA32F:
-        sample_rgba32f(texture, point, *lod, out);
+        sample_rgba32f(texture, at, *lod, out);
         break;
     }
 }

@@ -101,7 +101,9 @@ LOM_INLINE sample_footprint sample_footprint_of(const lom_texture *texture, lom_
 {
     const lom_sampler_desc *sampler = &texture->sampler;
     bool flat = kind != LOM_TEXTURE_CUBE;
-    sample_footprint print = { .pitch = place->pitch, .slice = place->slice };
+    sample_footprint print;
+    print.pitch = place->pitch;
+    print.slice = place->slice;
     lom_int x = sample_locate(point->s, place->width, flat && sampler->wrap_s == LOM_WRAP_BORDER, point, &print.s);
     lom_int y = sample_locate(point->t, place->height, flat && sampler->wrap_t == LOM_WRAP_BORDER, point, &print.t);
     print.index = place->offset + y * place->pitch + x;
@@ -202,16 +204,16 @@ LOM_INLINE lom_float sample_choose(const lom_texture *texture, sample_point *poi
 }
 
 LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kind kind, lom_storage storage, bool srgb,
-                                     sample_point point, lom_float lod)
+                                     sample_point *point, lom_float lod)
 {
-    lom_float chosen = sample_choose(texture, &point, lod);
+    lom_float chosen = sample_choose(texture, point, lod);
     lom_int level = __builtin_convertvector(chosen, lom_int);
     lom_float fraction = lom_min(chosen - lom_to_float(level), lom_splat(SAMPLE_LARGEST_WEIGHT));
     sample_place place = sample_place_of_levels(texture, level);
-    lom_float4 value = sample_level(texture, kind, storage, srgb, &point, &place);
+    lom_float4 value = sample_level(texture, kind, storage, srgb, point, &place);
     if (lom_any(fraction > 0.0f)) {
         place = sample_place_of_levels(texture, lom_min_int(level + 1, lom_splat_int(texture->level_count - 1)));
-        lom_float4 next = sample_level(texture, kind, storage, srgb, &point, &place);
+        lom_float4 next = sample_level(texture, kind, storage, srgb, point, &place);
         value = sample_mix(storage, value, next, fraction);
     }
     return sample_finish(storage, srgb, value);

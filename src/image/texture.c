@@ -110,6 +110,9 @@ static bool lay_out(lom_texture *texture, const lom_texture_desc *desc, lom_erro
         l->slice = (size_t)slice;
         l->offset = (size_t)(next + (deep ? slice : 0) + pitch + 1);
         texture->offset[i] = (int32_t)next;
+        texture->size[i][0] = (float)l->width;
+        texture->size[i][1] = (float)l->height;
+        texture->size[i][2] = (float)l->depth;
         if (i == 0)
             tail = (deep ? slice : 0) + pitch + 2;
         next += slice * slices; /* < 2^47, and the sum over at most 16 levels < 2^51 */

@@ -36,6 +36,7 @@ struct lom_texture {
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */
     float lod_min, lod_max;               /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
+    float size[LOM_MAX_LEVELS][3];        /* width, height, depth of each level */
     int32_t offset[LOM_MAX_LEVELS];       /* of texel (-1, -1) of slice 0 (in 3D: of slice -1) */
 };
 
