@@ -21,6 +21,11 @@ static void sample_srgb8(const lom_texture *texture, const lom_float2 *at, lom_f
     sample_as(LOM_STORAGE_RGBA8, true, texture, at, lod, out);
 }
 
+static void sample_decoded(const lom_texture *texture, const lom_float2 *at, lom_float lod, lom_float4 *out)
+{
+    sample_as(LOM_STORAGE_RGBA32F, true, texture, at, lod, out);
+}
+
 static void sample_r32f(const lom_texture *texture, const lom_float2 *at, lom_float lod, lom_float4 *out)
 {
     sample_as(LOM_STORAGE_R32F, false, texture, at, lod, out);
@@ -35,7 +40,9 @@ void LOM_WIDE(lom_sample_lanes)(const lom_texture *texture, const lom_float2 *at
 {
     switch (texture->storage) {
     case LOM_STORAGE_RGBA8:
-        (texture->srgb ? sample_srgb8 : sample_rgba8)(texture, at, *lod, out);
+        (texture->decoded != NULL ? sample_decoded
+         : texture->srgb          ? sample_srgb8
+                                  : sample_rgba8)(texture, at, *lod, out);
         break;
     case LOM_STORAGE_R32F:
         sample_r32f(texture, at, *lod, out);

@@ -118,15 +118,16 @@ LOM_INLINE sample_footprint sample_footprint_of(const lom_texture *texture, lom_
 /* ---- texels ---- */
 
 /* Channels as they are filtered: RGBA8 as r, 256 g, 65536 b, a (a mask and no shift; the power of two is divided out at
- * the end, exactly), sRGB as linear light with a in 0..255, floats as they are. */
+ * the end, exactly), sRGB as linear light with a in 0..255 (RGBA8: by table; RGBA32F: texture->decoded), floats as they
+ * are. */
 LOM_INLINE lom_float4 sample_texel(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index)
 {
     if (storage == LOM_STORAGE_R32F)
         return (lom_float4){ .x = lom_gather(texture->texels, index) };
     if (storage == LOM_STORAGE_RGBA32F) {
-        const float *rows[LOM_LANES];
+        const float *base = srgb ? texture->decoded : texture->texels, *rows[LOM_LANES];
         for (int i = 0; i < LOM_LANES; i++)
-            rows[i] = (const float *)texture->texels + (size_t)(uint32_t)index[i] * 4;
+            rows[i] = base + (size_t)(uint32_t)index[i] * 4;
         return lom_load_rows(rows, 0);
     }
     lom_int texel = lom_gather_int(texture->texels, index);
@@ -175,10 +176,10 @@ LOM_INLINE lom_float4 sample_finish(lom_storage storage, bool srgb, lom_float4 x
 {
     if (storage == LOM_STORAGE_R32F)
         return (lom_float4){ x.x + 0.0f, (lom_float){ 0 }, (lom_float){ 0 }, lom_splat(1.0f) };
-    if (storage == LOM_STORAGE_RGBA32F)
-        return (lom_float4){ x.x + 0.0f, x.y + 0.0f, x.z + 0.0f, x.w + 0.0f };
     if (srgb)
         return (lom_float4){ x.x, x.y, x.z, x.w / 255.0f };
+    if (storage == LOM_STORAGE_RGBA32F)
+        return (lom_float4){ x.x + 0.0f, x.y + 0.0f, x.z + 0.0f, x.w + 0.0f };
     return (lom_float4){ x.x / 255.0f, x.y / (255.0f * 256.0f), x.z / (255.0f * 65536.0f), x.w / 255.0f };
 }
 

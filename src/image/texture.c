@@ -2,11 +2,13 @@
  * in one of three storages. Invariant: every index that sample_lanes.h can form lies inside texels[], and every float
  * stored here is finite. */
 #include "texture.h"
+#include "convert.h"
 #include "convert_rows.h"
 
 #include <string.h>
 
 static const uint64_t most_texels = INT32_MAX, most_bytes = UINT64_C(1) << 33;
+static const size_t most_decoded = (size_t)1 << 23; /* texels: 128 MiB */
 
 /* ---- what is asked for ---- */
 
@@ -120,6 +122,7 @@ static bool lay_out(lom_texture *texture, const lom_texture_desc *desc, lom_erro
             return lom_fail(error, LOM_ERROR_LIMIT, "A texture of %d x %d x %d texels is larger than the limit.",
                             desc->width, desc->height, depth);
     }
+    texture->texel_count = (size_t)(next + tail);
     texture->texels = lom_allocate((size_t)(next + tail), lom_texel_size(texture), error);
     return texture->texels != NULL;
 }
@@ -207,6 +210,27 @@ static bool store_pixels(lom_texture *texture, const lom_texture_desc *desc, lom
     return true;
 }
 
+/* ---- sRGB texels decoded ---- */
+
+/* Room for decoded texels, which halve the time of a sample (bench/results/sampling.md): for textures made from pixels;
+ * what a pass draws into would be decoded every frame. Without memory the samplers decode. */
+static void prepare_decoded(lom_texture *texture, const lom_texture_desc *desc)
+{
+    if (texture->srgb && desc->pixels != NULL && texture->texel_count <= most_decoded)
+        texture->decoded = lom_allocate(texture->texel_count, 4 * sizeof(float), NULL);
+}
+
+static void fill_decoded(lom_texture *texture)
+{
+    const uint32_t *texel = texture->texels;
+    float *to = texture->decoded;
+    for (size_t i = 0; i < texture->texel_count; i++, to += 4) {
+        for (int c = 0; c < 3; c++)
+            to[c] = lom_srgb_linear[texel[i] >> 8 * c & 255];
+        to[3] = (float)(texel[i] >> 24);
+    }
+}
+
 /* ---- public ---- */
 
 lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
@@ -231,6 +255,7 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
         lom_free_texture(texture);
         return NULL;
     }
+    prepare_decoded(texture, desc);
     lom_finish_texture(texture);
     return texture;
 }
@@ -242,6 +267,8 @@ void lom_finish_texture(lom_texture *texture)
             lom_shrink_level(texture, i);
         lom_fill_apron(texture, i);
     }
+    if (texture->decoded != NULL)
+        fill_decoded(texture);
 }
 
 lom_texture *lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error)
@@ -265,6 +292,7 @@ void lom_free_texture(lom_texture *texture)
 {
     if (texture == NULL)
         return;
+    lom_release(texture->decoded);
     lom_release(texture->texels);
     lom_release(texture);
 }

@@ -32,6 +32,10 @@ struct lom_texture {
     lom_sampler_desc sampler; /* no DEFAULT filters any more */
     bool srgb;                /* RGBA8 storage holds sRGB codes in r, g, b */
     bool builds_mips;         /* lom_finish_texture makes levels 1.. from level 0 */
+    /* The texels of an sRGB texture once more, decoded: 4 floats each, linear light and alpha 0..255, at the same
+     * indices; NULL where the samplers decode as they go. The results are the same bits. */
+    float *decoded;
+    size_t texel_count; /* in texels[] */
     /* For the samplers: */
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */
