@@ -1,0 +1,51 @@
+#!/bin/sh
+# Includes go down only: a folder of src/ may include itself and what lies below it (design, section 2), and system headers
+# only of libc and pthreads. Prints each include that breaks this; fails when there is one.
+below() {
+    case $1 in
+    base) echo base ;;
+    lanes) echo lanes base ;;
+    image) echo image "$(below lanes)" ;;
+    geometry) echo geometry "$(below image)" ;;
+    pipeline) echo pipeline "$(below image)" ;;
+    march) echo march "$(below image)" ;;
+    water | cloud | sky) echo "$1 geometry pipeline march $(below image)" ;;
+    scene) echo "scene water cloud sky geometry pipeline march $(below image)" ;;
+    reference) echo "reference $(below scene)" ;;
+    render) echo "render $(below scene)" ;;
+    measure) echo "measure render reference $(below scene)" ;;
+    inspect) echo "inspect $(below render)" ;;
+    cli) echo "cli measure inspect $(below measure)" ;;
+    esac
+}
+public() { # the public headers of each layer
+    case $1 in
+    base.h) echo base ;;
+    lanes.h | lanes_mathematics.h) echo lanes ;;
+    image.h | texture.h) echo image ;;
+    lom.h) echo cli ;;
+    *) basename "$1" .h ;;
+    esac
+}
+system=' assert errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/stat sys/time sys/types time unistd immintrin xmmintrin SDL2/SDL SDL '
+status=0
+for folder in src/*/; do
+    name=$(basename "$folder")
+    allowed=" $(below "$name") "
+    for file in "$folder"*.[ch]; do
+        [ -f "$file" ] || continue
+        for word in $(sed -n 's/^#include *[<"]\([^>"]*\)[>"].*/\1/p' "$file"); do
+            case $word in
+            lom/*) layer=$(public "${word#lom/}") ;;
+            */*.h) layer=${word%%/*}; [ -d "src/$layer" ] || layer= ;;
+            *) layer= ;;
+            esac
+            if [ -n "$layer" ]; then
+                case $allowed in *" $layer "*) ;; *) echo "$file includes $word, which lies above or beside src/$name"; status=1 ;; esac
+            elif [ ! -f "$folder$word" ] && [ ! -f "src/lanes/$word" ]; then
+                case $system in *" ${word%.h} "*) ;; *) echo "$file includes <$word>, which is neither libc nor pthreads"; status=1 ;; esac
+            fi
+        done
+    done
+done
+exit $status
