@@ -17,7 +17,7 @@ MACHINE := $(shell $(CC) -dumpmachine)
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
-CFLAGS      = -std=gnu11 -O$(O) -g -fPIC -fvisibility=hidden $(FLOAT_FLAGS) $(WARNINGS)
+CFLAGS      = -std=gnu11 -O$(O) -g -fPIC $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
 # Sanitized code is optimised little: it compiles many times faster and says more.
 ifneq ($(SAN),)
@@ -27,6 +27,7 @@ CFLAGS += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
 LDFLAGS += -fsanitize=$(SAN)
 endif
 
+AVX512 = -mavx2 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd
 # One object for each width. On x86-64 the widths 8 and 16 exist twice: for AVX2 and AVX-512, and lowered to the baseline.
 ifneq ($(filter x86_64%,$(MACHINE)),)
 VARIANTS = 4 8 16 8_plain 16_plain
@@ -38,7 +39,7 @@ FLAGS_8_plain  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8_plain
 FLAGS_16_plain = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16_plain
 ifneq ($(filter x86_64%,$(MACHINE)),)
 FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8 -mavx2
-FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16 -mavx2 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd
+FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16 $(AVX512)
 else
 FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8
 FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16
@@ -141,6 +142,27 @@ bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))
 
 format:
 	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])
+
+# The installed library: header files, both libraries, the program, pkg-config's file and the compiler of shaders.
+INSTALL_BIN = $(DESTDIR)$(PREFIX)/bin
+INSTALL_LIB = $(DESTDIR)$(PREFIX)/lib
+INSTALL_INC = $(DESTDIR)$(PREFIX)/include/lom
+FILL = sed -e 's|@PREFIX@|$(PREFIX)|g; s|@LIBDIR@|$(PREFIX)/lib|g; s|@INCLUDEDIR@|$(PREFIX)/include|g' \
+	-e 's|@VERSION@|$(VERSION)|g; s|@FLOAT_FLAGS@|$(FLOAT_FLAGS)|g; s|@FLAGS_AVX512@|$(AVX512)|g'
+install: all
+	mkdir -p $(INSTALL_BIN) $(INSTALL_LIB)/pkgconfig $(INSTALL_INC)
+	install -m 755 $(BUILD)/lom $(INSTALL_BIN)/lom
+	install -m 644 $(BUILD)/liblom.a $(INSTALL_LIB)/liblom.a
+	install -m 755 $(BUILD)/liblom.so $(INSTALL_LIB)/liblom.so.0
+	ln -sf liblom.so.0 $(INSTALL_LIB)/liblom.so
+	install -m 644 include/lom/*.h src/lanes/lanes_x86.h $(INSTALL_INC)
+	$(FILL) src/lanes/lom.pc.in > $(INSTALL_LIB)/pkgconfig/lom.pc
+	$(FILL) src/lanes/lom-cc > $(INSTALL_BIN)/lom-cc
+	chmod 755 $(INSTALL_BIN)/lom-cc
+
+# Format, layers, exported names, header files alone in C and C++, cppcheck. Tools that are not installed are named.
+lint: $(BUILD)/liblom.a
+	CC='$(CC)' BUILD='$(BUILD)' tests/house/lint.sh
 
 clean:
 	rm -rf $(BUILD)

@@ -37,14 +37,15 @@ int main(void)
 {
     lom_error error = { .code = LOM_OK };
     lom_device *device = lom_open_device(&(lom_device_desc){ 0 });
-    lom_texture *picture = lom_make_texture(
-        device, &(lom_texture_desc){ .width = 320, .height = 240, .format = LOM_FORMAT_RGBA8_SRGB });
+    lom_texture *picture =
+        lom_make_texture(device, &(lom_texture_desc){ .width = 320, .height = 240, .format = LOM_FORMAT_RGBA8_SRGB });
 
     lom_begin_pass(device, &(lom_pass_desc){ .color = { picture }, .clear_color = { { 0.02f, 0.02f, 0.03f, 1 } } });
-    lom_draw(device, &(lom_draw_desc){ .shader = &triangle,
-                                       .attribute = { { corners, sizeof corners, 28, LOM_ATTRIBUTE_FLOAT4 },
-                                                      { &corners[0][4], sizeof corners - 16, 28, LOM_ATTRIBUTE_FLOAT3 } },
-                                       .count = 3 });
+    lom_draw(device,
+             &(lom_draw_desc){ .shader = &triangle,
+                               .attribute = { { corners, sizeof corners, 28, LOM_ATTRIBUTE_FLOAT4 },
+                                              { &corners[0][4], sizeof corners - 16, 28, LOM_ATTRIBUTE_FLOAT3 } },
+                               .count = 3 });
     bool done = lom_end_pass(device);
     lom_image *image = done ? lom_read_texture(picture, 0, 0, &error) : NULL;
     done = image != NULL && lom_write_image("triangle.png", NULL, image, &error);

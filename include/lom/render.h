@@ -11,10 +11,10 @@ extern "C" {
 
 typedef struct lom_renderer lom_renderer;
 
-/* Loads everything the scene names and makes ready to draw it. The scene is not copied: it outlives the renderer. NULL on
- * failure. Freed with lom_free_renderer. The zero device descriptor is a good one. */
+/* Loads everything the scene names and makes ready to draw it. The scene is not copied: it outlives the renderer. NULL
+ * on failure. Freed with lom_free_renderer. The zero device descriptor is a good one. */
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *device, lom_error *error);
-void          lom_free_renderer(lom_renderer *renderer); /* NULL is allowed */
+void lom_free_renderer(lom_renderer *renderer); /* NULL is allowed */
 
 typedef struct lom_frame_desc {
     int width, height; /* of the whole frame; 0: the scene's */
@@ -31,20 +31,20 @@ typedef struct lom_step {
     char name[24]; /* "scene", "visibility", "reflection", "refraction", "water" */
     bool runs;
     char text[LOM_MAX_STEP_TEXT]; /* what it draws from what into what; or why it was left out */
-    int  width, height;           /* of its target */
+    int width, height;            /* of its target */
     lom_rect scissor;             /* the part of it that is drawn; width 0: all of it */
 } lom_step;
 
 typedef struct lom_plan {
-    int      count;
+    int count;
     lom_step step[LOM_MAX_STEPS];
 } lom_plan;
 
 /* ---- a frame ---- */
 
 typedef struct lom_frame {
-    lom_image   *image;    /* the picture, in the scene's output format; freed with lom_free_image */
-    lom_plan     plan;     /* what was done for it */
+    lom_image *image;      /* the picture, in the scene's output format; freed with lom_free_image */
+    lom_plan plan;         /* what was done for it */
     lom_counters counters; /* work of this frame */
 } lom_frame;
 

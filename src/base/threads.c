@@ -8,20 +8,20 @@
 enum { SPINS = 2000 };
 
 struct lom_pool {
-    int             size;
-    pthread_t      *threads;
+    int size;
+    pthread_t *threads;
     pthread_mutex_t mutex;
-    pthread_cond_t  wake, finished;
-    atomic_uint     generation; /* odd steps are never seen: it counts the calls of lom_run_pool */
-    atomic_int      running;
-    bool            ending;
-    lom_work       *work;
-    void           *context;
+    pthread_cond_t wake, finished;
+    atomic_uint generation; /* odd steps are never seen: it counts the calls of lom_run_pool */
+    atomic_int running;
+    bool ending;
+    lom_work *work;
+    void *context;
 };
 
 struct worker {
     lom_pool *pool;
-    int       number;
+    int number;
 };
 
 static void pause_briefly(void)
@@ -48,8 +48,8 @@ static unsigned wait_for_generation(lom_pool *pool, unsigned seen)
 static void *run_worker(void *argument)
 {
     struct worker *worker = argument;
-    lom_pool      *pool   = worker->pool;
-    int            number = worker->number;
+    lom_pool *pool = worker->pool;
+    int number = worker->number;
     lom_release(worker);
     lom_float_state state;
     lom_enter_float_state(&state);
@@ -128,7 +128,7 @@ int lom_pool_size(const lom_pool *pool)
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
 {
     if (pool->size > 1) {
-        pool->work    = work;
+        pool->work = work;
         pool->context = context;
         atomic_store_explicit(&pool->running, pool->size - 1, memory_order_relaxed);
         advance_generation(pool);

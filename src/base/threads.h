@@ -5,7 +5,7 @@
 #include <lom/base.h>
 
 typedef struct lom_pool lom_pool;
-typedef void            lom_work(void *context, int worker);
+typedef void lom_work(void *context, int worker);
 
 /* A pool of `threads` workers, of which the caller is number 0; each has the default float state. When the system gives
  * fewer threads the pool is that much smaller: results never depend on it. NULL when memory runs out. */
@@ -14,7 +14,8 @@ lom_pool *lom_create_pool(int threads, lom_error *error);
 void lom_free_pool(lom_pool *pool);
 /* Workers of the pool, the caller included. */
 int lom_pool_size(const lom_pool *pool);
-/* Runs work(context, worker) on every worker; returns when all have returned. What they wrote is visible to the caller. */
+/* Runs work(context, worker) on every worker; returns when all have returned. What they wrote is visible to the caller.
+ */
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context);
 
 #endif

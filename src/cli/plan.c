@@ -4,7 +4,7 @@
 
 struct values {
     struct lom_scene_options scene;
-    lom_option_integers      frame;
+    lom_option_integers frame;
 };
 
 static const lom_option options[] = {
@@ -13,12 +13,12 @@ static const lom_option options[] = {
 };
 
 static const lom_command_line line = {
-    .name              = "plan",
-    .arguments         = "SCENE",
-    .summary           = "say which passes a scene needs, why, and what was left out",
-    .details           = "The frame is drawn to find out what is in view; nothing is written.",
-    .options           = options,
-    .option_count      = sizeof options / sizeof options[0],
+    .name = "plan",
+    .arguments = "SCENE",
+    .summary = "say which passes a scene needs, why, and what was left out",
+    .details = "The frame is drawn to find out what is in view; nothing is written.",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
     .maximum_arguments = 1,
 };
@@ -33,7 +33,8 @@ static void print_plan(const lom_frame *frame)
         }
         printf("*  %-11s %s; %dx%d", step->name, step->text, step->width, step->height);
         if (step->scissor.width != 0)
-            printf(", of which %dx%d at %d,%d", step->scissor.width, step->scissor.height, step->scissor.x, step->scissor.y);
+            printf(", of which %dx%d at %d,%d", step->scissor.width, step->scissor.height, step->scissor.x,
+                   step->scissor.y);
         printf("\n");
     }
 }
@@ -42,16 +43,16 @@ int lom_command_plan(int argc, char **argv)
 {
     struct values values = { .frame = { .given = false } };
     lom_arguments arguments;
-    lom_error     error = { .code = LOM_OK };
-    int           status;
+    lom_error error = { .code = LOM_OK };
+    int status;
     if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
         return status;
-    lom_device_desc device   = lom_device_of_options(&values.scene);
-    lom_frame_desc  desc     = lom_frame_of_options(&values.scene, values.frame.given ? (int)values.frame.value[0] : 0);
-    lom_frame       frame    = { .image = NULL };
-    lom_scene      *scene    = lom_open_scene(arguments.items[0], &values.scene, &error);
-    lom_renderer   *renderer = scene == NULL ? NULL : lom_create_renderer(scene, &device, &error);
-    bool            done     = renderer != NULL && lom_render_frame(renderer, &desc, &frame, &error);
+    lom_device_desc device = lom_device_of_options(&values.scene);
+    lom_frame_desc desc = lom_frame_of_options(&values.scene, values.frame.given ? (int)values.frame.value[0] : 0);
+    lom_frame frame = { .image = NULL };
+    lom_scene *scene = lom_open_scene(arguments.items[0], &values.scene, &error);
+    lom_renderer *renderer = scene == NULL ? NULL : lom_create_renderer(scene, &device, &error);
+    bool done = renderer != NULL && lom_render_frame(renderer, &desc, &frame, &error);
     if (done)
         print_plan(&frame);
     lom_free_image(frame.image);

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 
 struct lom_progress {
-    bool        shown;
+    bool shown;
     const char *label;
-    int         total;
+    int total;
 };
 
 /* Shows an empty bar for `total` steps, unless quiet. */

@@ -1,5 +1,5 @@
-/* `lom render`. In: a scene; out: pictures, hashes, statistics. With --watch it goes on, drawing again whenever the scene
- * or a file it names changes, also after an error in them. */
+/* `lom render`. In: a scene; out: pictures, hashes, statistics. With --watch it goes on, drawing again whenever the
+ * scene or a file it names changes, also after an error in them. */
 #include "commands.h"
 #include "json.h"
 #include "progress.h"
@@ -14,16 +14,18 @@
 
 struct values {
     struct lom_scene_options scene;
-    const char              *output, *stats, *format;
-    lom_option_integers      frame, frames;
-    bool                     hash, watch, check, quiet;
+    const char *output, *stats, *format;
+    lom_option_integers frame, frames;
+    bool hash, watch, check, quiet;
 };
 
 static const lom_option options[] = {
     { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "OUT", 0, 0,
       "the picture: png, ppm, pgm, pam, pfm or y4m by its ending; %04d stands for the frame's number; - is stdout" },
-    { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9, "the frame to draw, 0 when not given" },
-    { "frames", 0, LOM_OPTION_INTEGER, offsetof(struct values, frames), "A:B", 0, 1e9, "draw frames A to B, both included" },
+    { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9,
+      "the frame to draw, 0 when not given" },
+    { "frames", 0, LOM_OPTION_INTEGER, offsetof(struct values, frames), "A:B", 0, 1e9,
+      "draw frames A to B, both included" },
     LOM_SCENE_OPTIONS(struct values),
     { "hash", 0, LOM_OPTION_FLAG, offsetof(struct values, hash), NULL, 0, 0, "print \"HASH  frame N\" for each frame" },
     { "stats", 0, LOM_OPTION_TEXT, offsetof(struct values, stats), "FILE", 0, 0,
@@ -38,12 +40,12 @@ static const lom_option options[] = {
 };
 
 static const lom_command_line line = {
-    .name              = "render",
-    .arguments         = "SCENE -o OUT",
-    .summary           = "draw a scene",
-    .details           = "-o may be left out with --hash or --stats. Any frame alone has the bytes that it has in a run.",
-    .options           = options,
-    .option_count      = sizeof options / sizeof options[0],
+    .name = "render",
+    .arguments = "SCENE -o OUT",
+    .summary = "draw a scene",
+    .details = "-o may be left out with --hash or --stats. Any frame alone has the bytes that it has in a run.",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
     .maximum_arguments = 1,
 };
@@ -51,12 +53,12 @@ static const lom_command_line line = {
 /* What is open while frames are drawn. */
 struct run {
     const struct values *values;
-    lom_scene           *scene;
-    lom_renderer        *renderer;
-    FILE                *video; /* of y4m, until the run ends */
-    char                 video_path[4096];
-    FILE                *stats;
-    bool                 rejected;
+    lom_scene *scene;
+    lom_renderer *renderer;
+    FILE *video; /* of y4m, until the run ends */
+    char video_path[4096];
+    FILE *stats;
+    bool rejected;
 };
 
 static double seconds(void)
@@ -70,7 +72,7 @@ static double seconds(void)
 static bool name_frame(char *name, size_t room, const char *pattern, int frame, lom_error *error)
 {
     const char *mark = strchr(pattern, '%');
-    int         digits = 0, length;
+    int digits = 0, length;
     if (mark == NULL) {
         length = snprintf(name, room, "%s", pattern);
     } else {
@@ -78,7 +80,8 @@ static bool name_frame(char *name, size_t room, const char *pattern, int frame, 
         while (*end >= '0' && *end <= '9' && digits < 100)
             digits = digits * 10 + (*end++ - '0');
         if (*end != 'd' || strchr(end, '%') != NULL || digits > 20)
-            return lom_fail(error, LOM_ERROR_USAGE, "%s: the frame's number is written as %%d or %%04d, once.", pattern);
+            return lom_fail(error, LOM_ERROR_USAGE, "%s: the frame's number is written as %%d or %%04d, once.",
+                            pattern);
         length = snprintf(name, room, "%.*s%0*d%s", (int)(mark - pattern), pattern, digits, frame, end + 1);
     }
     if (length < 0 || (size_t)length >= room)
@@ -124,7 +127,7 @@ static bool close_video(struct run *run, bool keep, lom_error *error)
     if (run->video == NULL || run->video == stdout)
         return true;
     bool whole = fflush(run->video) == 0 && fsync(fileno(run->video)) == 0;
-    whole      = fclose(run->video) == 0 && whole;
+    whole = fclose(run->video) == 0 && whole;
     run->video = NULL;
     if (keep && whole && rename(run->video_path, run->values->output) == 0)
         return true;
@@ -135,7 +138,7 @@ static bool close_video(struct run *run, bool keep, lom_error *error)
 static bool write_frame(struct run *run, const lom_image *image, int frame, lom_error *error)
 {
     const struct values *v = run->values;
-    char                 name[4096];
+    char name[4096];
     if (v->output == NULL)
         return true;
     if (is_video(v))
@@ -149,11 +152,11 @@ static bool write_frame(struct run *run, const lom_image *image, int frame, lom_
 
 static void print_stats(const struct run *run, const lom_frame *frame, int number, double elapsed)
 {
-    const lom_counters *c      = &frame->counters;
-    lom_device_desc     device = lom_describe_device(lom_renderer_device(run->renderer));
+    const lom_counters *c = &frame->counters;
+    lom_device_desc device = lom_describe_device(lom_renderer_device(run->renderer));
     const struct {
         const char *name;
-        uint64_t    value;
+        uint64_t value;
     } facts[] = { { "threads", (uint64_t)device.threads },
                   { "lanes", (uint64_t)device.lanes },
                   { "passes", c->passes },
@@ -165,9 +168,9 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
                   { "fragments", c->fragments },
                   { "packets", c->packets },
                   { "tiles", c->tiles } };
-    char     ran[LOM_MAX_STEPS * 25] = "";
-    size_t   length                  = 0;
-    lom_json json                    = lom_json_begin(run->stats);
+    char ran[LOM_MAX_STEPS * 25] = "";
+    size_t length = 0;
+    lom_json json = lom_json_begin(run->stats);
     lom_json_integer(&json, "frame", number);
     lom_json_number(&json, "ms", elapsed * 1e3);
     for (size_t i = 0; i < sizeof facts / sizeof facts[0]; i++)
@@ -184,7 +187,7 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
 static bool is_suspicious(const lom_image *image)
 {
     size_t size = lom_format_size(image->format), count = lom_image_size(image) / size;
-    bool   same = true;
+    bool same = true;
     for (size_t i = 1; i < count && same; i++)
         same = memcmp(image->pixels, image->pixels + i * size, size) == 0;
     if (same && count > 1)
@@ -200,10 +203,10 @@ static bool is_suspicious(const lom_image *image)
 
 static bool draw_frame(struct run *run, int number, lom_error *error)
 {
-    const struct values *v    = run->values;
-    lom_frame_desc       desc = lom_frame_of_options(&v->scene, number);
-    lom_frame            frame;
-    double               start = seconds();
+    const struct values *v = run->values;
+    lom_frame_desc desc = lom_frame_of_options(&v->scene, number);
+    lom_frame frame;
+    double start = seconds();
     if (!lom_render_frame(run->renderer, &desc, &frame, error))
         return false;
     double elapsed = seconds() - start;
@@ -222,18 +225,18 @@ static bool draw_frame(struct run *run, int number, lom_error *error)
 
 static bool draw_frames(struct run *run, lom_error *error)
 {
-    const struct values *v     = run->values;
-    int                  first = v->frame.given ? (int)v->frame.value[0] : 0, last = first;
+    const struct values *v = run->values;
+    int first = v->frame.given ? (int)v->frame.value[0] : 0, last = first;
     if (v->frames.given) {
         first = (int)v->frames.value[0];
-        last  = (int)v->frames.value[1];
+        last = (int)v->frames.value[1];
     }
     if (last < first)
         return lom_fail(error, LOM_ERROR_USAGE, "--frames %d:%d ends before it begins.", first, last);
     if (last > first && v->output != NULL && !is_video(v) && strchr(v->output, '%') == NULL)
         return lom_fail(error, LOM_ERROR_USAGE, "%s: several frames need a %%04d in the name, or y4m.", v->output);
     struct lom_progress progress = lom_begin_progress("lom render", last - first + 1, v->quiet);
-    bool                done     = true;
+    bool done = true;
     for (int n = first; done && n <= last; n++) {
         lom_show_progress(&progress, n - first, v->output != NULL ? v->output : "");
         done = draw_frame(run, n, error);
@@ -263,13 +266,13 @@ static bool close_stats(struct run *run, lom_error *error)
 /* Draws once; the scene stays open for --watch to see which files it names. */
 static bool render_once(struct run *run, const char *path, lom_error *error)
 {
-    const struct values *v      = run->values;
-    lom_device_desc      device = lom_device_of_options(&v->scene);
-    run->scene                  = lom_open_scene(path, &v->scene, error);
+    const struct values *v = run->values;
+    lom_device_desc device = lom_device_of_options(&v->scene);
+    run->scene = lom_open_scene(path, &v->scene, error);
     if (run->scene == NULL)
         return false;
     run->renderer = lom_create_renderer(run->scene, &device, error);
-    bool done     = run->renderer != NULL && open_stats(run, error) && draw_frames(run, error);
+    bool done = run->renderer != NULL && open_stats(run, error) && draw_frames(run, error);
     return close_stats(run, error) && done;
 }
 
@@ -286,13 +289,13 @@ enum { MAX_WATCHED = 512 };
 
 struct watched {
     size_t count;
-    char  *path[MAX_WATCHED];
+    char *path[MAX_WATCHED];
 };
 
 static void watch_file(struct watched *w, const char *path)
 {
     size_t size = strlen(path) + 1;
-    char  *copy = w->count < MAX_WATCHED ? lom_allocate(size, 1, NULL) : NULL;
+    char *copy = w->count < MAX_WATCHED ? lom_allocate(size, 1, NULL) : NULL;
     if (copy != NULL)
         w->path[w->count++] = memcpy(copy, path, size);
 }
@@ -310,7 +313,7 @@ static uint64_t fingerprint(const struct watched *w)
     uint64_t hash = LOM_HASH_START;
     for (size_t i = 0; i < w->count; i++) {
         struct stat s;
-        int64_t     facts[4] = { -1, -1, -1, -1 };
+        int64_t facts[4] = { -1, -1, -1, -1 };
         if (stat(w->path[i], &s) == 0) {
             facts[0] = (int64_t)s.st_mtim.tv_sec;
             facts[1] = (int64_t)s.st_mtim.tv_nsec;
@@ -325,7 +328,7 @@ static uint64_t fingerprint(const struct watched *w)
 /* After an error the files of the last good scene are watched as well, since the new ones are not known. */
 static void watch_scene(struct watched *w, const struct run *run, const char *path)
 {
-    size_t             count = 0;
+    size_t count = 0;
     const char *const *files = run->scene == NULL ? NULL : lom_scene_files(run->scene, &count);
     if (files == NULL) {
         if (w->count == 0)
@@ -341,8 +344,8 @@ static void watch(struct run *run, const char *path)
 {
     struct watched watched = { .count = 0 };
     for (;;) {
-        lom_error error  = { .code = LOM_OK };
-        uint64_t  before = fingerprint(&watched);
+        lom_error error = { .code = LOM_OK };
+        uint64_t before = fingerprint(&watched);
         if (!render_once(run, path, &error))
             lom_complain_error(&error);
         else
@@ -362,7 +365,7 @@ int lom_command_render(int argc, char **argv)
 {
     struct values values = { .output = NULL };
     lom_arguments arguments;
-    int           status;
+    int status;
     if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
         return status;
     if (values.output == NULL && !values.hash && values.stats == NULL && !values.check)
@@ -372,9 +375,9 @@ int lom_command_render(int argc, char **argv)
     struct run run = { .values = &values };
     if (values.watch)
         watch(&run, arguments.items[0]);
-    lom_error error    = { .code = LOM_OK };
-    bool      done     = render_once(&run, arguments.items[0], &error);
-    bool      rejected = run.rejected;
+    lom_error error = { .code = LOM_OK };
+    bool done = render_once(&run, arguments.items[0], &error);
+    bool rejected = run.rejected;
     close_run(&run);
     if (!done)
         return lom_complain_error(&error);

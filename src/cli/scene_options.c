@@ -25,7 +25,7 @@ lom_frame_desc lom_frame_of_options(const struct lom_scene_options *options, int
 {
     lom_frame_desc desc = { .frame = frame };
     if (options->size.given) {
-        desc.width  = (int)options->size.value[0];
+        desc.width = (int)options->size.value[0];
         desc.height = (int)options->size.value[1];
     }
     if (options->crop.given)

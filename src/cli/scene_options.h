@@ -7,23 +7,47 @@
 #include <lom/render.h>
 
 struct lom_scene_options {
-    lom_option_list     set;
+    lom_option_list set;
     lom_option_integers size, crop, threads;
-    const char         *lanes;
-    lom_option_number   fps;
+    const char *lanes;
+    lom_option_number fps;
 };
 
 /* Rows for an option table whose values struct has a `struct lom_scene_options scene`. */
 #define LOM_SCENE_OPTIONS(values)                                                                                      \
-    { "size", 0, LOM_OPTION_INTEGER, offsetof(values, scene.size), "WxH", 1, LOM_MAX_SIZE,                             \
-      "size of the whole frame in pixels; the scene's when not given" },                                               \
-        { "crop", 0, LOM_OPTION_INTEGER, offsetof(values, scene.crop), "X,Y,W,H", 0, LOM_MAX_SIZE,                     \
+    { "size", 0, LOM_OPTION_INTEGER, offsetof(values, scene.size),                                                     \
+      "WxH",  1, LOM_MAX_SIZE,       "size of the whole frame in pixels; the scene's when not given" },                \
+        { "crop",                                                                                                      \
+          0,                                                                                                           \
+          LOM_OPTION_INTEGER,                                                                                          \
+          offsetof(values, scene.crop),                                                                                \
+          "X,Y,W,H",                                                                                                   \
+          0,                                                                                                           \
+          LOM_MAX_SIZE,                                                                                                \
           "draw only this part of the frame; the same pixels as a cut-out of the whole" },                             \
-        { "fps", 0, LOM_OPTION_NUMBER, offsetof(values, scene.fps), "F", 0.001, 100000,                                \
+        { "fps",                                                                                                       \
+          0,                                                                                                           \
+          LOM_OPTION_NUMBER,                                                                                           \
+          offsetof(values, scene.fps),                                                                                 \
+          "F",                                                                                                         \
+          0.001,                                                                                                       \
+          100000,                                                                                                      \
           "frames a second, instead of the scene's" },                                                                 \
-        { "set", 0, LOM_OPTION_LIST, offsetof(values, scene.set), "KEY=VALUE", 0, 0,                                   \
+        { "set",                                                                                                       \
+          0,                                                                                                           \
+          LOM_OPTION_LIST,                                                                                             \
+          offsetof(values, scene.set),                                                                                 \
+          "KEY=VALUE",                                                                                                 \
+          0,                                                                                                           \
+          0,                                                                                                           \
           "change a key of the scene, like water.level=12; may be repeated" },                                         \
-        { "threads", 0, LOM_OPTION_INTEGER, offsetof(values, scene.threads), "N", 1, 256,                              \
+        { "threads",                                                                                                   \
+          0,                                                                                                           \
+          LOM_OPTION_INTEGER,                                                                                          \
+          offsetof(values, scene.threads),                                                                             \
+          "N",                                                                                                         \
+          1,                                                                                                           \
+          256,                                                                                                         \
           "workers; as many as the machine allows when not given; changes no byte" },                                  \
     {                                                                                                                  \
         "lanes", 0, LOM_OPTION_CHOICE, offsetof(values, scene.lanes), "auto|4|8|16", 0, 0,                             \

@@ -1,5 +1,6 @@
-/* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles (cutting
- * those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins, in order. */
+/* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles
+ * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
+ * in order. */
 #include "pipeline/stages.h"
 
 enum { GROUP = 16 }; /* triangles handed to set-up at a time: a whole number of packets at every width */
@@ -18,16 +19,17 @@ bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size)
     if (*array != NULL)
         memcpy(grown, *array, *capacity * size);
     lom_release(*array);
-    *array    = grown;
+    *array = grown;
     *capacity = larger;
     return true;
 }
 
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
 {
-    size_t       padded = rows + 16; /* the vertex stage writes whole packets */
+    size_t padded = rows + 16; /* the vertex stage writes whole packets */
     const float *before = chunk->rows;
-    if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats, sizeof(float)) ||
+    if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats,
+                     sizeof(float)) ||
         !lom_reserve((void **)&chunk->clip, &chunk->clip_capacity, padded * 4, sizeof(float)) ||
         !lom_reserve((void **)&chunk->codes, &chunk->codes_capacity, padded, sizeof(uint16_t))) {
         chunk->failed = true;
@@ -82,15 +84,16 @@ static size_t strip_start(const lom_draw_desc *desc, size_t t)
     return desc->restart ? t : 0;
 }
 
-/* The vertex numbers of triangle t, or NO_VERTEX in the first where it has none (a restart index, an index out of range). */
+/* The vertex numbers of triangle t, or NO_VERTEX in the first where it has none (a restart index, an index out of
+ * range). */
 static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start, uint32_t number[3])
 {
     const lom_draw_desc *desc = &draw->desc;
-    size_t               place[3];
+    size_t place[3];
     corner_places(desc->topology, desc->topology == LOM_TRIANGLES ? t : t - start, place);
     for (int k = 0; k < 3; k++) {
-        uint32_t index  = index_at(desc, place[k] + (desc->topology == LOM_TRIANGLES ? 0 : start));
-        int64_t  vertex = (int64_t)index + desc->base_vertex;
+        uint32_t index = index_at(desc, place[k] + (desc->topology == LOM_TRIANGLES ? 0 : start));
+        int64_t vertex = (int64_t)index + desc->base_vertex;
         if ((index == UINT32_MAX && desc->restart) || vertex < 0 || vertex >= (int64_t)desc->vertex_count) {
             number[0] = NO_VERTEX;
             return;
@@ -101,8 +104,8 @@ static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start,
 
 static void resolve_all_corners(struct lom_chunk *chunk)
 {
-    const struct lom_draw *draw  = chunk->draw;
-    size_t                 start = strip_start(&draw->desc, chunk->first);
+    const struct lom_draw *draw = chunk->draw;
+    size_t start = strip_start(&draw->desc, chunk->first);
     for (size_t i = 0; i < chunk->count; i++) {
         size_t t = chunk->first + i;
         if (draw->desc.restart && t > 0 && index_at(&draw->desc, t - 1) == UINT32_MAX)
@@ -119,27 +122,27 @@ static bool copy_plain_corners(struct lom_chunk *chunk, uint32_t *low, uint32_t 
         desc->restart)
         return false;
     const uint32_t *from = (const uint32_t *)desc->indices + desc->first + 3 * chunk->first;
-    uint32_t        smallest = UINT32_MAX, largest = 0;
+    uint32_t smallest = UINT32_MAX, largest = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
-        uint32_t index    = from[i];
+        uint32_t index = from[i];
         chunk->corners[i] = index;
-        smallest          = index < smallest ? index : smallest;
-        largest           = index > largest ? index : largest;
+        smallest = index < smallest ? index : smallest;
+        largest = index > largest ? index : largest;
     }
-    *low  = smallest;
+    *low = smallest;
     *high = largest;
     return largest < desc->vertex_count;
 }
 
 static void find_extremes(const struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
 {
-    *low  = UINT32_MAX;
+    *low = UINT32_MAX;
     *high = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
         uint32_t number = chunk->corners[i];
         if (chunk->corners[i - i % 3] == NO_VERTEX)
             continue;
-        *low  = number < *low ? number : *low;
+        *low = number < *low ? number : *low;
         *high = number > *high ? number : *high;
     }
 }
@@ -154,7 +157,7 @@ static bool list_vertices(struct lom_chunk *chunk)
         if (chunk->corners[i - i % 3] == NO_VERTEX)
             continue;
         chunk->vertex_list[chunk->vertex_count] = chunk->corners[i];
-        chunk->corners[i]                       = (uint32_t)chunk->vertex_count++;
+        chunk->corners[i] = (uint32_t)chunk->vertex_count++;
     }
     chunk->vertex_base = 0;
     return true;
@@ -171,21 +174,20 @@ static bool choose_vertices(struct lom_chunk *chunk)
         find_extremes(chunk, &low, &high);
     }
     chunk->vertex_count = low > high ? 0 : (size_t)(high - low) + 1;
-    chunk->vertex_base  = low;
-    chunk->listed       = chunk->vertex_count > 6 * chunk->count;
+    chunk->vertex_base = low;
+    chunk->listed = chunk->vertex_count > 6 * chunk->count;
     return !chunk->listed || list_vertices(chunk);
 }
 
 struct group { /* triangles on their way to set-up */
     uint32_t corner[GROUP][3];
-    int      count;
+    int count;
 };
 
 static void send(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group)
 {
     if (group->count > 0 && !chunk->failed)
-        lom_stages_of(chunk->draw->variant)
-            ->set_up(pass, chunk, (const uint32_t(*)[3])group->corner, group->count);
+        lom_stages_of(chunk->draw->variant)->set_up(pass, chunk, (const uint32_t(*)[3])group->corner, group->count);
     group->count = 0;
 }
 
@@ -202,9 +204,9 @@ static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, st
                         const uint32_t corner[3], unsigned codes)
 {
     uint32_t fan[LOM_MAX_FAN][3];
-    int      pieces = lom_clip_triangle(pass, chunk, corner, codes, fan);
-    size_t   pitch  = (size_t)chunk->draw->row_floats;
-    uint32_t flat   = chunk->draw->desc.shader->flat;
+    int pieces = lom_clip_triangle(pass, chunk, corner, codes, fan);
+    size_t pitch = (size_t)chunk->draw->row_floats;
+    uint32_t flat = chunk->draw->desc.shader->flat;
     for (int i = 0; i < pieces; i++) {
         uint32_t provoking = fan[i][2];
         if (flat != 0 && provoking != corner[2]) {
@@ -230,7 +232,7 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
         const uint32_t *number = chunk->corners + 3 * t;
         if (number[0] == NO_VERTEX)
             continue;
-        uint32_t base      = chunk->vertex_base;
+        uint32_t base = chunk->vertex_base;
         uint32_t corner[3] = { number[0] - base, number[1] - base, number[2] - base };
         unsigned a = chunk->codes[corner[0]], b = chunk->codes[corner[1]], c = chunk->codes[corner[2]];
         unsigned any = a | b | c;
@@ -246,9 +248,9 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
 
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk)
 {
-    chunk->triangle_count    = 0;
+    chunk->triangle_count = 0;
     chunk->triangles_clipped = 0;
-    chunk->failed            = !choose_vertices(chunk) || !lom_reserve_rows(chunk, chunk->vertex_count);
+    chunk->failed = !choose_vertices(chunk) || !lom_reserve_rows(chunk, chunk->vertex_count);
     if (chunk->failed)
         return;
     chunk->row_count = chunk->vertex_count;

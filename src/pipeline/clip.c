@@ -1,24 +1,25 @@
-/* Stage 2 of 7: clip. In: a triangle with a vertex outside the near plane, the far plane, w > 0 or the guard band. Out: the
- * fan of triangles that is left of it, its new vertices appended to the chunk's rows. User clip distances are not cut here:
- * the raster stage tests their sign at each pixel, which splits a triangle between d and -d exactly.
+/* Stage 2 of 7: clip. In: a triangle with a vertex outside the near plane, the far plane, w > 0 or the guard band. Out:
+ * the fan of triangles that is left of it, its new vertices appended to the chunk's rows. User clip distances are not
+ * cut here: the raster stage tests their sign at each pixel, which splits a triangle between d and -d exactly.
  *
  * Invariant: an edge that two triangles share is cut at bitwise the same vertex, because every edge is cut from its
- * lexicographically smaller clip position; t = dA / (dA - dB), in double. Few triangles get here: one at a time, in order. */
+ * lexicographically smaller clip position; t = dA / (dA - dB), in double. Few triangles get here: one at a time, in
+ * order. */
 #include "pipeline/project.h"
 #include "pipeline/stages.h"
 
 enum { PLANES = 7, MAX_POLYGON = 3 + PLANES };
 
 struct plane { /* inside where x X + y Y + z Z + w W + constant >= 0 */
-    double   x, y, z, w, constant;
+    double x, y, z, w, constant;
     unsigned code;
 };
 
 static void list_planes(const struct lom_pass *pass, struct plane planes[PLANES])
 {
-    struct lom_guard guard   = lom_guard_of(pass);
-    bool             centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
-    struct plane     list[PLANES] = {
+    struct lom_guard guard = lom_guard_of(pass);
+    bool centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
+    struct plane list[PLANES] = {
         { 0, 0, 0, 1, -(double)LOM_SMALLEST_W, CODE_W },
         { 0, 0, centred ? 1 : -1, 1, 0, CODE_NEAR },
         { 0, 0, centred ? -1 : 1, centred ? 1 : 0, 0, CODE_FAR },
@@ -48,14 +49,14 @@ static uint32_t cut_edge(const struct plane *plane, struct lom_chunk *chunk, uin
 {
     if (is_smaller(chunk->clip + (size_t)b * 4, chunk->clip + (size_t)a * 4)) {
         uint32_t swap = a;
-        a             = b;
-        b             = swap;
+        a = b;
+        b = swap;
     }
-    size_t       pitch = (size_t)chunk->draw->row_floats;
-    uint32_t     row   = (uint32_t)chunk->row_count++;
+    size_t pitch = (size_t)chunk->draw->row_floats;
+    uint32_t row = (uint32_t)chunk->row_count++;
     const float *p = chunk->clip + (size_t)a * 4, *q = chunk->clip + (size_t)b * 4;
-    double       da = distance_to(plane, p), db = distance_to(plane, q);
-    double       t = da / (da - db);
+    double da = distance_to(plane, p), db = distance_to(plane, q);
+    double t = da / (da - db);
     for (int i = 0; i < 4; i++)
         chunk->clip[(size_t)row * 4 + (size_t)i] = (float)(p[i] + ((double)q[i] - p[i]) * t);
     const float *from = chunk->rows + a * pitch, *to = chunk->rows + b * pitch;
@@ -69,11 +70,11 @@ static uint32_t cut_edge(const struct plane *plane, struct lom_chunk *chunk, uin
 static int cut_polygon(const struct plane *plane, struct lom_chunk *chunk, uint32_t *polygon, int count)
 {
     uint32_t result[MAX_POLYGON];
-    int      length = 0;
+    int length = 0;
     for (int i = 0; i < count; i++) {
         uint32_t a = polygon[i], b = polygon[i + 1 < count ? i + 1 : 0];
-        bool     a_inside = distance_to(plane, chunk->clip + (size_t)a * 4) >= 0;
-        bool     b_inside = distance_to(plane, chunk->clip + (size_t)b * 4) >= 0;
+        bool a_inside = distance_to(plane, chunk->clip + (size_t)a * 4) >= 0;
+        bool b_inside = distance_to(plane, chunk->clip + (size_t)b * 4) >= 0;
         if (a_inside)
             result[length++] = a;
         if (a_inside != b_inside)
@@ -97,14 +98,14 @@ static int32_t snap(float units)
 /* The row's header, by the same steps as the vertex stage; a position on the guard band is held to it. */
 static void project_row(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t number)
 {
-    struct lom_projection f     = lom_projection_of(pass);
-    struct lom_guard      guard = lom_guard_of(pass);
-    float                *row   = chunk->rows + (size_t)number * (size_t)chunk->draw->row_floats;
-    const float          *p     = chunk->clip + (size_t)number * 4;
-    float                 w     = p[3] < LOM_SMALLEST_W ? LOM_SMALLEST_W : p[3];
-    int32_t               x     = snap(clamp_ratio(p[0], w, guard.x) * f.x_scale + f.x_offset);
-    int32_t               y     = snap(clamp_ratio(p[1], w, guard.y) * f.y_scale + f.y_offset);
-    float                 z     = p[2] / w * f.z_scale + f.z_offset;
+    struct lom_projection f = lom_projection_of(pass);
+    struct lom_guard guard = lom_guard_of(pass);
+    float *row = chunk->rows + (size_t)number * (size_t)chunk->draw->row_floats;
+    const float *p = chunk->clip + (size_t)number * 4;
+    float w = p[3] < LOM_SMALLEST_W ? LOM_SMALLEST_W : p[3];
+    int32_t x = snap(clamp_ratio(p[0], w, guard.x) * f.x_scale + f.x_offset);
+    int32_t y = snap(clamp_ratio(p[1], w, guard.y) * f.y_scale + f.y_offset);
+    float z = p[2] / w * f.z_scale + f.z_offset;
     memcpy(row, &x, sizeof x);
     memcpy(row + 1, &y, sizeof y);
     row[2] = z > f.z_low ? z < f.z_high ? z : f.z_high : f.z_low;
@@ -115,8 +116,8 @@ int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, cons
                       uint32_t fan[LOM_MAX_FAN][3])
 {
     struct plane planes[PLANES];
-    uint32_t     polygon[MAX_POLYGON] = { corner[0], corner[1], corner[2] };
-    int          count                = 3;
+    uint32_t polygon[MAX_POLYGON] = { corner[0], corner[1], corner[2] };
+    int count = 3;
     if (!lom_reserve_rows(chunk, chunk->row_count + 2 * PLANES))
         return 0;
     list_planes(pass, planes);

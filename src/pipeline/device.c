@@ -42,13 +42,13 @@ static bool check_desc(const lom_device_desc *desc, lom_error *error)
 
 static void resolve_desc(lom_device *device, const lom_device_desc *desc)
 {
-    device->variant      = choose_variant(desc->lanes, desc->plain);
-    device->desc.lanes   = lanes_of(device->variant);
-    device->desc.plain   = device->variant == 0 || device->variant > 2;
+    device->variant = choose_variant(desc->lanes, desc->plain);
+    device->desc.lanes = lanes_of(device->variant);
+    device->desc.plain = device->variant == 0 || device->variant > 2;
     device->desc.threads = desc->threads != 0 ? desc->threads : lom_default_threads();
-    device->desc.tile    = desc->tile != 0 ? desc->tile : 64;
-    device->desc.chunk   = desc->chunk != 0 ? desc->chunk : 8192;
-    device->desc.batch   = desc->batch != 0 ? desc->batch : 32;
+    device->desc.tile = desc->tile != 0 ? desc->tile : 64;
+    device->desc.chunk = desc->chunk != 0 ? desc->chunk : 8192;
+    device->desc.batch = desc->batch != 0 ? desc->batch : 32;
 }
 
 lom_device *lom_open_device(const lom_device_desc *desc)
@@ -59,9 +59,9 @@ lom_device *lom_open_device(const lom_device_desc *desc)
     if (!check_desc(desc, &device->error))
         return device;
     resolve_desc(device, desc);
-    device->pool         = lom_create_pool(device->desc.threads, &device->error);
+    device->pool = lom_create_pool(device->desc.threads, &device->error);
     device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
-    device->chunks       = lom_allocate((size_t)device->desc.batch, sizeof(struct lom_chunk), &device->error);
+    device->chunks = lom_allocate((size_t)device->desc.batch, sizeof(struct lom_chunk), &device->error);
     return device;
 }
 
@@ -116,7 +116,7 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
     if (device->error.code != LOM_OK)
         return NULL;
     if (!lom_reserve((void **)&device->textures, &device->texture_capacity, device->texture_count + 1,
-                  sizeof *device->textures)) {
+                     sizeof *device->textures)) {
         lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another texture.");
         return NULL;
     }

@@ -5,24 +5,24 @@
 #include "pipeline/stages.h"
 
 struct lom_device {
-    lom_error       error;
+    lom_error error;
     lom_device_desc desc; /* resolved */
-    int             variant;
-    lom_pool       *pool;
-    lom_counters    counters;
-    lom_texture   **textures;
-    size_t          texture_count, texture_capacity;
+    int variant;
+    lom_pool *pool;
+    lom_counters counters;
+    lom_texture **textures;
+    size_t texture_count, texture_capacity;
 
-    bool             in_pass;
-    struct lom_pass  pass;
+    bool in_pass;
+    struct lom_pass pass;
     struct lom_tile *worker_tiles; /* one for each worker */
     struct lom_chunk *chunks;      /* desc.batch of them */
-    uint8_t         *tile_memory, *tile_touched;
-    size_t           tile_memory_capacity, tile_touched_capacity;
+    uint8_t *tile_memory, *tile_touched;
+    size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;
-    size_t           draw_capacity;
-    uint8_t         *uniforms; /* copies, 64 bytes aligned; offsets are kept while it grows */
-    size_t           uniforms_size, uniforms_capacity;
+    size_t draw_capacity;
+    uint8_t *uniforms; /* copies, 64 bytes aligned; offsets are kept while it grows */
+    size_t uniforms_size, uniforms_capacity;
 };
 
 /* Checks a descriptor and records it; false with an error on the device. */

@@ -1,5 +1,5 @@
-/* Recording a draw. In: a descriptor. Out: a checked copy of it and of its uniforms, with the pass's defaults filled in.
- * Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
+/* Recording a draw. In: a descriptor. Out: a checked copy of it and of its uniforms, with the pass's defaults filled
+ * in. Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
 #include "pipeline/device.h"
 
 static size_t attribute_size(lom_attribute_kind kind)
@@ -13,12 +13,14 @@ static size_t count_vertices(const lom_draw_desc *desc)
 {
     size_t count = UINT32_MAX - 1;
     for (int i = 0; i < desc->shader->attributes; i++) {
-        const lom_attribute *a    = &desc->attribute[i];
-        size_t               size = attribute_size(a->kind);
+        const lom_attribute *a = &desc->attribute[i];
+        size_t size = attribute_size(a->kind);
         if (a->kind == LOM_ATTRIBUTE_NONE)
             continue;
-        size_t held = a->data == NULL || a->size < size ? 0 : a->stride == 0 ? SIZE_MAX : (a->size - size) / a->stride + 1;
-        count       = held < count ? held : count;
+        size_t held = a->data == NULL || a->size < size ? 0
+                      : a->stride == 0                  ? SIZE_MAX
+                                                        : (a->size - size) / a->stride + 1;
+        count = held < count ? held : count;
     }
     return count;
 }
@@ -36,8 +38,8 @@ static bool check_shader(lom_device *device, const lom_draw_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s differentiates a varying that it does not read.",
                         s->name);
     if (s->uniforms_size != 0 && desc->uniforms == NULL)
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s takes %zu bytes of uniforms, but the draw has none.",
-                        s->name, s->uniforms_size);
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "Shader %s takes %zu bytes of uniforms, but the draw has none.", s->name, s->uniforms_size);
     return true;
 }
 
@@ -48,8 +50,8 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Indices have 16 or 32 bits, not %d (a draw of %s).",
                         desc->index_bits, name);
     if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_TRIANGLE_FAN)
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of %s has a topology or an instance count that is none.",
-                        name);
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "A draw of %s has a topology or an instance count that is none.", name);
     if (desc->count > UINT32_MAX || desc->first > UINT32_MAX)
         return lom_fail(&device->error, LOM_ERROR_LIMIT, "A draw of %s has more than 2^32 indices.", name);
     for (int i = 0; i < desc->shader->attributes; i++)
@@ -63,7 +65,7 @@ static int choose_shader_variant(const lom_device *device, const lom_shader *sha
 {
     if (shader->vertex[device->variant] != NULL)
         return device->variant;
-    lom_cpu    cpu                = lom_detect_cpu();
+    lom_cpu cpu = lom_detect_cpu();
     const bool runs[LOM_VARIANTS] = { true, cpu.avx2, cpu.avx512, true, true };
     for (int variant = 0; variant < LOM_VARIANTS; variant++)
         if (shader->vertex[variant] != NULL && lom_stages_of(variant) != NULL && runs[variant])
@@ -80,13 +82,13 @@ static size_t count_triangles(const lom_draw_desc *desc)
 
 static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
 {
-    size_t size   = draw->desc.shader->uniforms_size;
+    size_t size = draw->desc.shader->uniforms_size;
     size_t offset = (device->uniforms_size + 63) & ~(size_t)63;
     if (!lom_reserve((void **)&device->uniforms, &device->uniforms_capacity, offset + size, 1))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw's uniforms.");
     if (size != 0)
         memcpy(device->uniforms + offset, draw->desc.uniforms, size);
-    draw->uniforms        = NULL;
+    draw->uniforms = NULL;
     draw->uniforms_offset = offset;
     device->uniforms_size = offset + size;
     return true;
@@ -94,28 +96,28 @@ static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
 
 static void derive(const struct lom_pass *pass, struct lom_draw *draw)
 {
-    lom_draw_desc    *desc   = &draw->desc;
+    lom_draw_desc *desc = &draw->desc;
     const lom_shader *shader = desc->shader;
-    size_t            held   = count_vertices(desc);
-    desc->vertex_count       = desc->vertex_count == 0 || desc->vertex_count > held ? held : desc->vertex_count;
-    desc->index_bits         = desc->index_bits == 0 ? 32 : desc->index_bits;
-    desc->instances          = desc->instances == 0 ? 1 : desc->instances;
-    draw->triangles          = count_triangles(desc);
-    draw->distances          = shader->clip_distances + shader->cull_distances;
-    draw->distance_offset    = ROW_HEADER + ((shader->varyings + 3) & ~3);
-    draw->row_floats         = draw->distance_offset + ((draw->distances + 3) & ~3);
-    bool depth               = pass->depth != NULL && !desc->depth_test_off;
-    draw->compare            = !depth                                           ? LOM_COMPARE_ALWAYS
-                               : desc->depth_compare == LOM_COMPARE_DEFAULT ? LOM_COMPARE_GREATER
-                                                                            : desc->depth_compare;
-    draw->depth_write        = depth && !desc->depth_write_off;
-    draw->late_depth         = shader->discards || shader->writes_depth;
-    draw->blends             = false;
+    size_t held = count_vertices(desc);
+    desc->vertex_count = desc->vertex_count == 0 || desc->vertex_count > held ? held : desc->vertex_count;
+    desc->index_bits = desc->index_bits == 0 ? 32 : desc->index_bits;
+    desc->instances = desc->instances == 0 ? 1 : desc->instances;
+    draw->triangles = count_triangles(desc);
+    draw->distances = shader->clip_distances + shader->cull_distances;
+    draw->distance_offset = ROW_HEADER + ((shader->varyings + 3) & ~3);
+    draw->row_floats = draw->distance_offset + ((draw->distances + 3) & ~3);
+    bool depth = pass->depth != NULL && !desc->depth_test_off;
+    draw->compare = !depth                                       ? LOM_COMPARE_ALWAYS
+                    : desc->depth_compare == LOM_COMPARE_DEFAULT ? LOM_COMPARE_GREATER
+                                                                 : desc->depth_compare;
+    draw->depth_write = depth && !desc->depth_write_off;
+    draw->late_depth = shader->discards || shader->writes_depth;
+    draw->blends = false;
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
-    draw->constant = shader->reads == 0 && !shader->reads_position && !shader->discards && !shader->writes_depth &&
-                     !shader->quads;
-    draw->scissor  = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
+    draw->constant =
+        shader->reads == 0 && !shader->reads_position && !shader->discards && !shader->writes_depth && !shader->quads;
+    draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
 }
 
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
@@ -126,7 +128,7 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
     if (!lom_reserve((void **)&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     struct lom_draw *draw = &device->draws[pass->draw_count];
-    *draw                 = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc->shader) };
+    *draw = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc->shader) };
     if (draw->variant < 0)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
                         desc->shader->name);

@@ -1,6 +1,6 @@
 /* Stage 6 of 7: fragment. In: a packet of fragments from the queue, of one triangle or of several. Out: shaded colours,
- * on to the output stage. Varyings are f0 + b1 (f1 - f0) + b2 (f2 - f0), b perspective-correct by true division, clamped
- * to the hull of the vertex values.
+ * on to the output stage. Varyings are f0 + b1 (f1 - f0) + b2 (f2 - f0), b perspective-correct by true division,
+ * clamped to the hull of the vertex values.
  *
  * Invariant: a lane's values do not depend on which fragments share its packet; a packet of one triangle broadcasts its
  * rows where a mixed one gathers them, with the same arithmetic. */
@@ -8,7 +8,7 @@
 
 struct rows { /* the vertices of the packet's triangles */
     const float *row[3][LOM_LANES];
-    bool         uniform; /* all lanes are of one triangle */
+    bool uniform; /* all lanes are of one triangle */
 };
 
 LOM_INLINE lom_float4 load_rows(const struct rows *rows, int k, size_t offset)
@@ -27,42 +27,42 @@ static struct weights find_weights(const struct lom_queue *q, const struct rows 
 {
     struct weights p;
     for (int k = 0; k < 3; k++) {
-        p.l[k]          = lom_load(q->l[k]);
+        p.l[k] = lom_load(q->l[k]);
         p.one_over_w[k] = load_rows(rows, k, 0).w;
     }
     lom_float p1 = p.l[1] * p.one_over_w[1], p2 = p.l[2] * p.one_over_w[2];
     p.sum = p.l[0] * p.one_over_w[0] + p1 + p2;
     if (quads) { /* helpers lie outside the triangle, where 1/w may pass through 0 */
         lom_float least = lom_min(p.one_over_w[0], lom_min(p.one_over_w[1], p.one_over_w[2]));
-        p.sum           = lom_max(p.sum, least);
+        p.sum = lom_max(p.sum, least);
     }
     p.b1 = p1 / p.sum;
     p.b2 = p2 / p.sum;
     return p;
 }
 
-/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. The slope of an edge function is exact in float:
- * differences of positions are below 2^24 and SUBPIXELS is a power of two. */
+/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. The slope of an edge function is exact in
+ * float: differences of positions are below 2^24 and SUBPIXELS is a power of two. */
 static void find_slopes(const struct lom_queue *q, const struct weights *p, bool uniform, lom_varyings *in)
 {
     const float *record[LOM_LANES];
     for (int i = 0; i < LOM_LANES; i++)
         record[i] = (const float *)(const void *)q->triangle[uniform ? 0 : i];
     lom_float4 low = lom_load_rows(record, 0), high = lom_load_rows(record, 4);
-    lom_int    x0 = lom_as_int(low.x), x1 = lom_as_int(low.y), x2 = lom_as_int(low.z), y0 = lom_as_int(low.w);
-    lom_int    y1 = lom_as_int(high.x), y2 = lom_as_int(high.y), sign = lom_as_int(high.w);
-    lom_float  scale = high.z * lom_to_float(sign) * (float)SUBPIXELS;
-    lom_float  l1x = lom_to_float(y2 - y0) * scale, l1y = lom_to_float(x0 - x2) * scale;
-    lom_float  l2x = lom_to_float(y0 - y1) * scale, l2y = lom_to_float(x1 - x0) * scale;
-    lom_float  a = l1x * p->one_over_w[1], b = l2x * p->one_over_w[2];
-    lom_float  sum_x = a + b - (l1x + l2x) * p->one_over_w[0];
-    in->dx[0]        = (a - p->b1 * sum_x) / p->sum;
-    in->dx[1]        = (b - p->b2 * sum_x) / p->sum;
-    a                = l1y * p->one_over_w[1];
-    b                = l2y * p->one_over_w[2];
-    lom_float sum_y  = a + b - (l1y + l2y) * p->one_over_w[0];
-    in->dy[0]        = (a - p->b1 * sum_y) / p->sum;
-    in->dy[1]        = (b - p->b2 * sum_y) / p->sum;
+    lom_int x0 = lom_as_int(low.x), x1 = lom_as_int(low.y), x2 = lom_as_int(low.z), y0 = lom_as_int(low.w);
+    lom_int y1 = lom_as_int(high.x), y2 = lom_as_int(high.y), sign = lom_as_int(high.w);
+    lom_float scale = high.z * lom_to_float(sign) * (float)SUBPIXELS;
+    lom_float l1x = lom_to_float(y2 - y0) * scale, l1y = lom_to_float(x0 - x2) * scale;
+    lom_float l2x = lom_to_float(y0 - y1) * scale, l2y = lom_to_float(x1 - x0) * scale;
+    lom_float a = l1x * p->one_over_w[1], b = l2x * p->one_over_w[2];
+    lom_float sum_x = a + b - (l1x + l2x) * p->one_over_w[0];
+    in->dx[0] = (a - p->b1 * sum_x) / p->sum;
+    in->dx[1] = (b - p->b2 * sum_x) / p->sum;
+    a = l1y * p->one_over_w[1];
+    b = l2y * p->one_over_w[2];
+    lom_float sum_y = a + b - (l1y + l2y) * p->one_over_w[0];
+    in->dy[0] = (a - p->b1 * sum_y) / p->sum;
+    in->dy[1] = (b - p->b2 * sum_y) / p->sum;
 }
 
 LOM_INLINE void interpolate(lom_float f0, lom_float f1, lom_float f2, const struct weights *p, int v, bool slope,
@@ -83,7 +83,7 @@ static void interpolate_varyings(const lom_shader *shader, const struct rows *ro
     for (int v = 0; v < shader->varyings; v += 4) {
         if ((shader->reads >> v & 15) == 0)
             continue;
-        size_t     offset = ROW_HEADER + (size_t)v;
+        size_t offset = ROW_HEADER + (size_t)v;
         lom_float4 f0 = load_rows(rows, 0, offset), f1 = load_rows(rows, 1, offset), f2 = load_rows(rows, 2, offset);
         interpolate(f0.x, f1.x, f2.x, p, v, shader->differentiates >> v & 1, in);
         interpolate(f0.y, f1.y, f2.y, p, v + 1, shader->differentiates >> v & 2, in);
@@ -99,7 +99,7 @@ static void copy_flat_varyings(const lom_shader *shader, const struct lom_queue 
             continue;
         for (int i = 0; i < LOM_LANES; i++) {
             const lom_triangle *t = q->triangle[i];
-            in->varying[v][i]     = t->row[t->provoking][ROW_HEADER + v];
+            in->varying[v][i] = t->row[t->provoking][ROW_HEADER + v];
         }
         in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
     }
@@ -108,11 +108,11 @@ static void copy_flat_varyings(const lom_shader *shader, const struct lom_queue 
 /* The window position from the place in tile memory: blocks of 2x2, edge / 2 of them a row. */
 static void find_position(const struct lom_tile *tile, const struct weights *p, lom_varyings *in)
 {
-    const struct lom_queue *q     = &tile->queue;
-    lom_int                 place = lom_load_int(q->pixel);
-    int                     shift = __builtin_ctz((unsigned)tile->edge) - 1;
-    lom_int                 block = place >> 2;
-    lom_int                 bx = block & (tile->edge / 2 - 1), by = block >> shift;
+    const struct lom_queue *q = &tile->queue;
+    lom_int place = lom_load_int(q->pixel);
+    int shift = __builtin_ctz((unsigned)tile->edge) - 1;
+    lom_int block = place >> 2;
+    lom_int bx = block & (tile->edge / 2 - 1), by = block >> shift;
     in->x = lom_to_float(bx * 2 + (place & 1) + tile->x) + 0.5f;
     in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
     in->z = lom_load(q->depth);
@@ -127,9 +127,9 @@ static void pad_packet(struct lom_queue *q, int count)
     for (int i = count; i < LOM_LANES; i++) {
         for (int k = 0; k < 3; k++)
             q->l[k][i] = q->l[k][0];
-        q->depth[i]    = q->depth[0];
-        q->pixel[i]    = q->pixel[0];
-        q->covered[i]  = 0;
+        q->depth[i] = q->depth[0];
+        q->pixel[i] = q->pixel[0];
+        q->covered[i] = 0;
         q->triangle[i] = q->triangle[0];
     }
 }
@@ -165,24 +165,24 @@ static lom_mask first_at_pixels(struct lom_tile *tile, const int32_t *pixel, lom
 static lom_mask late_depth(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, lom_float depth)
 {
     const struct lom_draw *draw = tile->draw;
-    int32_t               *memory = (int32_t *)tile->depth;
-    lom_float              number = lom_select(depth == depth, depth, (lom_float){ 0 });
-    lom_float              units  = lom_depth_units(tile->pass, lom_saturate(number));
-    lom_float              stored = lom_as_float(lom_load_places(memory, tile, places));
+    int32_t *memory = (int32_t *)tile->depth;
+    lom_float number = lom_select(depth == depth, depth, (lom_float){ 0 });
+    lom_float units = lom_depth_units(tile->pass, lom_saturate(number));
+    lom_float stored = lom_as_float(lom_load_places(memory, tile, places));
     mask &= lom_compare_depth(draw->compare, units, stored);
     if (draw->depth_write)
         lom_store_places(memory, tile, places, mask, lom_as_int(units));
     return mask;
 }
 
-/* Fragments of one packet may lie at one pixel; they land in lane order, which is submission order. What reads the target
- * (blending, late depth) goes in rounds of different pixels. */
+/* Fragments of one packet may lie at one pixel; they land in lane order, which is submission order. What reads the
+ * target (blending, late depth) goes in rounds of different pixels. */
 static void write_in_order(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, bool uniform,
                            const lom_fragment *out)
 {
-    const struct lom_draw *draw  = tile->draw;
-    bool                   late  = draw->late_depth && tile->depth != NULL;
-    bool                   rounds = (late || draw->blends) && !uniform;
+    const struct lom_draw *draw = tile->draw;
+    bool late = draw->late_depth && tile->depth != NULL;
+    bool rounds = (late || draw->blends) && !uniform;
     while (lom_any(mask)) {
         lom_mask round = rounds ? first_at_pixels(tile, places->pixel, mask) : mask;
         mask &= ~round;
@@ -194,20 +194,20 @@ static void write_in_order(struct lom_tile *tile, const struct lom_places *place
 
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count)
 {
-    struct lom_queue      *q      = &tile->queue;
-    const struct lom_draw *draw   = tile->draw;
-    const lom_shader      *shader = draw->desc.shader;
-    lom_varyings           in;
-    lom_fragment           out;
-    struct rows            rows;
-    struct lom_places      places = { .block = q->block };
+    struct lom_queue *q = &tile->queue;
+    const struct lom_draw *draw = tile->draw;
+    const lom_shader *shader = draw->desc.shader;
+    lom_varyings in;
+    lom_fragment out;
+    struct rows rows;
+    struct lom_places places = { .block = q->block };
     pad_packet(q, count);
     rows.uniform = q->triangle[0] == q->triangle[count - 1];
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < LOM_LANES; i++)
             rows.row[k][i] = q->triangle[i]->row[k];
     struct weights p = find_weights(q, &rows, shader->quads);
-    in.covered       = lom_load_int(q->covered);
+    in.covered = lom_load_int(q->covered);
     interpolate_varyings(shader, &rows, &p, &in);
     if (shader->differentiates != 0)
         find_slopes(q, &p, rows.uniform, &in);
@@ -215,7 +215,7 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count)
         copy_flat_varyings(shader, q, &in);
     if (shader->reads_position)
         find_position(tile, &p, &in);
-    out.depth   = lom_load(q->depth);
+    out.depth = lom_load(q->depth);
     out.discard = (lom_mask){ 0 };
     shader->fragment[draw->variant](&out, &in, draw->uniforms);
     tile->packets++;
@@ -228,8 +228,8 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count)
 void LOM_WIDE(lom_find_constant)(struct lom_tile *tile)
 {
     const struct lom_draw *draw = tile->draw;
-    lom_varyings           in;
-    lom_fragment           out;
+    lom_varyings in;
+    lom_fragment out;
     memset(&in, 0, sizeof in);
     memset(&out, 0, sizeof out);
     draw->desc.shader->fragment[draw->variant](&out, &in, draw->uniforms);

@@ -1,9 +1,10 @@
 /* Stage 7 of 7: output. In: shaded colours and where they go. Out: tile memory, blended, masked, in the attachments'
- * formats. 8-bit unorm blends in exact integers: v = S F + D G, rounded once by t = v + 128, (t + (t >> 8)) >> 8, which is
- * round(v / 255) for every v up to 255^2; sRGB and float attachments blend in float. */
+ * formats. 8-bit unorm blends in exact integers: v = S F + D G, rounded once by t = v + 128, (t + (t >> 8)) >> 8, which
+ * is round(v / 255) for every v up to 255^2; sRGB and float attachments blend in float. */
 #include "pipeline/packet.h"
 
-/* Values of a blend factor in units where one is `one`. S and D: source and target, channel c; A of each their alphas. */
+/* Values of a blend factor in units where one is `one`. S and D: source and target, channel c; A of each their alphas.
+ */
 #define LOM_BLEND_FACTOR(type)                                                                                         \
     LOM_INLINE type factor_##type(lom_factor factor, const type *source, const type *target, int c, type one)          \
     {                                                                                                                  \
@@ -34,7 +35,7 @@ LOM_BLEND_FACTOR(lom_int)
 LOM_BLEND_FACTOR(lom_float)
 
 struct equation {
-    lom_factor          source, target;
+    lom_factor source, target;
     lom_blend_operation operation;
 };
 
@@ -55,7 +56,7 @@ static lom_int blend_bytes(struct equation e, const lom_int *source, const lom_i
     lom_int s = source[c] * factor_lom_int(e.source, source, target, c, one);
     lom_int d = target[c] * factor_lom_int(e.target, source, target, c, one);
     lom_int v = e.operation == LOM_BLEND_ADD ? s + d : e.operation == LOM_BLEND_SUBTRACT ? s - d : d - s;
-    v         = lom_max_int(lom_min_int(v, lom_splat_int(255 * 255)), (lom_int){ 0 }) + 128;
+    v = lom_max_int(lom_min_int(v, lom_splat_int(255 * 255)), (lom_int){ 0 }) + 128;
     return (v + (v >> 8)) >> 8;
 }
 
@@ -95,9 +96,9 @@ static int32_t kept_bits(uint8_t mask_off)
 static void write_unorm8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float *color,
                          int i)
 {
-    const lom_draw_desc *desc   = &tile->draw->desc;
-    int32_t             *memory = tile->color[i];
-    lom_int              source[4], target[4], result[4];
+    const lom_draw_desc *desc = &tile->draw->desc;
+    int32_t *memory = tile->color[i];
+    lom_int source[4], target[4], result[4];
     for (int c = 0; c < 4; c++)
         source[c] = lom_unorm_of_lanes(color[c], 255.0f);
     int32_t kept = kept_bits(desc->mask_off[i]);
@@ -108,20 +109,21 @@ static void write_unorm8(struct lom_tile *tile, const struct lom_places *places,
     lom_int old = lom_load_places(memory, tile, places);
     unpack(old, target);
     for (int c = 0; c < 4; c++)
-        result[c] = desc->blend[i].enabled ? blend_bytes(equation_of(&desc->blend[i], c), source, target, c) : source[c];
+        result[c] =
+            desc->blend[i].enabled ? blend_bytes(equation_of(&desc->blend[i], c), source, target, c) : source[c];
     lom_store_places(memory, tile, places, mask, (pack(result) & ~kept) | (old & kept));
 }
 
 static void write_srgb8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float *color,
                         int i)
 {
-    const lom_draw_desc *desc   = &tile->draw->desc;
-    int32_t             *memory = tile->color[i];
-    lom_int              code[4];
-    lom_float            source[4], target[4], result[4];
-    lom_int              old = { 0 };
-    int32_t              kept = kept_bits(desc->mask_off[i]);
-    bool                 blends = desc->blend[i].enabled;
+    const lom_draw_desc *desc = &tile->draw->desc;
+    int32_t *memory = tile->color[i];
+    lom_int code[4];
+    lom_float source[4], target[4], result[4];
+    lom_int old = { 0 };
+    int32_t kept = kept_bits(desc->mask_off[i]);
+    bool blends = desc->blend[i].enabled;
     for (int c = 0; c < 4; c++)
         result[c] = source[c] = lom_saturate(color[c]);
     if (blends || kept != 0)
@@ -155,12 +157,12 @@ static lom_float round_to_format(lom_format format, lom_float x)
 static void write_float(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float *color,
                         int i)
 {
-    const lom_draw_desc *desc   = &tile->draw->desc;
-    size_t               plane  = (size_t)tile->edge * (size_t)tile->edge;
-    float               *memory = tile->color[i];
-    lom_format           format = tile->pass->color[i].format;
-    lom_float            target[4];
-    bool                 blends = desc->blend[i].enabled;
+    const lom_draw_desc *desc = &tile->draw->desc;
+    size_t plane = (size_t)tile->edge * (size_t)tile->edge;
+    float *memory = tile->color[i];
+    lom_format format = tile->pass->color[i].format;
+    lom_float target[4];
+    bool blends = desc->blend[i].enabled;
     for (size_t c = 0; c < 4 && blends; c++)
         target[c] = lom_as_float(lom_load_places((const int32_t *)memory + c * plane, tile, places));
     for (int c = 0; c < 4; c++) {

@@ -8,10 +8,11 @@
 /* Where the fragments of a packet lie in tile memory. */
 struct lom_places {
     int32_t pixel[LOM_LANES];
-    bool    block; /* LOM_LANES pixels of a 4x4 window in memory order, from pixel[0] */
+    bool block; /* LOM_LANES pixels of a 4x4 window in memory order, from pixel[0] */
 };
 
-/* The fragment stage: shades the first LOM_LANES entries of the queue, of which `count` are fragments, and writes them. */
+/* The fragment stage: shades the first LOM_LANES entries of the queue, of which `count` are fragments, and writes them.
+ */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count);
 /* The constant colour of a draw whose fragment shader reads nothing, into tile->constant. */
 void LOM_WIDE(lom_find_constant)(struct lom_tile *tile);
@@ -64,7 +65,7 @@ LOM_INLINE void lom_store_places(int32_t *memory, const struct lom_tile *tile, c
     int32_t values[LOM_LANES];
     lom_store_int(values, x);
     for (uint32_t bits = lom_bits(mask); bits != 0; bits &= bits - 1) {
-        int i                     = __builtin_ctz(bits);
+        int i = __builtin_ctz(bits);
         memory[places->pixel[i]] = values[i];
     }
 }

@@ -1,5 +1,6 @@
-/* A pass from begin to end. In: attachments and draws. Out: the attachments' texels. Draws are cut into chunks, chunks run
- * in batches: every chunk to its bins, then every tile through the batch's bins; at the end every tile is resolved. */
+/* A pass from begin to end. In: attachments and draws. Out: the attachments' texels. Draws are cut into chunks, chunks
+ * run in batches: every chunk to its bins, then every tile through the batch's bins; at the end every tile is resolved.
+ */
 #include "image/convert.h"
 #include "pipeline/device.h"
 
@@ -24,7 +25,7 @@ static bool check_attachment(lom_device *device, const lom_texture *texture, boo
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's %s attachment is not a 2D texture of a %s format.",
                         depth ? "depth" : "colour", depth ? "depth" : "colour");
     if (pass->width == 0) {
-        pass->width  = texture->level[0].width;
+        pass->width = texture->level[0].width;
         pass->height = texture->level[0].height;
     }
     if (pass->width != texture->level[0].width || pass->height != texture->level[0].height)
@@ -36,9 +37,9 @@ static bool check_attachment(lom_device *device, const lom_texture *texture, boo
 /* A clear value as the format holds it: finite, and rounded to 16 bits where it has those. */
 static float round_to_format(lom_format format, float x)
 {
-    const lom_format_info *info  = lom_describe_format(format);
-    float                  bound = 0x1p123f;
-    float                  value = x == x ? x : 0;
+    const lom_format_info *info = lom_describe_format(format);
+    float bound = 0x1p123f;
+    float value = x == x ? x : 0;
     if (info->bits == 16)
         value = info->is_float ? lom_float_of_half(lom_half_of(value)) : (float)(lom_unorm_of(value, 65535) / 65535.0);
     return value > bound ? bound : value < -bound ? -bound : value;
@@ -48,7 +49,7 @@ static uint32_t pack_clear(const struct lom_color_target *target)
 {
     uint32_t packed = 0;
     for (int c = 0; c < 4; c++) {
-        bool     srgb = target->kind == COLOR_SRGB8 && c < 3;
+        bool srgb = target->kind == COLOR_SRGB8 && c < 3;
         uint32_t code = srgb ? lom_srgb8_of(target->clear[c]) : lom_unorm_of(target->clear[c], 255);
         packed |= code << 8 * c;
     }
@@ -57,43 +58,44 @@ static uint32_t pack_clear(const struct lom_color_target *target)
 
 static bool add_color(lom_device *device, int i)
 {
-    struct lom_pass         *pass    = &device->pass;
-    lom_texture             *texture = pass->desc.color[i];
-    struct lom_color_target *target  = &pass->color[i];
+    struct lom_pass *pass = &device->pass;
+    lom_texture *texture = pass->desc.color[i];
+    struct lom_color_target *target = &pass->color[i];
     if (!check_attachment(device, texture, false))
         return false;
     *target = (struct lom_color_target){ .texture = texture,
-                                         .format  = texture->format,
-                                         .keep    = pass->desc.color_load[i] == LOM_LOAD_KEEP };
+                                         .format = texture->format,
+                                         .keep = pass->desc.color_load[i] == LOM_LOAD_KEEP };
     target->kind = texture->storage != LOM_STORAGE_RGBA8 ? COLOR_FLOAT : texture->srgb ? COLOR_SRGB8 : COLOR_UNORM8;
     for (int c = 0; c < 4; c++)
         target->clear[c] = round_to_format(texture->format, pass->desc.clear_color[i][c]);
     target->clear_bytes = target->kind == COLOR_FLOAT ? 0 : pack_clear(target);
-    pass->colors        = i + 1;
+    pass->colors = i + 1;
     return true;
 }
 
 static void add_depth(struct lom_pass *pass)
 {
     static const double scales[] = { [LOM_FORMAT_DEPTH16] = 65535, [LOM_FORMAT_DEPTH24] = 16777215 };
-    pass->depth                  = pass->desc.depth;
-    lom_format format            = pass->depth->format;
-    pass->depth_scale            = format == LOM_FORMAT_DEPTH32F ? 0 : scales[format];
-    float clear                  = pass->desc.clear_depth > 0 ? pass->desc.clear_depth < 1 ? pass->desc.clear_depth : 1 : 0;
+    pass->depth = pass->desc.depth;
+    lom_format format = pass->depth->format;
+    pass->depth_scale = format == LOM_FORMAT_DEPTH32F ? 0 : scales[format];
+    float clear = pass->desc.clear_depth > 0 ? pass->desc.clear_depth < 1 ? pass->desc.clear_depth : 1 : 0;
     pass->clear_depth = pass->depth_scale == 0 ? clear : (float)lom_unorm_of(clear, (uint32_t)pass->depth_scale);
 }
 
 static bool resolve_rects(lom_device *device)
 {
-    struct lom_pass *pass  = &device->pass;
-    pass->frame_width      = pass->desc.frame_width != 0 ? pass->desc.frame_width : pass->width;
-    pass->frame_height     = pass->desc.frame_height != 0 ? pass->desc.frame_height : pass->height;
-    lom_rect frame         = { 0, 0, pass->frame_width, pass->frame_height };
-    lom_rect here          = { pass->desc.origin_x, pass->desc.origin_y, pass->width, pass->height };
-    pass->viewport         = or_whole(pass->desc.viewport, frame);
+    struct lom_pass *pass = &device->pass;
+    pass->frame_width = pass->desc.frame_width != 0 ? pass->desc.frame_width : pass->width;
+    pass->frame_height = pass->desc.frame_height != 0 ? pass->desc.frame_height : pass->height;
+    lom_rect frame = { 0, 0, pass->frame_width, pass->frame_height };
+    lom_rect here = { pass->desc.origin_x, pass->desc.origin_y, pass->width, pass->height };
+    pass->viewport = or_whole(pass->desc.viewport, frame);
     if (pass->desc.origin_x < 0 || pass->desc.origin_y < 0 || pass->frame_width < 1 || pass->frame_height < 1 ||
         pass->frame_width > LOM_MAX_SIZE || pass->frame_height > LOM_MAX_SIZE ||
-        pass->desc.origin_x > pass->frame_width - pass->width || pass->desc.origin_y > pass->frame_height - pass->height)
+        pass->desc.origin_x > pass->frame_width - pass->width ||
+        pass->desc.origin_y > pass->frame_height - pass->height)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "A pass's attachments (%dx%d at %d,%d) do not lie inside its frame of %dx%d.", pass->width,
                         pass->height, pass->desc.origin_x, pass->desc.origin_y, pass->frame_width, pass->frame_height);
@@ -111,11 +113,11 @@ static bool resolve_rects(lom_device *device)
 static bool lay_tiles(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
-    int              edge = pass->tile = device->desc.tile;
-    pass->tile_x0    = pass->desc.origin_x / edge * edge;
-    pass->tile_y0    = pass->desc.origin_y / edge * edge;
-    pass->tiles_x    = (pass->desc.origin_x + pass->width - pass->tile_x0 + edge - 1) / edge;
-    pass->tiles_y    = (pass->desc.origin_y + pass->height - pass->tile_y0 + edge - 1) / edge;
+    int edge = pass->tile = device->desc.tile;
+    pass->tile_x0 = pass->desc.origin_x / edge * edge;
+    pass->tile_y0 = pass->desc.origin_y / edge * edge;
+    pass->tiles_x = (pass->desc.origin_x + pass->width - pass->tile_x0 + edge - 1) / edge;
+    pass->tiles_y = (pass->desc.origin_y + pass->height - pass->tile_y0 + edge - 1) / edge;
     pass->tile_bytes = pass->depth != NULL ? 4 : 0;
     for (int i = 0; i < pass->colors; i++)
         pass->tile_bytes += pass->color[i].kind == COLOR_FLOAT ? 16 : 4;
@@ -125,7 +127,7 @@ static bool lay_tiles(lom_device *device)
         !lom_reserve((void **)&device->tile_touched, &device->tile_touched_capacity, tiles, 1))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
                         pass->width, pass->height);
-    pass->tile_memory  = device->tile_memory;
+    pass->tile_memory = device->tile_memory;
     pass->tile_touched = device->tile_touched;
     memset(pass->tile_touched, 0, tiles);
     return true;
@@ -134,7 +136,7 @@ static bool lay_tiles(lom_device *device)
 static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
-    *pass                 = (struct lom_pass){ .device = device, .desc = *desc };
+    *pass = (struct lom_pass){ .device = device, .desc = *desc };
     if (desc->samples < 0 || desc->samples > 1)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has 1 sample a pixel, not %d.", desc->samples);
     for (int i = 0; i < LOM_MAX_COLORS && desc->color[i] != NULL; i++)
@@ -149,7 +151,8 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has no attachment.");
     if (desc->min_depth == 0 && desc->max_depth == 0)
         pass->desc.max_depth = 1;
-    if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 && pass->desc.max_depth <= 1))
+    if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 &&
+          pass->desc.max_depth <= 1))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A depth range lies within 0 to 1.");
     return resolve_rects(device) && lay_tiles(device);
 }
@@ -163,7 +166,7 @@ void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
         return;
     }
     device->uniforms_size = 0;
-    device->in_pass       = prepare_pass(device, desc);
+    device->in_pass = prepare_pass(device, desc);
     device->counters.passes += device->in_pass;
 }
 

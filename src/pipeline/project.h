@@ -1,5 +1,5 @@
-/* From clip space to snapped window positions: the numbers that the vertex stage (in lanes) and the clip stage (one vertex
- * at a time) share. */
+/* From clip space to snapped window positions: the numbers that the vertex stage (in lanes) and the clip stage (one
+ * vertex at a time) share. */
 #ifndef LOM_PIPELINE_PROJECT_H
 #define LOM_PIPELINE_PROJECT_H
 
@@ -19,7 +19,8 @@ static inline struct lom_guard lom_guard_of(const struct lom_pass *pass)
                                2.0f * GUARD_PIXELS / (float)pass->viewport.height };
 }
 
-/* units = clip / w * scale + offset, relative to the viewport's origin; y points down. Depth into min_depth..max_depth. */
+/* units = clip / w * scale + offset, relative to the viewport's origin; y points down. Depth into min_depth..max_depth.
+ */
 struct lom_projection {
     float x_scale, x_offset, y_scale, y_offset, z_scale, z_offset, z_low, z_high;
 };
@@ -27,17 +28,17 @@ struct lom_projection {
 static inline struct lom_projection lom_projection_of(const struct lom_pass *pass)
 {
     float low = pass->desc.min_depth, high = pass->desc.max_depth;
-    bool  centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
-    float half_w  = (float)pass->viewport.width * (SUBPIXELS / 2);
-    float half_h  = (float)pass->viewport.height * (SUBPIXELS / 2);
-    return (struct lom_projection){ .x_scale  = half_w,
+    bool centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
+    float half_w = (float)pass->viewport.width * (SUBPIXELS / 2);
+    float half_h = (float)pass->viewport.height * (SUBPIXELS / 2);
+    return (struct lom_projection){ .x_scale = half_w,
                                     .x_offset = half_w,
-                                    .y_scale  = -half_h,
+                                    .y_scale = -half_h,
                                     .y_offset = half_h,
-                                    .z_scale  = centred ? (high - low) * 0.5f : high - low,
+                                    .z_scale = centred ? (high - low) * 0.5f : high - low,
                                     .z_offset = centred ? (high + low) * 0.5f : low,
-                                    .z_low    = low < high ? low : high,
-                                    .z_high   = low < high ? high : low };
+                                    .z_low = low < high ? low : high,
+                                    .z_high = low < high ? high : low };
 }
 
 #endif

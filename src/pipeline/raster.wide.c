@@ -1,5 +1,5 @@
-/* Stage 5 of 7: raster. In: the triangles of a tile, in order. Out: covered fragments that pass the early depth test, in
- * the queue. Works on 4x4 windows: 16 pixels in the order of tile memory (blocks of 2x2), LOM_LANES at a time.
+/* Stage 5 of 7: raster. In: the triangles of a tile, in order. Out: covered fragments that pass the early depth test,
+ * in the queue. Works on 4x4 windows: 16 pixels in the order of tile memory (blocks of 2x2), LOM_LANES at a time.
  *
  * Invariant: the weights l of a pixel are fl(fl(E) * fl(1 / area)) of the exact integers E and area, whatever path the
  * triangle took: int32 where that is exact, else double, which holds every edge function exactly. */
@@ -7,24 +7,25 @@
 
 enum { PARTS = 16 / LOM_LANES };
 
-/* Edge functions of the ordered triangle over one tile: value at the tile's first pixel, steps a pixel right and down. */
+/* Edge functions of the ordered triangle over one tile: value at the tile's first pixel, steps a pixel right and down.
+ */
 struct edges {
     int64_t start[3], dx[3], dy[3], area;
-    int     bias[3]; /* -1 where the edge's own points are outside (top-left rule) */
+    int bias[3]; /* -1 where the edge's own points are outside (top-left rule) */
 };
 
 static struct edges find_edges(const struct lom_tile *tile, const lom_triangle *t)
 {
     struct edges e;
-    int64_t      px = ((int64_t)(tile->x - tile->pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    int64_t      py = ((int64_t)(tile->y - tile->pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    int64_t px = ((int64_t)(tile->x - tile->pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    int64_t py = ((int64_t)(tile->y - tile->pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
     for (int i = 0; i < 3; i++) {
-        int     a = i == 2 ? 0 : i + 1, b = i == 0 ? 2 : i - 1;
+        int a = i == 2 ? 0 : i + 1, b = i == 0 ? 2 : i - 1;
         int64_t ex = (int64_t)(t->x[b] - t->x[a]) * t->sign, ey = (int64_t)(t->y[b] - t->y[a]) * t->sign;
         e.start[i] = ex * (py - t->y[a]) - ey * (px - t->x[a]);
-        e.dx[i]    = -ey * SUBPIXELS;
-        e.dy[i]    = ex * SUBPIXELS;
-        e.bias[i]  = ey < 0 || (ey == 0 && ex > 0) ? 0 : -1;
+        e.dx[i] = -ey * SUBPIXELS;
+        e.dy[i] = ex * SUBPIXELS;
+        e.bias[i] = ey < 0 || (ey == 0 && ex > 0) ? 0 : -1;
     }
     e.area = e.start[0] + e.start[1] + e.start[2];
     return e;
@@ -60,10 +61,10 @@ static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *
         float d[3];
         for (int k = 0; k < 3; k++) {
             float product = t->row[k][tile->draw->distance_offset + i] * t->row[k][3];
-            d[k]          = product > 1e30f ? 1e30f : product < -1e30f ? -1e30f : product;
+            d[k] = product > 1e30f ? 1e30f : product < -1e30f ? -1e30f : product;
         }
         lom_float sum = l[0] * d[0] + l[1] * d[1] + l[2] * d[2];
-        double    gx = 0, gy = 0;
+        double gx = 0, gy = 0;
         for (int k = 0; k < 3; k++) {
             int a = k == 2 ? 0 : k + 1, b = k == 0 ? 2 : k - 1;
             gx -= (double)(t->y[b] - t->y[a]) * t->sign * d[k];
@@ -77,20 +78,20 @@ static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *
 
 LOM_INLINE lom_float interpolate_depth(const lom_triangle *t, const lom_float l[3])
 {
-    float     z1 = t->depth[0] + t->depth[1], z2 = t->depth[0] + t->depth[2];
-    float     low = t->depth[0] < z1 ? t->depth[0] : z1, high = t->depth[0] < z1 ? z1 : t->depth[0];
+    float z1 = t->depth[0] + t->depth[1], z2 = t->depth[0] + t->depth[2];
+    float low = t->depth[0] < z1 ? t->depth[0] : z1, high = t->depth[0] < z1 ? z1 : t->depth[0];
     lom_float z = t->depth[0] + l[1] * t->depth[1] + l[2] * t->depth[2];
     return lom_clamp(z, lom_splat(low < z2 ? low : z2), lom_splat(high < z2 ? z2 : high));
 }
 
 /* Adds the lanes of covered to the queue; shades a packet when it is full. */
-static void enqueue(struct lom_tile *tile, const lom_triangle *t, const int32_t *pixel, lom_mask taken, lom_mask covered,
-                    const lom_float l[3], lom_float z)
+static void enqueue(struct lom_tile *tile, const lom_triangle *t, const int32_t *pixel, lom_mask taken,
+                    lom_mask covered, const lom_float l[3], lom_float z)
 {
-    struct lom_queue *q     = &tile->queue;
-    int               first = q->count;
-    lom_int           place = lom_load_int(pixel);
-    bool              whole = first == 0 && lom_all(taken);
+    struct lom_queue *q = &tile->queue;
+    int first = q->count;
+    lom_int place = lom_load_int(pixel);
+    bool whole = first == 0 && lom_all(taken);
     for (int i = 0; i < 3; i++)
         lom_compress(q->l[i] + first, taken, l[i]);
     lom_compress(q->depth + first, taken, z);
@@ -110,7 +111,7 @@ static void enqueue(struct lom_tile *tile, const lom_triangle *t, const int32_t 
 static void write_constant(struct lom_tile *tile, const int32_t *pixel, lom_mask covered)
 {
     struct lom_places places = { .block = true };
-    lom_float4        color[LOM_MAX_COLORS];
+    lom_float4 color[LOM_MAX_COLORS];
     if (tile->constant_draw != tile->draw)
         LOM_WIDE(lom_find_constant)(tile);
     memcpy(places.pixel, pixel, sizeof places.pixel);
@@ -121,20 +122,21 @@ static void write_constant(struct lom_tile *tile, const int32_t *pixel, lom_mask
 }
 
 /* One part of a window: clip distances, early depth, and on to the queue. */
-static void emit(struct lom_tile *tile, const lom_triangle *t, int base, int part, lom_mask covered, const lom_float l[3])
+static void emit(struct lom_tile *tile, const lom_triangle *t, int base, int part, lom_mask covered,
+                 const lom_float l[3])
 {
     const struct lom_draw *draw = tile->draw;
-    lom_float              z    = { 0 };
-    int32_t                pixel[LOM_LANES];
+    lom_float z = { 0 };
+    int32_t pixel[LOM_LANES];
     if (t->clip != 0)
         covered &= test_distances(tile, t, l);
     lom_store_int(pixel, lom_load_int(tile->offset + part * LOM_LANES) + base);
     if (tile->depth != NULL || draw->desc.shader->reads_position)
         z = interpolate_depth(t, l);
     if (tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write)) {
-        int32_t  *memory = (int32_t *)tile->depth + pixel[0];
+        int32_t *memory = (int32_t *)tile->depth + pixel[0];
         lom_float stored = lom_as_float(lom_load_block(memory, tile));
-        lom_float units  = lom_depth_units(tile->pass, z);
+        lom_float units = lom_depth_units(tile->pass, z);
         covered &= lom_compare_depth(draw->compare, units, stored);
         if (draw->depth_write && lom_any(covered))
             lom_store_block(memory, tile, lom_as_int(lom_select(covered, units, stored)));
@@ -151,7 +153,7 @@ static void emit(struct lom_tile *tile, const lom_triangle *t, int base, int par
     }
     lom_mask taken = covered;
     if (draw->desc.shader->quads) {
-        bits  = (bits | bits >> 1 | bits >> 2 | bits >> 3) & 0x1111;
+        bits = (bits | bits >> 1 | bits >> 2 | bits >> 3) & 0x1111;
         taken = lom_mask_of_bits(bits * 15);
     }
     enqueue(tile, t, pixel, taken, covered, l, z);
@@ -176,14 +178,14 @@ LOM_INLINE lom_int edge_lanes(const struct edges *e, int i, int x, int y, int pa
 static void raster_window(struct lom_tile *tile, const lom_triangle *t)
 {
     struct edges e = find_edges(tile, t);
-    int          x = (t->left & ~1) - tile->x, y = (t->top & ~1) - tile->y;
-    int          base = memory_index(tile, x, y);
+    int x = (t->left & ~1) - tile->x, y = (t->top & ~1) - tile->y;
+    int base = memory_index(tile, x, y);
     for (int part = 0; part < PARTS; part++) {
         uint32_t bits = (uint32_t)t->mask >> (part * LOM_LANES) & (uint32_t)((UINT64_C(1) << LOM_LANES) - 1);
         if (bits == 0)
             continue;
-        lom_int   e1 = edge_lanes(&e, 1, x, y, part), e2 = edge_lanes(&e, 2, x, y, part);
-        lom_int   e0   = (int32_t)e.area - e1 - e2;
+        lom_int e1 = edge_lanes(&e, 1, x, y, part), e2 = edge_lanes(&e, 2, x, y, part);
+        lom_int e0 = (int32_t)e.area - e1 - e2;
         lom_float l[3] = { lom_to_float(e0) * t->inverse_area, lom_to_float(e1) * t->inverse_area,
                            lom_to_float(e2) * t->inverse_area };
         emit(tile, t, base, part, lom_mask_of_bits(bits), l);
@@ -205,13 +207,13 @@ static struct window_range windows_of(const struct lom_tile *tile, const lom_tri
 
 static void raster_small(struct lom_tile *tile, const lom_triangle *t)
 {
-    struct edges        e = find_edges(tile, t);
+    struct edges e = find_edges(tile, t);
     struct window_range r = windows_of(tile, t);
     for (int y = r.y0; y <= r.y1; y += 4)
         for (int x = r.x0; x <= r.x1; x += 4)
             for (int part = 0; part < PARTS; part++) {
-                lom_int  e0 = edge_lanes(&e, 0, x, y, part), e1 = edge_lanes(&e, 1, x, y, part),
-                         e2      = edge_lanes(&e, 2, x, y, part);
+                lom_int e0 = edge_lanes(&e, 0, x, y, part), e1 = edge_lanes(&e, 1, x, y, part),
+                        e2 = edge_lanes(&e, 2, x, y, part);
                 lom_mask covered = ((e0 + e.bias[0]) | (e1 + e.bias[1]) | (e2 + e.bias[2])) >= 0;
                 if (t->cut)
                     covered &= inside_bounds(tile, t, x, y, part);
@@ -254,15 +256,15 @@ LOM_INLINE lom_double to_double(lom_int x)
 static void emit_large(struct lom_tile *tile, const lom_triangle *t, const struct edges *e, int x, int y, int part,
                        lom_mask covered)
 {
-    lom_float  l[3] = { { 0 } };
+    lom_float l[3] = { { 0 } };
     lom_double px = to_double(lane_x(part) + x), py = to_double(lane_y(part) + y);
     if (t->clip != 0 || tile->depth != NULL || !tile->draw->constant) {
         lom_double e1 = px * (double)e->dx[1] + py * (double)e->dy[1] + (double)e->start[1];
         lom_double e2 = px * (double)e->dx[2] + py * (double)e->dy[2] + (double)e->start[2];
         lom_double e0 = (double)e->area - e1 - e2;
-        l[0]          = __builtin_convertvector(e0, lom_float) * t->inverse_area;
-        l[1]          = __builtin_convertvector(e1, lom_float) * t->inverse_area;
-        l[2]          = __builtin_convertvector(e2, lom_float) * t->inverse_area;
+        l[0] = __builtin_convertvector(e0, lom_float) * t->inverse_area;
+        l[1] = __builtin_convertvector(e1, lom_float) * t->inverse_area;
+        l[2] = __builtin_convertvector(e2, lom_float) * t->inverse_area;
     }
     emit(tile, t, memory_index(tile, x, y), part, covered, l);
 }
@@ -277,10 +279,10 @@ static lom_mask cover_large(const struct tile_edge k[3], int x, int y, int part)
 
 static void raster_large(struct lom_tile *tile, const lom_triangle *t)
 {
-    struct edges        e = find_edges(tile, t);
+    struct edges e = find_edges(tile, t);
     struct window_range r = windows_of(tile, t);
-    struct tile_edge    k[3];
-    bool                partial = t->cut;
+    struct tile_edge k[3];
+    bool partial = t->cut;
     for (int i = 0; i < 3; i++) {
         edge_class class = reduce_edge(&e, i, tile->edge, &k[i]);
         if (class == EDGE_OUTSIDE)

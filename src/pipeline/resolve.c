@@ -1,5 +1,5 @@
-/* The two ends of tile memory. In: clear values or the attachments' texels. Out: after the pass, the attachments' texels.
- * Tile memory holds blocks of 2x2 pixels, rows of blocks from the top; attachments are rows of pixels. */
+/* The two ends of tile memory. In: clear values or the attachments' texels. Out: after the pass, the attachments'
+ * texels. Tile memory holds blocks of 2x2 pixels, rows of blocks from the top; attachments are rows of pixels. */
 #include "pipeline/stages.h"
 
 /* What of a tile lies inside the attachments, in their pixels. */
@@ -10,8 +10,8 @@ struct part {
 
 static struct part part_of(const struct lom_pass *pass, int number)
 {
-    int         x = pass->tile_x0 + number % pass->tiles_x * pass->tile - pass->desc.origin_x;
-    int         y = pass->tile_y0 + number / pass->tiles_x * pass->tile - pass->desc.origin_y;
+    int x = pass->tile_x0 + number % pass->tiles_x * pass->tile - pass->desc.origin_x;
+    int y = pass->tile_y0 + number / pass->tiles_x * pass->tile - pass->desc.origin_y;
     struct part p = { x, y, 0, 0, pass->tile, pass->tile };
     if (x < 0)
         p.x0 = -x;
@@ -67,7 +67,7 @@ static void load_color(const struct lom_pass *pass, int i, const struct part *p,
     for (int y = p->y0; y < p->y1; y++)
         for (int x = p->x0; x < p->x1; x++) {
             const void *texel = lom_texel(target->texture, 0, p->x + x, p->y + y, 0);
-            size_t      index = memory_index(pass->tile, x, y);
+            size_t index = memory_index(pass->tile, x, y);
             if (target->kind == COLOR_FLOAT)
                 load_float_texel(pass, i, texel, memory, index);
             else
@@ -99,8 +99,8 @@ static void load_depth(const struct lom_pass *pass, const struct part *p, float 
 
 void lom_load_tile(const struct lom_pass *pass, int number)
 {
-    uint8_t    *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
-    struct part p      = part_of(pass, number);
+    uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
+    struct part p = part_of(pass, number);
     if (pass->depth != NULL) {
         fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
         if (pass->desc.depth_load == LOM_LOAD_KEEP)
@@ -119,8 +119,8 @@ void lom_load_tile(const struct lom_pass *pass, int number)
 static void missing_bytes(lom_format format, uint32_t *keep, uint32_t *set)
 {
     int channels = lom_describe_format(format)->channels;
-    *keep        = channels == 4 ? UINT32_MAX : (UINT32_C(1) << 8 * channels) - 1;
-    *set         = channels == 4 ? 0 : UINT32_C(0xff000000);
+    *keep = channels == 4 ? UINT32_MAX : (UINT32_C(1) << 8 * channels) - 1;
+    *set = channels == 4 ? 0 : UINT32_C(0xff000000);
 }
 
 static void resolve_bytes(const struct lom_pass *pass, int i, const struct part *p, const uint32_t *memory)
@@ -128,9 +128,9 @@ static void resolve_bytes(const struct lom_pass *pass, int i, const struct part 
     uint32_t keep, set;
     missing_bytes(pass->color[i].format, &keep, &set);
     for (int y = p->y0; y < p->y1; y++) {
-        uint32_t       *row  = lom_texel(pass->color[i].texture, 0, p->x + p->x0, p->y + y, 0);
+        uint32_t *row = lom_texel(pass->color[i].texture, 0, p->x + p->x0, p->y + y, 0);
         const uint32_t *from = memory + memory_index(pass->tile, 0, y);
-        int             x    = p->x0;
+        int x = p->x0;
         for (; (x & 1) != 0 && x < p->x1; x++)
             *row++ = (from[(x >> 1) * 4 + 1] & keep) | set;
         for (; x + 1 < p->x1; x += 2, row += 2) {
@@ -144,14 +144,14 @@ static void resolve_bytes(const struct lom_pass *pass, int i, const struct part 
 
 static void resolve_floats(const struct lom_pass *pass, int i, const struct part *p, const float *memory)
 {
-    lom_texture *texture  = pass->color[i].texture;
-    bool         single   = texture->storage == LOM_STORAGE_R32F;
-    int          channels = lom_describe_format(pass->color[i].format)->channels;
+    lom_texture *texture = pass->color[i].texture;
+    bool single = texture->storage == LOM_STORAGE_R32F;
+    int channels = lom_describe_format(pass->color[i].format)->channels;
     for (int y = p->y0; y < p->y1; y++)
         for (int x = p->x0; x < p->x1; x++) {
             float *texel = lom_texel(texture, 0, p->x + x, p->y + y, 0);
             size_t index = memory_index(pass->tile, x, y);
-            texel[0]     = memory[index];
+            texel[0] = memory[index];
             for (size_t c = 1; c < 4 && !single; c++)
                 texel[c] = (int)c < channels ? memory[c * tile_pixels(pass) + index] : c == 3 ? 1.0f : 0.0f;
         }
@@ -161,7 +161,7 @@ static void resolve_depth(const struct lom_pass *pass, const struct part *p, con
 {
     float scale = pass->depth_scale == 0 ? 1.0f : (float)pass->depth_scale;
     for (int y = p->y0; y < p->y1; y++) {
-        float       *row  = lom_texel(pass->depth, 0, p->x + p->x0, p->y + y, 0);
+        float *row = lom_texel(pass->depth, 0, p->x + p->x0, p->y + y, 0);
         const float *from = memory + memory_index(pass->tile, 0, y);
         for (int x = p->x0; x < p->x1; x++)
             *row++ = from[(x >> 1) * 4 + (x & 1)] / scale;
@@ -186,7 +186,7 @@ void lom_resolve_tile(const struct lom_pass *pass, int number)
     if (!pass->tile_touched[number])
         lom_load_tile(pass, number);
     const uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
-    struct part    p      = part_of(pass, number);
+    struct part p = part_of(pass, number);
     if (pass->depth != NULL) {
         resolve_depth(pass, &p, (const float *)(const void *)memory);
         memory += tile_pixels(pass) * 4;

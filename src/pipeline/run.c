@@ -17,13 +17,13 @@ static void run_chunks(void *context, int worker)
 static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
 {
     uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
-    size_t   pixels = (size_t)pass->tile * (size_t)pass->tile;
-    tile->pass      = pass;
-    tile->draw      = NULL;
-    tile->edge      = pass->tile;
-    tile->x         = pass->tile_x0 + number % pass->tiles_x * pass->tile;
-    tile->y         = pass->tile_y0 + number / pass->tiles_x * pass->tile;
-    tile->depth     = NULL;
+    size_t pixels = (size_t)pass->tile * (size_t)pass->tile;
+    tile->pass = pass;
+    tile->draw = NULL;
+    tile->edge = pass->tile;
+    tile->x = pass->tile_x0 + number % pass->tiles_x * pass->tile;
+    tile->y = pass->tile_y0 + number / pass->tiles_x * pass->tile;
+    tile->depth = NULL;
     if (pass->depth != NULL) {
         tile->depth = (float *)(void *)memory;
         memory += pixels * 4;
@@ -41,7 +41,7 @@ void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
     bool placed = false;
     for (size_t i = 0; i < pass->chunk_count; i++) {
         const struct lom_chunk *chunk = &pass->chunks[i];
-        uint32_t                first = chunk->tile_first[number], end = chunk->tile_first[number + 1];
+        uint32_t first = chunk->tile_first[number], end = chunk->tile_first[number + 1];
         if (chunk->failed || first == end)
             continue;
         if (!placed) {
@@ -49,7 +49,7 @@ void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
             if (!pass->tile_touched[number])
                 lom_load_tile(pass, number);
             pass->tile_touched[number] = 1;
-            placed                     = true;
+            placed = true;
         }
         if (tile->draw != NULL && tile->draw != chunk->draw)
             lom_stages_of(tile->draw->variant)->flush(tile);
@@ -62,9 +62,9 @@ void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
 
 static void run_tiles(void *context, int worker)
 {
-    struct lom_pass *pass  = context;
-    struct lom_tile *tile  = &pass->device->worker_tiles[worker];
-    size_t           tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    struct lom_pass *pass = context;
+    struct lom_tile *tile = &pass->device->worker_tiles[worker];
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     for (;;) {
         size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
         if (i >= tiles)
@@ -75,8 +75,8 @@ static void run_tiles(void *context, int worker)
 
 static void resolve_tiles(void *context, int worker)
 {
-    struct lom_pass *pass  = context;
-    size_t           tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    struct lom_pass *pass = context;
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     (void)worker;
     for (;;) {
         size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
@@ -115,12 +115,12 @@ static bool run_batch(lom_device *device)
 
 static bool add_chunk(lom_device *device, const struct lom_draw *draw, int instance, size_t first, size_t count)
 {
-    struct lom_pass  *pass  = &device->pass;
+    struct lom_pass *pass = &device->pass;
     struct lom_chunk *chunk = &device->chunks[pass->chunk_count++];
-    chunk->draw             = draw;
-    chunk->instance         = instance;
-    chunk->first            = first;
-    chunk->count            = count;
+    chunk->draw = draw;
+    chunk->instance = instance;
+    chunk->first = first;
+    chunk->count = count;
     return pass->chunk_count < (size_t)device->desc.batch || run_batch(device);
 }
 
@@ -153,8 +153,8 @@ static void count_work(lom_device *device)
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
-    pass->chunks          = device->chunks;
-    pass->chunk_count     = 0;
+    pass->chunks = device->chunks;
+    pass->chunk_count = 0;
     for (int i = 0; i < device->desc.threads; i++)
         device->worker_tiles[i].constant_draw = NULL;
     for (size_t i = 0; i < pass->draw_count; i++) {

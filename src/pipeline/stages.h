@@ -22,21 +22,21 @@
  * (exact in double), and an edge that crosses a tile of 64 pixels below 2^31 in units of 256 (exact in int32). */
 enum {
     SUBPIXEL_BITS = 8,
-    SUBPIXELS     = 1 << SUBPIXEL_BITS,
-    GUARD_PIXELS  = 32760,
-    SMALL_EXTENT  = 64 * SUBPIXELS, /* below this an edge function fits int32 */
-    ROW_HEADER    = 4               /* floats of a vertex row before its varyings: x, y (int32 bits), depth, 1/w */
+    SUBPIXELS = 1 << SUBPIXEL_BITS,
+    GUARD_PIXELS = 32760,
+    SMALL_EXTENT = 64 * SUBPIXELS, /* below this an edge function fits int32 */
+    ROW_HEADER = 4                 /* floats of a vertex row before its varyings: x, y (int32 bits), depth, 1/w */
 };
 
 /* Outcodes: bits 0..7 the distances below 0. */
 enum {
-    CODE_NEAR    = 1 << 8,
-    CODE_FAR     = 1 << 9,
-    CODE_GUARD   = 1 << 10,
-    CODE_W       = 1 << 11,
+    CODE_NEAR = 1 << 8,
+    CODE_FAR = 1 << 9,
+    CODE_GUARD = 1 << 10,
+    CODE_W = 1 << 11,
     CODE_INVALID = 1 << 12,
-    CODE_CLIP    = CODE_NEAR | CODE_FAR | CODE_GUARD | CODE_W,
-    CODE_REJECT  = 0xff | CODE_NEAR | CODE_FAR | CODE_W /* outside one of these with all vertices: nothing to see */
+    CODE_CLIP = CODE_NEAR | CODE_FAR | CODE_GUARD | CODE_W,
+    CODE_REJECT = 0xff | CODE_NEAR | CODE_FAR | CODE_W /* outside one of these with all vertices: nothing to see */
 };
 
 typedef enum lom_triangle_kind {
@@ -48,124 +48,124 @@ typedef enum lom_triangle_kind {
 /* A triangle after set-up; vertices in the order of snapped (y, x), so nothing depends on the order they came in. The
  * first 8 words are read as two rows of four by the fragment stage. */
 typedef struct lom_triangle {
-    int32_t      x[3], y[3];
-    float        inverse_area;  /* 1 / |twice the area|, both in units^2 */
-    int32_t      sign;          /* of the area: 1 or -1 */
-    const float *row[3];        /* the vertices' rows */
-    float        depth[3];      /* of vertex 0, then differences of 1 and 2 to it */
-    int16_t      left, top;     /* first pixel (frame, inclusive) */
-    int16_t      right, bottom; /* last pixel, inclusive */
-    uint16_t     mask;          /* TRIANGLE_WINDOW: bit k for pixel k of the window at (left & ~1, top & ~1) */
-    uint8_t      kind;
-    uint8_t      clip;      /* bit i: clip distance i changes sign inside */
-    uint8_t      front;     /* 1: front facing */
-    uint8_t      provoking; /* which of the three rows is the provoking vertex's */
-    uint8_t      cut;       /* 1: left..bottom were cut by the scissor, so coverage must be tested against them */
-    uint8_t      reserved;
+    int32_t x[3], y[3];
+    float inverse_area;    /* 1 / |twice the area|, both in units^2 */
+    int32_t sign;          /* of the area: 1 or -1 */
+    const float *row[3];   /* the vertices' rows */
+    float depth[3];        /* of vertex 0, then differences of 1 and 2 to it */
+    int16_t left, top;     /* first pixel (frame, inclusive) */
+    int16_t right, bottom; /* last pixel, inclusive */
+    uint16_t mask;         /* TRIANGLE_WINDOW: bit k for pixel k of the window at (left & ~1, top & ~1) */
+    uint8_t kind;
+    uint8_t clip;      /* bit i: clip distance i changes sign inside */
+    uint8_t front;     /* 1: front facing */
+    uint8_t provoking; /* which of the three rows is the provoking vertex's */
+    uint8_t cut;       /* 1: left..bottom were cut by the scissor, so coverage must be tested against them */
+    uint8_t reserved;
 } lom_triangle;
 
 /* A draw as recorded. */
 struct lom_draw {
     lom_draw_desc desc;
-    const void   *uniforms;        /* the copy, set when the pass runs */
-    size_t        uniforms_offset; /* where it lies in the device's uniforms */
-    lom_rect      scissor;         /* resolved, within pass and target, in frame pixels */
-    int           variant;
-    int           row_floats; /* of a vertex row: header, varyings, distances, padded to 4 */
-    int           distance_offset;
-    int           distances; /* clip + cull */
-    size_t        triangles; /* of one instance */
-    lom_compare   compare;   /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
-    bool          depth_write, late_depth, blends, constant;
+    const void *uniforms;   /* the copy, set when the pass runs */
+    size_t uniforms_offset; /* where it lies in the device's uniforms */
+    lom_rect scissor;       /* resolved, within pass and target, in frame pixels */
+    int variant;
+    int row_floats; /* of a vertex row: header, varyings, distances, padded to 4 */
+    int distance_offset;
+    int distances;       /* clip + cull */
+    size_t triangles;    /* of one instance */
+    lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
+    bool depth_write, late_depth, blends, constant;
 };
 
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
 struct lom_chunk {
     const struct lom_draw *draw;
-    int                    instance;
-    size_t                 first, count; /* triangles */
+    int instance;
+    size_t first, count; /* triangles */
 
-    uint32_t *corners;      /* three vertex numbers a triangle */
-    uint32_t  vertex_base;  /* index of row 0 when vertex_list is empty */
-    uint32_t *vertex_list;  /* or the index of each row */
-    size_t    vertex_count; /* rows that were shaded (clipping appends) */
-    bool      listed;
+    uint32_t *corners;     /* three vertex numbers a triangle */
+    uint32_t vertex_base;  /* index of row 0 when vertex_list is empty */
+    uint32_t *vertex_list; /* or the index of each row */
+    size_t vertex_count;   /* rows that were shaded (clipping appends) */
+    bool listed;
 
-    float        *rows; /* vertex rows */
-    float        *clip; /* clip positions, 4 floats a row */
-    uint16_t     *codes;
+    float *rows; /* vertex rows */
+    float *clip; /* clip positions, 4 floats a row */
+    uint16_t *codes;
     lom_triangle *triangles;
-    uint32_t     *tile_first; /* tile_count + 1: where a tile's list begins */
-    uint32_t     *tile_list;  /* triangle numbers */
-    size_t        row_count, triangle_count;
-    size_t        rows_capacity, clip_capacity, codes_capacity, triangles_capacity, tile_first_capacity,
-        tile_list_capacity, vertex_list_capacity, corners_capacity; /* in elements */
+    uint32_t *tile_first; /* tile_count + 1: where a tile's list begins */
+    uint32_t *tile_list;  /* triangle numbers */
+    size_t row_count, triangle_count;
+    size_t rows_capacity, clip_capacity, codes_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity,
+        vertex_list_capacity, corners_capacity; /* in elements */
     uint64_t triangles_clipped;
-    bool     failed; /* memory ran out */
+    bool failed; /* memory ran out */
 };
 
 /* Fragments on their way into packets; all of one draw. Entry i of every array is one fragment. */
 enum { QUEUE_SIZE = 64 };
 struct lom_queue {
-    float               l[3][QUEUE_SIZE]; /* screen-space barycentric weights */
-    float               depth[QUEUE_SIZE];
-    int32_t             pixel[QUEUE_SIZE];   /* index into the tile's memory */
-    int32_t             covered[QUEUE_SIZE]; /* -1, or 0 for a helper of a quad */
+    float l[3][QUEUE_SIZE]; /* screen-space barycentric weights */
+    float depth[QUEUE_SIZE];
+    int32_t pixel[QUEUE_SIZE];   /* index into the tile's memory */
+    int32_t covered[QUEUE_SIZE]; /* -1, or 0 for a helper of a quad */
     const lom_triangle *triangle[QUEUE_SIZE];
-    int                 count;
-    bool                block; /* the packet is LOM_LANES pixels of one 4x4 window in memory order, from pixel[0] */
+    int count;
+    bool block; /* the packet is LOM_LANES pixels of one 4x4 window in memory order, from pixel[0] */
 };
 
 struct lom_pass;
 
 /* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
 struct lom_tile {
-    struct lom_pass       *pass;
+    struct lom_pass *pass;
     const struct lom_draw *draw; /* of the fragments in the queue */
-    int                    x, y; /* frame pixel of the tile's first pixel */
-    int                    edge;
-    int32_t                offset[16];            /* of the pixels of a 4x4 window to its first, in tile memory */
-    float                 *depth;                 /* attachment units; NULL without depth */
-    void                  *color[LOM_MAX_COLORS]; /* uint32_t for 8-bit formats, else 4 planes of floats */
-    const struct lom_draw *constant_draw;         /* whose constant colour is in constant */
-    float                  constant[LOM_MAX_COLORS][4];
-    struct lom_queue       queue;
-    uint8_t                owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel */
-    uint64_t               fragments, packets;
+    int x, y;                    /* frame pixel of the tile's first pixel */
+    int edge;
+    int32_t offset[16];                   /* of the pixels of a 4x4 window to its first, in tile memory */
+    float *depth;                         /* attachment units; NULL without depth */
+    void *color[LOM_MAX_COLORS];          /* uint32_t for 8-bit formats, else 4 planes of floats */
+    const struct lom_draw *constant_draw; /* whose constant colour is in constant */
+    float constant[LOM_MAX_COLORS][4];
+    struct lom_queue queue;
+    uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel */
+    uint64_t fragments, packets;
 };
 
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
 
 struct lom_color_target {
-    lom_texture   *texture;
-    lom_format     format;
+    lom_texture *texture;
+    lom_format format;
     lom_color_kind kind;
-    float          clear[4];
-    uint32_t       clear_bytes;
-    bool           keep;
+    float clear[4];
+    uint32_t clear_bytes;
+    bool keep;
 };
 
 struct lom_pass {
-    lom_device             *device;
-    lom_pass_desc           desc;
-    int                     width, height;             /* of the attachments */
-    int                     frame_width, frame_height; /* of the whole frame */
-    lom_rect                viewport, scissor;         /* resolved; scissor within the attachments' part of the frame */
-    int                     colors;
+    lom_device *device;
+    lom_pass_desc desc;
+    int width, height;             /* of the attachments */
+    int frame_width, frame_height; /* of the whole frame */
+    lom_rect viewport, scissor;    /* resolved; scissor within the attachments' part of the frame */
+    int colors;
     struct lom_color_target color[LOM_MAX_COLORS];
-    lom_texture            *depth;
-    double                  depth_scale; /* 65535, 16777215, or 0 for float depth */
-    float                   clear_depth; /* in tile units */
-    int                     tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
-    size_t                  tile_bytes;
-    uint8_t                *tile_memory;  /* tile_bytes for each tile */
-    uint8_t                *tile_touched; /* a flag for each tile */
+    lom_texture *depth;
+    double depth_scale;                           /* 65535, 16777215, or 0 for float depth */
+    float clear_depth;                            /* in tile units */
+    int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
+    size_t tile_bytes;
+    uint8_t *tile_memory;  /* tile_bytes for each tile */
+    uint8_t *tile_touched; /* a flag for each tile */
 
     size_t draw_count; /* recorded in the device */
 
     struct lom_chunk *chunks; /* the batch's */
-    size_t            chunk_count;
-    atomic_size_t     next;
+    size_t chunk_count;
+    atomic_size_t next;
 };
 
 /* The stages of one variant. */
@@ -174,8 +174,7 @@ struct lom_stages {
     void (*shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk);
     /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are row
      * numbers; the third is the provoking vertex. */
-    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t (*corner)[3],
-                   int count);
+    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t (*corner)[3], int count);
     /* Draws the chunk's triangles of one tile. */
     void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
     /* Shades what is left in the queue. */
@@ -187,7 +186,7 @@ const struct lom_stages *lom_stages_of(int variant);
 
 #define LOM_DECLARE_STAGES(variant)                                                                                    \
     void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
-    void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t (*corner)[3],       \
+    void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t(*corner)[3],        \
                               int count);                                                                              \
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
                               size_t count);                                                                           \
@@ -201,13 +200,14 @@ LOM_DECLARE_STAGES(16_plain)
 /* Grows *array to at least `needed` elements of `size` bytes, keeping its content; false when memory runs out. */
 bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size);
 
-/* Room for `rows` vertex rows in the chunk (rows, clip, codes); triangles already set up keep pointing at their rows. */
+/* Room for `rows` vertex rows in the chunk (rows, clip, codes); triangles already set up keep pointing at their rows.
+ */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk);
-/* Stage 2: cuts a triangle of three rows by the planes named in `codes`; appends rows; gives the fan's corners and returns
- * how many triangles it has (0..LOM_MAX_FAN). */
+/* Stage 2: cuts a triangle of three rows by the planes named in `codes`; appends rows; gives the fan's corners and
+ * returns how many triangles it has (0..LOM_MAX_FAN). */
 enum { LOM_MAX_FAN = 10 };
 int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
                       uint32_t fan[LOM_MAX_FAN][3]);

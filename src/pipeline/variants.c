@@ -3,16 +3,13 @@
 
 #define STAGES(variant)                                                                                                \
     {                                                                                                                  \
-        lom_shade_vertices_##variant, lom_set_up_##variant, lom_raster_##variant, lom_flush_##variant                 \
+        lom_shade_vertices_##variant, lom_set_up_##variant, lom_raster_##variant, lom_flush_##variant                  \
     }
 
 static const struct lom_stages stages[] = {
-    STAGES(4),
-    STAGES(8),
-    STAGES(16),
+    STAGES(4),       STAGES(8),        STAGES(16),
 #if defined __x86_64__
-    STAGES(8_plain),
-    STAGES(16_plain),
+    STAGES(8_plain), STAGES(16_plain),
 #endif
 };
 

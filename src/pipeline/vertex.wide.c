@@ -1,5 +1,5 @@
-/* Stage 1 of 7: vertex. In: a chunk's range (or list) of vertex numbers. Out: for each a row {x, y, depth, 1/w, varyings,
- * distances}, its clip position and its outcode. Invariant: a row is a function of the vertex alone. */
+/* Stage 1 of 7: vertex. In: a chunk's range (or list) of vertex numbers. Out: for each a row {x, y, depth, 1/w,
+ * varyings, distances}, its clip position and its outcode. Invariant: a row is a function of the vertex alone. */
 #include "pipeline/project.h"
 #include "pipeline/stages.h"
 
@@ -8,22 +8,22 @@ LOM_INLINE void store_rows(float *to, size_t stride, lom_float4 x)
 {
     for (int i = 0; i < LOM_LANES; i++) {
         float *row = to + (size_t)i * stride;
-        row[0]     = x.x[i];
-        row[1]     = x.y[i];
-        row[2]     = x.z[i];
-        row[3]     = x.w[i];
+        row[0] = x.x[i];
+        row[1] = x.y[i];
+        row[2] = x.z[i];
+        row[3] = x.w[i];
     }
 }
 
 /* The vertices at `numbers` as four floats each; every read stays inside attribute->size. */
 static void fetch_floats(const lom_attribute *attribute, const uint32_t *numbers, int components, lom_float4 *out)
 {
-    float        copies[LOM_LANES][4];
+    float copies[LOM_LANES][4];
     const float *rows[LOM_LANES];
     for (int i = 0; i < LOM_LANES; i++) {
-        size_t         offset = (size_t)numbers[i] * attribute->stride;
+        size_t offset = (size_t)numbers[i] * attribute->stride;
         const uint8_t *source = (const uint8_t *)attribute->data + offset;
-        bool           whole  = offset + 16 <= attribute->size && (uintptr_t)source % 4 == 0;
+        bool whole = offset + 16 <= attribute->size && (uintptr_t)source % 4 == 0;
         if (!whole) {
             memset(copies[i], 0, sizeof copies[i]);
             memcpy(copies[i], source, (size_t)components * 4);
@@ -43,10 +43,10 @@ static void fetch_bytes(const lom_attribute *attribute, const uint32_t *numbers,
 {
     for (int i = 0; i < LOM_LANES; i++) {
         const uint8_t *source = (const uint8_t *)attribute->data + (size_t)numbers[i] * attribute->stride;
-        out->x[i]             = (float)source[0] / 255.0f;
-        out->y[i]             = (float)source[1] / 255.0f;
-        out->z[i]             = (float)source[2] / 255.0f;
-        out->w[i]             = (float)source[3] / 255.0f;
+        out->x[i] = (float)source[0] / 255.0f;
+        out->y[i] = (float)source[1] / 255.0f;
+        out->z[i] = (float)source[2] / 255.0f;
+        out->w[i] = (float)source[3] / 255.0f;
     }
 }
 
@@ -54,7 +54,7 @@ static void fetch(const struct lom_draw *draw, const uint32_t *numbers, lom_attr
 {
     for (int a = 0; a < draw->desc.shader->attributes; a++) {
         const lom_attribute *attribute = &draw->desc.attribute[a];
-        lom_float4          *out       = &in->attribute[a];
+        lom_float4 *out = &in->attribute[a];
         switch (attribute->kind) {
         case LOM_ATTRIBUTE_NONE:
             *out = (lom_float4){ .w = lom_splat(1.0f) };
@@ -80,28 +80,30 @@ static lom_int classify(const struct lom_pass *pass, lom_float4 p)
     lom_float near_distance, far_distance;
     if (pass->desc.clip_range == LOM_CLIP_ZERO_TO_W) {
         near_distance = p.w - p.z;
-        far_distance  = p.z;
+        far_distance = p.z;
     } else {
         near_distance = p.z + p.w;
-        far_distance  = p.w - p.z;
+        far_distance = p.w - p.z;
     }
     struct lom_guard guard = lom_guard_of(pass);
-    lom_mask         out   = (lom_abs(p.x) > p.w * guard.x) | (lom_abs(p.y) > p.w * guard.y);
+    lom_mask out = (lom_abs(p.x) > p.w * guard.x) | (lom_abs(p.y) > p.w * guard.y);
     return ((near_distance < 0.0f) & CODE_NEAR) | ((far_distance < 0.0f) & CODE_FAR) | (out & CODE_GUARD) |
-           ((p.w < LOM_SMALLEST_W) & CODE_W) | ((is_wild(p.x) | is_wild(p.y) | is_wild(p.z) | is_wild(p.w)) & CODE_INVALID);
+           ((p.w < LOM_SMALLEST_W) & CODE_W) |
+           ((is_wild(p.x) | is_wild(p.y) | is_wild(p.z) | is_wild(p.w)) & CODE_INVALID);
 }
 
-/* Perspective division, viewport, snapping (to nearest even) of positions that need no clipping; the rest gets zeros. */
+/* Perspective division, viewport, snapping (to nearest even) of positions that need no clipping; the rest gets zeros.
+ */
 static lom_float4 project(const struct lom_pass *pass, lom_float4 p, lom_int codes)
 {
-    struct lom_projection f      = lom_projection_of(pass);
-    lom_mask              inside = (codes & (CODE_CLIP | CODE_INVALID)) == 0;
-    lom_float             w      = lom_select(inside, p.w, lom_splat(1.0f));
-    lom_float             one_over_w = 1.0f / w;
-    lom_float             x = lom_select(inside, p.x, (lom_float){ 0 }) / w * f.x_scale + f.x_offset;
-    lom_float             y = lom_select(inside, p.y, (lom_float){ 0 }) / w * f.y_scale + f.y_offset;
-    lom_float             z = lom_select(inside, p.z, (lom_float){ 0 }) / w * f.z_scale + f.z_offset;
-    z                       = lom_clamp(z, lom_splat(f.z_low), lom_splat(f.z_high));
+    struct lom_projection f = lom_projection_of(pass);
+    lom_mask inside = (codes & (CODE_CLIP | CODE_INVALID)) == 0;
+    lom_float w = lom_select(inside, p.w, lom_splat(1.0f));
+    lom_float one_over_w = 1.0f / w;
+    lom_float x = lom_select(inside, p.x, (lom_float){ 0 }) / w * f.x_scale + f.x_offset;
+    lom_float y = lom_select(inside, p.y, (lom_float){ 0 }) / w * f.y_scale + f.y_offset;
+    lom_float z = lom_select(inside, p.z, (lom_float){ 0 }) / w * f.z_scale + f.z_offset;
+    z = lom_clamp(z, lom_splat(f.z_low), lom_splat(f.z_high));
     return (lom_float4){ lom_as_float(lom_to_int(lom_round(x))), lom_as_float(lom_to_int(lom_round(y))), z,
                          one_over_w };
 }
@@ -123,16 +125,16 @@ static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, flo
 
 static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, size_t first, lom_vertex *vertex)
 {
-    const struct lom_draw *draw  = chunk->draw;
-    size_t                 pitch = (size_t)draw->row_floats;
-    float                 *row   = chunk->rows + first * pitch;
-    lom_int                codes = classify(pass, vertex->position);
+    const struct lom_draw *draw = chunk->draw;
+    size_t pitch = (size_t)draw->row_floats;
+    float *row = chunk->rows + first * pitch;
+    lom_int codes = classify(pass, vertex->position);
     store_rows(chunk->clip + first * 4, 4, vertex->position);
     store_rows(row, pitch, project(pass, vertex->position, codes));
     for (int v = 0; v < draw->desc.shader->varyings; v += 4)
-        store_rows(row + ROW_HEADER + v, pitch,
-                   (lom_float4){ vertex->varying[v], vertex->varying[v + 1], vertex->varying[v + 2],
-                                 vertex->varying[v + 3] });
+        store_rows(
+            row + ROW_HEADER + v, pitch,
+            (lom_float4){ vertex->varying[v], vertex->varying[v + 1], vertex->varying[v + 2], vertex->varying[v + 3] });
     write_distances(draw, vertex, row, pitch, &codes);
     for (int i = 0; i < LOM_LANES; i++)
         chunk->codes[first + (size_t)i] = (uint16_t)codes[i];
@@ -141,9 +143,9 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
 void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     const struct lom_draw *draw = chunk->draw;
-    lom_vertex_function   *shade = draw->desc.shader->vertex[draw->variant];
-    lom_vertex             vertex;
-    lom_attributes         in;
+    lom_vertex_function *shade = draw->desc.shader->vertex[draw->variant];
+    lom_vertex vertex;
+    lom_attributes in;
     memset(&vertex, 0, sizeof vertex);
     memset(&in, 0, sizeof in);
     in.instance = lom_splat_int(chunk->instance);

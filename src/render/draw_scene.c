@@ -5,11 +5,11 @@
 
 struct lom_light_uniform lom_scene_light(const lom_scene *scene)
 {
-    const lom_light         *light = &scene->light;
-    struct lom_light_uniform u     = { .to_light = { (float)-light->direction.x, (float)-light->direction.y,
-                                                     (float)-light->direction.z } };
+    const lom_light *light = &scene->light;
+    struct lom_light_uniform u = { .to_light = { (float)-light->direction.x, (float)-light->direction.y,
+                                                 (float)-light->direction.z } };
     for (int i = 0; i < 3; i++) {
-        u.color[i]   = (float)(light->color[i] * light->intensity);
+        u.color[i] = (float)(light->color[i] * light->intensity);
         u.ambient[i] = (float)light->ambient[i];
     }
     return u;
@@ -25,7 +25,7 @@ static struct lom_matrix_uniform to_uniform(const lom_mat4 *m)
 }
 
 struct culler {
-    lom_frustum   frustum;
+    lom_frustum frustum;
     const double *plane;
 };
 
@@ -47,12 +47,12 @@ static bool is_visible(const struct culler *culler, const lom_box *box)
 static void set_attributes(lom_draw_desc *draw, const lom_mesh *mesh)
 {
     const uint8_t *data = (const uint8_t *)mesh->vertices;
-    size_t         size = mesh->vertex_count * sizeof(lom_mesh_vertex), stride = sizeof(lom_mesh_vertex);
+    size_t size = mesh->vertex_count * sizeof(lom_mesh_vertex), stride = sizeof(lom_mesh_vertex);
     draw->attribute[0] = (lom_attribute){ data, size, stride, LOM_ATTRIBUTE_FLOAT3 };
     draw->attribute[1] = (lom_attribute){ data + 12, size - 12, stride, LOM_ATTRIBUTE_FLOAT3 };
     draw->attribute[2] = (lom_attribute){ data + 24, size - 24, stride, LOM_ATTRIBUTE_FLOAT2 };
     draw->attribute[3] = (lom_attribute){ data + 32, size - 32, stride, LOM_ATTRIBUTE_FLOAT4 };
-    draw->indices      = mesh->indices;
+    draw->indices = mesh->indices;
 }
 
 static void set_scale(float scale[2], double tile, const double size[2])
@@ -69,30 +69,31 @@ static const lom_texture *find_texture(lom_renderer *renderer, const char *path,
 
 static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, const struct lom_view_uniform *view)
 {
-    const lom_terrain          *t = &renderer->scene->terrain;
-    struct lom_terrain_uniforms u = { .view        = *view,
-                                      .detail_map  = find_texture(renderer, t->detail_map, false),
-                                      .normal_map  = find_texture(renderer, t->normal_map, false),
+    const lom_terrain *t = &renderer->scene->terrain;
+    struct lom_terrain_uniforms u = { .view = *view,
+                                      .detail_map = find_texture(renderer, t->detail_map, false),
+                                      .normal_map = find_texture(renderer, t->normal_map, false),
                                       .layer_count = (int)t->layer_count };
     set_scale(u.scale, t->tile, t->size);
     set_scale(u.detail_scale, t->detail_tile, t->size);
     for (int i = 0; i < 3; i++) {
-        u.material.ambient[i]  = (float)t->material.ambient[i];
-        u.material.diffuse[i]  = (float)t->material.diffuse[i];
+        u.material.ambient[i] = (float)t->material.ambient[i];
+        u.material.diffuse[i] = (float)t->material.diffuse[i];
         u.material.specular[i] = (float)t->material.specular[i];
     }
     u.material.shininess = (float)t->material.shininess;
-    u.material.texture   = find_texture(renderer, t->texture, true);
+    u.material.texture = find_texture(renderer, t->texture, true);
     for (size_t i = 0; i < t->layer_count; i++) {
-        const lom_terrain_layer  *from  = &t->layers[i];
+        const lom_terrain_layer *from = &t->layers[i];
         struct lom_layer_uniform *layer = &u.layer[i];
-        *layer = (struct lom_layer_uniform){ .map         = find_texture(renderer, from->map, true),
-                                             .from_height = (float)from->from_height,
-                                             .to_height   = (float)from->to_height,
-                                             .from_slope  = (float)from->from_slope,
-                                             .to_slope    = (float)from->to_slope,
-                                             .blend       = from->blend > 1e-3 ? (float)from->blend : 1e-3f,
-                                             .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f };
+        *layer =
+            (struct lom_layer_uniform){ .map = find_texture(renderer, from->map, true),
+                                        .from_height = (float)from->from_height,
+                                        .to_height = (float)from->to_height,
+                                        .from_slope = (float)from->from_slope,
+                                        .to_slope = (float)from->to_slope,
+                                        .blend = from->blend > 1e-3 ? (float)from->blend : 1e-3f,
+                                        .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f };
         set_scale(layer->scale, from->tile, t->size);
     }
     return u;
@@ -104,9 +105,9 @@ static void draw_terrain(lom_renderer *renderer, const struct culler *culler, co
     if (renderer->terrain == NULL)
         return;
     struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, view);
-    lom_draw_desc draw = { .shader          = lom_terrain_shader(renderer->scene->quality.shading),
-                           .uniforms        = &uniforms,
-                           .cull            = LOM_CULL_BACK,
+    lom_draw_desc draw = { .shader = lom_terrain_shader(renderer->scene->quality.shading),
+                           .uniforms = &uniforms,
+                           .cull = LOM_CULL_BACK,
                            .front_clockwise = mirrored };
     set_attributes(&draw, renderer->terrain);
     for (size_t i = 0; i < renderer->block_count; i++) {
@@ -122,7 +123,8 @@ static void draw_terrain(lom_renderer *renderer, const struct culler *culler, co
 static bool is_mirroring(const lom_mat4 *m)
 {
     const double(*r)[4] = m->m;
-    double determinant = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) - r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+    double determinant = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
+                         r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
                          r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
     return determinant < 0;
 }
@@ -130,30 +132,30 @@ static bool is_mirroring(const lom_mat4 *m)
 static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *entity,
                         const struct lom_view_uniform *view, bool mirrored)
 {
-    struct lom_entity_uniforms uniforms = { .view              = *view,
-                                            .world_from_model  = to_uniform(&entity->world_from_model),
+    struct lom_entity_uniforms uniforms = { .view = *view,
+                                            .world_from_model = to_uniform(&entity->world_from_model),
                                             .normal_from_model = to_uniform(&entity->normal_from_model) };
-    lom_draw_desc draw = { .shader          = lom_entity_shader(renderer->scene->quality.shading),
-                           .uniforms        = &uniforms,
-                           .cull            = LOM_CULL_BACK,
+    lom_draw_desc draw = { .shader = lom_entity_shader(renderer->scene->quality.shading),
+                           .uniforms = &uniforms,
+                           .cull = LOM_CULL_BACK,
                            .front_clockwise = mirrored != is_mirroring(&entity->world_from_model) };
     set_attributes(&draw, entity->drawn);
     for (size_t i = 0; i < entity->drawn->part_count; i++) {
         uniforms.material = entity->parts[i].material;
-        draw.first        = entity->parts[i].first;
-        draw.count        = entity->parts[i].count;
+        draw.first = entity->parts[i].first;
+        draw.count = entity->parts[i].count;
         lom_draw(renderer->device, &draw);
     }
 }
 
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
-    const lom_scene        *scene           = renderer->scene;
-    lom_mat4                clip_from_world = lom_multiply(&view->projection, &view->view);
+    const lom_scene *scene = renderer->scene;
+    lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     struct lom_view_uniform uniform = { .clip_from_world = to_uniform(&clip_from_world),
-                                        .light           = lom_scene_light(scene),
+                                        .light = lom_scene_light(scene),
                                         .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z } };
-    struct culler           culler  = { lom_view_frustum(&clip_from_world, false), view->plane };
+    struct culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
     for (int i = 0; i < 4; i++)
         uniform.plane[i] = (float)view->plane[i];
     draw_terrain(renderer, &culler, &uniform, view->mirrored);

@@ -9,30 +9,30 @@ struct corner {
 
 static struct corner transform(lom_vertex *out, const lom_attributes *in, const struct lom_entity_uniforms *entity)
 {
-    lom_float3    model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
-    struct corner c     = { lom_transform3(&entity->world_from_model, model),
-                            lom_rotate3(&entity->normal_from_model,
-                                        (lom_float3){ in->attribute[1].x, in->attribute[1].y, in->attribute[1].z }) };
-    const float  *plane = entity->view.plane;
-    out->position       = lom_transform4(&entity->view.clip_from_world, c.world);
-    out->distance[0]    = lom_transform_row(plane, c.world);
-    out->varying[WORLD]     = c.world.x;
+    lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
+    struct corner c = { lom_transform3(&entity->world_from_model, model),
+                        lom_rotate3(&entity->normal_from_model,
+                                    (lom_float3){ in->attribute[1].x, in->attribute[1].y, in->attribute[1].z }) };
+    const float *plane = entity->view.plane;
+    out->position = lom_transform4(&entity->view.clip_from_world, c.world);
+    out->distance[0] = lom_transform_row(plane, c.world);
+    out->varying[WORLD] = c.world.x;
     out->varying[WORLD + 1] = c.world.y;
     out->varying[WORLD + 2] = c.world.z;
-    out->varying[UV]        = in->attribute[2].x;
-    out->varying[UV + 1]    = in->attribute[2].y;
+    out->varying[UV] = in->attribute[2].x;
+    out->varying[UV + 1] = in->attribute[2].y;
     return c;
 }
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
-    struct corner c          = transform(out, in, uniforms);
-    out->varying[NORMAL]     = c.normal.x;
+    struct corner c = transform(out, in, uniforms);
+    out->varying[NORMAL] = c.normal.x;
     out->varying[NORMAL + 1] = c.normal.y;
     out->varying[NORMAL + 2] = c.normal.z;
-    out->varying[COLOR]      = in->attribute[3].x;
-    out->varying[COLOR + 1]  = in->attribute[3].y;
-    out->varying[COLOR + 2]  = in->attribute[3].z;
+    out->varying[COLOR] = in->attribute[3].x;
+    out->varying[COLOR + 1] = in->attribute[3].y;
+    out->varying[COLOR + 2] = in->attribute[3].z;
 }
 
 static void store3(lom_float *varying, lom_float3 v)
@@ -45,9 +45,9 @@ static void store3(lom_float *varying, lom_float3 v)
 static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_entity_uniforms *entity = uniforms;
-    struct corner                     c      = transform(out, in, entity);
+    struct corner c = transform(out, in, entity);
     struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, c.world, lom_normalize3(c.normal));
-    lom_float3     color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
+    lom_float3 color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
     store3(out->varying + TEXTURED, lom_mul3(lit.textured, color));
     store3(out->varying + HIGHLIGHT, lit.highlight);
 }
@@ -69,13 +69,13 @@ static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_var
 static void finish(lom_fragment *out, lom_float3 textured, lom_float3 highlight, lom_float3 texel)
 {
     lom_float3 color = lom_add3(lom_mul3(textured, texel), highlight);
-    out->color[0]    = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
 
 static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_entity_uniforms *entity = uniforms;
-    lom_float3                        normal = lom_normalize3(load3(in, NORMAL));
+    lom_float3 normal = lom_normalize3(load3(in, NORMAL));
     struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, load3(in, WORLD), normal);
     finish(out, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight, albedo(entity, in));
 }
@@ -83,7 +83,7 @@ static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void
 static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_entity_uniforms *entity = uniforms;
-    lom_float3                        normal = lom_face_normal(in, WORLD, load3(in, NORMAL));
+    lom_float3 normal = lom_face_normal(in, WORLD, load3(in, NORMAL));
     struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, load3(in, WORLD), normal);
     finish(out, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight, albedo(entity, in));
 }
@@ -95,9 +95,8 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
 
 LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
            .reads = 0x7ff, .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
-LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
-           .reads = 0x7ff, .differentiates = 3 << UV | 7 << WORLD, .colors = 1,
-           .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1, .reads = 0x7ff,
+           .differentiates = 3 << UV | 7 << WORLD, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .varyings = 14, .clip_distances = 1,
            .reads = 0x3f00 | 3 << UV, .differentiates = 3 << UV, .colors = 1,
            .uniforms_size = sizeof(struct lom_entity_uniforms))

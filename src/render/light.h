@@ -12,15 +12,15 @@ struct lom_lit {
 LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
                                             lom_float3 world, lom_float3 normal)
 {
-    const struct lom_light_uniform *light   = &view->light;
-    lom_float                       lambert = lom_lambert(light, normal);
-    struct lom_lit                  lit;
-    lit.textured  = lom_add3(lom_mul3(lom_uniform3(light->ambient), lom_uniform3(m->ambient)),
-                             lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert));
+    const struct lom_light_uniform *light = &view->light;
+    lom_float lambert = lom_lambert(light, normal);
+    struct lom_lit lit;
+    lit.textured = lom_add3(lom_mul3(lom_uniform3(light->ambient), lom_uniform3(m->ambient)),
+                            lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert));
     lit.highlight = lom_splat3(0, 0, 0);
     if (m->specular[0] != 0 || m->specular[1] != 0 || m->specular[2] != 0) {
-        lom_float3 to_eye   = lom_normalize3(lom_sub3(lom_uniform3(view->eye), world));
-        lom_float  specular = lom_phong_specular(light, normal, to_eye, m->shininess);
+        lom_float3 to_eye = lom_normalize3(lom_sub3(lom_uniform3(view->eye), world));
+        lom_float specular = lom_phong_specular(light, normal, to_eye, m->shininess);
         lit.highlight = lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->specular)), specular);
     }
     return lit;
@@ -30,10 +30,10 @@ LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view,
  * down, turned to the side of the interpolated normal. */
 LOM_INLINE lom_float3 lom_face_normal(const lom_varyings *in, int world, lom_float3 normal)
 {
-    lom_float3 dx   = { lom_dx(in, world), lom_dx(in, world + 1), lom_dx(in, world + 2) };
-    lom_float3 dy   = { lom_dy(in, world), lom_dy(in, world + 1), lom_dy(in, world + 2) };
+    lom_float3 dx = { lom_dx(in, world), lom_dx(in, world + 1), lom_dx(in, world + 2) };
+    lom_float3 dy = { lom_dy(in, world), lom_dy(in, world + 1), lom_dy(in, world + 2) };
     lom_float3 face = lom_normalize3(lom_cross3(dy, dx));
-    lom_float  side = lom_select(lom_dot3(face, normal) < 0.0f, lom_splat(-1.0f), lom_splat(1.0f));
+    lom_float side = lom_select(lom_dot3(face, normal) < 0.0f, lom_splat(-1.0f), lom_splat(1.0f));
     return lom_scale3(face, side);
 }
 

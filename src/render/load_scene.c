@@ -1,5 +1,5 @@
-/* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks that are culled as a whole, entities
- * placed in the world with a material for each part, the water's maps. */
+/* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks that are culled as a whole,
+ * entities placed in the world with a material for each part, the water's maps. */
 #include "render/renderer.h"
 #include "water/lake.h"
 
@@ -10,9 +10,9 @@ enum { BLOCK = 64 }; /* quads along an edge of a terrain block */
 
 static void widen_box(lom_box *box, const float p[3])
 {
-    box->low.x  = p[0] < box->low.x ? p[0] : box->low.x;
-    box->low.y  = p[1] < box->low.y ? p[1] : box->low.y;
-    box->low.z  = p[2] < box->low.z ? p[2] : box->low.z;
+    box->low.x = p[0] < box->low.x ? p[0] : box->low.x;
+    box->low.y = p[1] < box->low.y ? p[1] : box->low.y;
+    box->low.z = p[2] < box->low.z ? p[2] : box->low.z;
     box->high.x = p[0] > box->high.x ? p[0] : box->high.x;
     box->high.y = p[1] > box->high.y ? p[1] : box->high.y;
     box->high.z = p[2] > box->high.z ? p[2] : box->high.z;
@@ -30,9 +30,9 @@ static struct lom_terrain_block make_block(const lom_mesh *mesh, uint32_t first,
 static bool make_blocks(lom_renderer *renderer, int columns, int rows, lom_error *error)
 {
     lom_mesh *mesh = renderer->terrain;
-    int       across = (columns + BLOCK - 1) / BLOCK, down = (rows + BLOCK - 1) / BLOCK;
+    int across = (columns + BLOCK - 1) / BLOCK, down = (rows + BLOCK - 1) / BLOCK;
     uint32_t *ordered = lom_allocate(mesh->index_count, sizeof *ordered, error);
-    renderer->blocks  = lom_allocate((size_t)across * (size_t)down, sizeof *renderer->blocks, error);
+    renderer->blocks = lom_allocate((size_t)across * (size_t)down, sizeof *renderer->blocks, error);
     if (ordered == NULL || renderer->blocks == NULL) {
         lom_release(ordered);
         return false;
@@ -40,8 +40,8 @@ static bool make_blocks(lom_renderer *renderer, int columns, int rows, lom_error
     uint32_t *old = mesh->indices, at = 0;
     mesh->indices = ordered;
     for (int block = 0; block < across * down; block++) {
-        int      x0 = block % across * BLOCK, y0 = block / across * BLOCK;
-        int      width = columns - x0 < BLOCK ? columns - x0 : BLOCK;
+        int x0 = block % across * BLOCK, y0 = block / across * BLOCK;
+        int width = columns - x0 < BLOCK ? columns - x0 : BLOCK;
         uint32_t first = at;
         for (int y = y0; y < y0 + BLOCK && y < rows; y++) {
             size_t quad = (size_t)y * (size_t)columns + (size_t)x0;
@@ -95,10 +95,10 @@ bool lom_load_water(lom_renderer *renderer, lom_error *error)
     lom_image *flow = file == NULL ? NULL : lom_make_flow_map(file, error);
     lom_image *rgba = flow == NULL ? NULL : lom_convert_image(flow, LOM_FORMAT_RGBA8, error);
     if (rgba != NULL)
-        renderer->flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width  = rgba->width,
+        renderer->flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = rgba->width,
                                                                                      .height = rgba->height,
                                                                                      .pixels = rgba->pixels,
-                                                                                     .mips   = LOM_MIPS_ALL });
+                                                                                     .mips = LOM_MIPS_ALL });
     lom_free_image(file);
     lom_free_image(flow);
     lom_free_image(rgba);
@@ -108,11 +108,12 @@ bool lom_load_water(lom_renderer *renderer, lom_error *error)
 /* T Rz Ry Rx S */
 static lom_mat4 place(const lom_renderer *renderer, const lom_entity *entity, const lom_image *ground)
 {
-    const lom_terrain *t        = &renderer->scene->terrain;
-    lom_vec3           position = entity->position;
+    const lom_terrain *t = &renderer->scene->terrain;
+    lom_vec3 position = entity->position;
     if (entity->on_ground && ground != NULL)
         position.y += lom_terrain_height(ground, t->size[0], t->size[1], t->height, t->base, position.x, position.z);
-    lom_mat4 scale = lom_scaling(entity->scale), turn = lom_rotation(entity->rotation), move = lom_translation(position);
+    lom_mat4 scale = lom_scaling(entity->scale), turn = lom_rotation(entity->rotation),
+             move = lom_translation(position);
     lom_mat4 turned = lom_multiply(&turn, &scale);
     return lom_multiply(&move, &turned);
 }
@@ -128,12 +129,12 @@ static bool load_material(lom_renderer *renderer, const lom_entity *entity, cons
                           struct lom_material_uniform *out, lom_error *error)
 {
     const lom_scene_material *over = &entity->material;
-    lom_material              base = own != NULL ? *own : lom_default_material("");
+    lom_material base = own != NULL ? *own : lom_default_material("");
     memcpy(out->ambient, base.ambient, sizeof out->ambient);
     memcpy(out->diffuse, base.diffuse, sizeof out->diffuse);
     memcpy(out->specular, base.specular, sizeof out->specular);
     out->shininess = base.shininess;
-    out->texture   = NULL;
+    out->texture = NULL;
     if (over->given & LOM_MATERIAL_AMBIENT)
         copy3(out->ambient, over->ambient);
     if (over->given & LOM_MATERIAL_DIFFUSE)
@@ -142,11 +143,11 @@ static bool load_material(lom_renderer *renderer, const lom_entity *entity, cons
         copy3(out->specular, over->specular);
     if (over->given & LOM_MATERIAL_SHININESS)
         out->shininess = (float)over->shininess;
-    char        path[4096];
+    char path[4096];
     const char *texture = (over->given & LOM_MATERIAL_TEXTURE) != 0 ? over->texture : NULL;
     if (texture == NULL && base.diffuse_map[0] != 0) {
-        const char *slash  = strrchr(entity->mesh, '/');
-        int         folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
+        const char *slash = strrchr(entity->mesh, '/');
+        int folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
         snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, base.diffuse_map);
         texture = path;
     }
@@ -158,14 +159,14 @@ static bool load_material(lom_renderer *renderer, const lom_entity *entity, cons
 static bool load_parts(lom_renderer *renderer, struct lom_loaded_entity *loaded, lom_error *error)
 {
     const lom_mesh *mesh = loaded->drawn;
-    loaded->parts        = lom_allocate(mesh->part_count, sizeof *loaded->parts, error);
+    loaded->parts = lom_allocate(mesh->part_count, sizeof *loaded->parts, error);
     if (loaded->parts == NULL)
         return false;
     for (size_t i = 0; i < mesh->part_count; i++) {
         const lom_mesh_part *part = &mesh->parts[i];
-        const lom_material  *own  = part->material < 0 ? NULL : &mesh->materials[part->material];
-        loaded->parts[i].first    = part->first_index;
-        loaded->parts[i].count    = part->index_count;
+        const lom_material *own = part->material < 0 ? NULL : &mesh->materials[part->material];
+        loaded->parts[i].first = part->first_index;
+        loaded->parts[i].count = part->index_count;
         if (!load_material(renderer, loaded->entity, own, &loaded->parts[i].material, error))
             return false;
     }
@@ -183,8 +184,8 @@ static const lom_mesh *find_mesh(const lom_renderer *renderer, const char *path)
 static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const lom_image *ground, lom_error *error)
 {
     struct lom_loaded_entity *loaded = &renderer->entities[renderer->entity_count];
-    loaded->entity                   = entity;
-    loaded->drawn                    = find_mesh(renderer, entity->mesh);
+    loaded->entity = entity;
+    loaded->drawn = find_mesh(renderer, entity->mesh);
     if (loaded->drawn == NULL)
         loaded->drawn = loaded->mesh = lom_read_obj(entity->mesh, error);
     renderer->entity_count++;
@@ -199,9 +200,9 @@ static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const 
 
 bool lom_load_entities(lom_renderer *renderer, lom_error *error)
 {
-    const lom_scene *scene  = renderer->scene;
-    lom_image       *ground = NULL;
-    renderer->entities      = lom_allocate(scene->entity_count, sizeof *renderer->entities, error);
+    const lom_scene *scene = renderer->scene;
+    lom_image *ground = NULL;
+    renderer->entities = lom_allocate(scene->entity_count, sizeof *renderer->entities, error);
     if (renderer->entities == NULL)
         return false;
     if (scene->terrain.given != 0) {

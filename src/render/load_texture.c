@@ -9,10 +9,10 @@ static lom_sampler_desc sampler_of(const lom_quality *quality)
     static const struct {
         lom_filter minify, magnify;
     } filters[] = { [LOM_TEXTURE_TRILINEAR] = { LOM_FILTER_LINEAR_MIPMAP_LINEAR, LOM_FILTER_LINEAR },
-                    [LOM_TEXTURE_BILINEAR]  = { LOM_FILTER_LINEAR_MIPMAP_NEAREST, LOM_FILTER_LINEAR },
-                    [LOM_TEXTURE_NEAREST]   = { LOM_FILTER_NEAREST_MIPMAP_NEAREST, LOM_FILTER_NEAREST } };
+                    [LOM_TEXTURE_BILINEAR] = { LOM_FILTER_LINEAR_MIPMAP_NEAREST, LOM_FILTER_LINEAR },
+                    [LOM_TEXTURE_NEAREST] = { LOM_FILTER_NEAREST_MIPMAP_NEAREST, LOM_FILTER_NEAREST } };
     lom_filter within = quality->texture_filter == LOM_TEXTURE_NEAREST ? LOM_FILTER_NEAREST : LOM_FILTER_LINEAR;
-    return (lom_sampler_desc){ .minify  = quality->mipmaps ? filters[quality->texture_filter].minify : within,
+    return (lom_sampler_desc){ .minify = quality->mipmaps ? filters[quality->texture_filter].minify : within,
                                .magnify = filters[quality->texture_filter].magnify };
 }
 
@@ -27,20 +27,20 @@ static lom_format format_of(const lom_image *image, bool srgb)
 static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    lom_image       *file  = lom_read_image(path, error);
+    lom_image *file = lom_read_image(path, error);
     if (file == NULL)
         return NULL;
-    bool         deep   = lom_describe_format(file->format)->bits > 8;
-    lom_image   *image  = lom_convert_image(file, deep ? LOM_FORMAT_RGBA16 : LOM_FORMAT_RGBA8, error);
+    bool deep = lom_describe_format(file->format)->bits > 8;
+    lom_image *image = lom_convert_image(file, deep ? LOM_FORMAT_RGBA16 : LOM_FORMAT_RGBA8, error);
     lom_texture *result = NULL;
-    bool         srgb   = color && scene->output.transfer == LOM_TRANSFER_SRGB;
+    bool srgb = color && scene->output.transfer == LOM_TRANSFER_SRGB;
     if (image != NULL) {
         result = lom_make_texture(renderer->device,
-                                  &(lom_texture_desc){ .width   = image->width,
-                                                       .height  = image->height,
-                                                       .format  = format_of(image, srgb),
-                                                       .pixels  = image->pixels,
-                                                       .mips    = scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
+                                  &(lom_texture_desc){ .width = image->width,
+                                                       .height = image->height,
+                                                       .format = format_of(image, srgb),
+                                                       .pixels = image->pixels,
+                                                       .mips = scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                                        .sampler = sampler_of(&scene->quality) });
         if (result == NULL)
             lom_fail(error, lom_device_error(renderer->device)->code, "%s: %s", path,
@@ -61,7 +61,7 @@ static bool grow(void **items, size_t *capacity, size_t count, size_t size, lom_
     if (count > 0)
         memcpy(larger, *items, count * size);
     lom_release(*items);
-    *items    = larger;
+    *items = larger;
     *capacity = 2 * count + 8;
     return true;
 }
@@ -70,7 +70,7 @@ static bool grow(void **items, size_t *capacity, size_t count, size_t size, lom_
 static const char *keep_path(lom_renderer *renderer, const char *path, lom_error *error)
 {
     size_t size = strlen(path) + 1;
-    char  *copy = lom_allocate(size, 1, error);
+    char *copy = lom_allocate(size, 1, error);
     if (copy == NULL || !grow((void **)&renderer->paths, &renderer->path_capacity, renderer->path_count,
                               sizeof *renderer->paths, error)) {
         lom_release(copy);
@@ -88,7 +88,7 @@ lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool col
     if (!grow((void **)&renderer->textures, &renderer->texture_capacity, renderer->texture_count,
               sizeof *renderer->textures, error))
         return NULL;
-    const char  *kept    = keep_path(renderer, path, error);
+    const char *kept = keep_path(renderer, path, error);
     lom_texture *texture = kept == NULL ? NULL : make_texture(renderer, path, color, error);
     if (texture != NULL)
         renderer->textures[renderer->texture_count++] = (struct lom_cached_texture){ kept, color, texture };

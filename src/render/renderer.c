@@ -14,17 +14,18 @@ static bool load(lom_renderer *renderer, lom_error *error)
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)
 {
     lom_float_state state;
-    lom_renderer   *renderer = lom_allocate(1, sizeof *renderer, error);
+    lom_renderer *renderer = lom_allocate(1, sizeof *renderer, error);
     if (renderer == NULL)
         return NULL;
     lom_enter_float_state(&state);
-    renderer->scene  = scene;
+    renderer->scene = scene;
     renderer->device = lom_open_device(desc);
-    bool done        = renderer->device != NULL;
+    bool done = renderer->device != NULL;
     if (!done)
         lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for a device.");
     if (done && lom_device_error(renderer->device)->code != LOM_OK)
-        done = lom_fail(error, lom_device_error(renderer->device)->code, "%s", lom_device_error(renderer->device)->text);
+        done =
+            lom_fail(error, lom_device_error(renderer->device)->code, "%s", lom_device_error(renderer->device)->text);
     done = done && load(renderer, error);
     lom_leave_float_state(&state);
     if (done)

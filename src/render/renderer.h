@@ -7,53 +7,54 @@
 #include <lom/render.h>
 
 struct lom_cached_texture {
-    const char  *path; /* the scene's string, or one of the mesh's materials' */
-    bool         color;
+    const char *path; /* the scene's string, or one of the mesh's materials' */
+    bool color;
     lom_texture *texture;
 };
 
 struct lom_loaded_part { /* the triangles of one material */
-    uint32_t                    first, count;
+    uint32_t first, count;
     struct lom_material_uniform material;
 };
 
 struct lom_loaded_entity {
-    const lom_entity       *entity;
-    lom_mesh               *mesh; /* NULL where another entity owns it, or nothing is drawn */
-    const lom_mesh         *drawn;
+    const lom_entity *entity;
+    lom_mesh *mesh; /* NULL where another entity owns it, or nothing is drawn */
+    const lom_mesh *drawn;
     struct lom_loaded_part *parts;
-    lom_mat4                world_from_model, normal_from_model;
-    lom_box                 bounds; /* in the world */
+    lom_mat4 world_from_model, normal_from_model;
+    lom_box bounds; /* in the world */
 };
 
 /* A square of the terrain's grid, culled as a whole. */
 struct lom_terrain_block {
     uint32_t first, count;
-    lom_box  bounds;
+    lom_box bounds;
 };
 
 struct lom_renderer {
     const lom_scene *scene;
-    lom_device      *device;
+    lom_device *device;
 
     struct lom_cached_texture *textures;
-    size_t                     texture_count, texture_capacity;
-    char                     **paths; /* made for materials' maps */
-    size_t                     path_count, path_capacity;
+    size_t texture_count, texture_capacity;
+    char **paths; /* made for materials' maps */
+    size_t path_count, path_capacity;
 
-    lom_texture              *sky, *normal_map, *flow_map;
-    lom_mesh                 *terrain;
+    lom_texture *sky, *normal_map, *flow_map;
+    lom_mesh *terrain;
     struct lom_terrain_block *blocks;
-    size_t                    block_count;
+    size_t block_count;
     struct lom_loaded_entity *entities;
-    size_t                    entity_count;
+    size_t entity_count;
 
     /* targets, remade when the size changes */
-    int          width, height, target_width, target_height;
+    int width, height, target_width, target_height;
     lom_texture *color, *depth, *mask, *reflection, *reflection_depth, *refraction, *refraction_depth;
 };
 
-/* The texture of a picture, loaded once; color: it holds colours (sRGB-encoded unless the scene's transfer is naive). */
+/* The texture of a picture, loaded once; color: it holds colours (sRGB-encoded unless the scene's transfer is naive).
+ */
 lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error);
 /* Terrain in blocks, entities with their materials, the water's maps. */
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error);
@@ -64,12 +65,13 @@ bool lom_load_water(lom_renderer *renderer, lom_error *error);
 struct lom_scene_view {
     lom_mat4 projection, view;
     lom_vec3 eye;
-    double   plane[4];  /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
-    bool     mirrored;  /* front faces are clockwise */
-    bool     sky;
+    double plane[4]; /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
+    bool mirrored;   /* front faces are clockwise */
+    bool sky;
 };
 
-/* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs nothing. */
+/* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
+ * nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* Makes the targets for a frame of this size of which target_width x target_height is drawn. */

@@ -1,26 +1,26 @@
-/* Uniforms of the surfaces that a scene is built of: entities and terrain. Each has a shader for each shading frequency:
- * flat (a normal a face), Gouraud (light at the vertices) and Phong (light at each fragment). */
+/* Uniforms of the surfaces that a scene is built of: entities and terrain. Each has a shader for each shading
+ * frequency: flat (a normal a face), Gouraud (light at the vertices) and Phong (light at each fragment). */
 #ifndef LOM_RENDER_SURFACE_H
 #define LOM_RENDER_SURFACE_H
 
 #include "pipeline/uniforms.h"
 
 struct lom_material_uniform {
-    float              ambient[3], diffuse[3], specular[3], shininess;
+    float ambient[3], diffuse[3], specular[3], shininess;
     const lom_texture *texture; /* multiplies ambient and diffuse; NULL: white */
 };
 
 /* What every surface of a pass shares. */
 struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_world;
-    struct lom_light_uniform  light;
-    float                     eye[3];
-    float                     plane[4]; /* clip distance 0 is plane . (world, 1); (0, 0, 0, 1) keeps everything */
+    struct lom_light_uniform light;
+    float eye[3];
+    float plane[4]; /* clip distance 0 is plane . (world, 1); (0, 0, 0, 1) keeps everything */
 };
 
 struct lom_entity_uniforms {
-    struct lom_view_uniform     view;
-    struct lom_matrix_uniform   world_from_model, normal_from_model;
+    struct lom_view_uniform view;
+    struct lom_matrix_uniform world_from_model, normal_from_model;
     struct lom_material_uniform material;
 };
 
@@ -28,20 +28,20 @@ enum { LOM_MAX_TERRAIN_LAYERS = 8 };
 
 struct lom_layer_uniform {
     const lom_texture *map;
-    float              scale[2];                /* repetitions a metre along x and z */
-    float              from_height, to_height;  /* metres */
-    float              from_slope, to_slope;    /* radians */
-    float              blend, slope_blend;      /* above 0 */
+    float scale[2];               /* repetitions a metre along x and z */
+    float from_height, to_height; /* metres */
+    float from_slope, to_slope;   /* radians */
+    float blend, slope_blend;     /* above 0 */
 };
 
 struct lom_terrain_uniforms {
-    struct lom_view_uniform     view;
+    struct lom_view_uniform view;
     struct lom_material_uniform material;
-    float                       scale[2];        /* of the base texture */
-    float                       detail_scale[2]; /* of the detail and normal maps */
-    const lom_texture          *detail_map, *normal_map;
-    int                         layer_count;
-    struct lom_layer_uniform    layer[LOM_MAX_TERRAIN_LAYERS];
+    float scale[2];        /* of the base texture */
+    float detail_scale[2]; /* of the detail and normal maps */
+    const lom_texture *detail_map, *normal_map;
+    int layer_count;
+    struct lom_layer_uniform layer[LOM_MAX_TERRAIN_LAYERS];
 };
 
 /* Indexed by lom_shading. */

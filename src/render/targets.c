@@ -1,5 +1,5 @@
-/* The targets of a frame's passes, and the finished picture. In: sizes. Out: textures; the picture in the scene's output
- * format, encoded once. */
+/* The targets of a frame's passes, and the finished picture. In: sizes. Out: textures; the picture in the scene's
+ * output format, encoded once. */
 #include "render/renderer.h"
 
 static int scaled(int size, double scale)
@@ -13,8 +13,9 @@ static lom_texture *make_target(lom_renderer *renderer, int width, int height, l
     lom_sampler_desc sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP };
     if (format == LOM_FORMAT_DEPTH32F)
         sampler.magnify = sampler.minify = LOM_FILTER_NEAREST;
-    return lom_make_texture(renderer->device,
-                            &(lom_texture_desc){ .width = width, .height = height, .format = format, .sampler = sampler });
+    return lom_make_texture(
+        renderer->device,
+        &(lom_texture_desc){ .width = width, .height = height, .format = format, .sampler = sampler });
 }
 
 static void release_targets(lom_renderer *r)
@@ -38,12 +39,14 @@ static lom_format color_format(const lom_scene *scene)
 static void make_water_targets(lom_renderer *r, int width, int height)
 {
     const lom_scene *scene = r->scene;
-    int reflection_width = scaled(width, scene->quality.reflection_scale), reflection_height = scaled(height, scene->quality.reflection_scale);
-    int refraction_width = scaled(width, scene->quality.refraction_scale), refraction_height = scaled(height, scene->quality.refraction_scale);
-    r->mask             = make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8);
-    r->reflection       = make_target(r, reflection_width, reflection_height, color_format(scene));
+    int reflection_width = scaled(width, scene->quality.reflection_scale),
+        reflection_height = scaled(height, scene->quality.reflection_scale);
+    int refraction_width = scaled(width, scene->quality.refraction_scale),
+        refraction_height = scaled(height, scene->quality.refraction_scale);
+    r->mask = make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8);
+    r->reflection = make_target(r, reflection_width, reflection_height, color_format(scene));
     r->reflection_depth = make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F);
-    r->refraction       = make_target(r, refraction_width, refraction_height, color_format(scene));
+    r->refraction = make_target(r, refraction_width, refraction_height, color_format(scene));
     r->refraction_depth = make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F);
 }
 
@@ -53,12 +56,12 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, 
         r->target_height == target_height)
         return true;
     release_targets(r);
-    r->width         = width;
-    r->height        = height;
-    r->target_width  = target_width;
+    r->width = width;
+    r->height = height;
+    r->target_width = target_width;
     r->target_height = target_height;
-    r->color         = make_target(r, target_width, target_height, color_format(r->scene));
-    r->depth         = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F);
+    r->color = make_target(r, target_width, target_height, color_format(r->scene));
+    r->depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F);
     if (r->scene->water.given != 0 && r->scene->water.enabled)
         make_water_targets(r, width, height);
     const lom_error *failed = lom_device_error(r->device);
@@ -83,10 +86,10 @@ static lom_image *encode_16(const lom_image *linear, bool srgb, lom_error *error
     for (int y = 0; y < out->height; y++)
         for (int x = 0; x < out->width; x++) {
             const float *from = lom_image_pixel(linear, x, y, 0);
-            uint16_t    *to   = lom_image_pixel(out, x, y, 0);
+            uint16_t *to = lom_image_pixel(out, x, y, 0);
             for (int c = 0; c < 3; c++) {
                 double value = from[c] > 0 ? from[c] < 1 ? from[c] : 1 : 0;
-                to[c]        = (uint16_t)((srgb ? encode_srgb(value) : value) * 65535 + 0.5);
+                to[c] = (uint16_t)((srgb ? encode_srgb(value) : value) * 65535 + 0.5);
             }
         }
     return out;
@@ -95,9 +98,9 @@ static lom_image *encode_16(const lom_image *linear, bool srgb, lom_error *error
 lom_image *lom_output_image(const lom_renderer *renderer, lom_error *error)
 {
     const lom_output *output = &renderer->scene->output;
-    bool              srgb   = output->transfer == LOM_TRANSFER_SRGB;
-    lom_image        *drawn  = lom_read_texture(renderer->color, 0, 0, error);
-    lom_image        *out    = NULL;
+    bool srgb = output->transfer == LOM_TRANSFER_SRGB;
+    lom_image *drawn = lom_read_texture(renderer->color, 0, 0, error);
+    lom_image *out = NULL;
     if (drawn == NULL)
         return NULL;
     if (output->format == LOM_OUTPUT_RGB8)

@@ -9,15 +9,16 @@ static uint8_t *join_faces(const lom_sky_params *sky, int *size, lom_error *erro
 {
     uint8_t *pixels = NULL;
     for (int i = 0; i < 6; i++) {
-        lom_image *file  = lom_read_image(sky->faces[i], error);
+        lom_image *file = lom_read_image(sky->faces[i], error);
         lom_image *image = file == NULL ? NULL : lom_convert_image(file, LOM_FORMAT_RGBA8, error);
         lom_free_image(file);
         bool fits = image != NULL && image->width == image->height && (i == 0 || image->width == *size);
         if (image != NULL && !fits)
-            lom_fail(error, LOM_ERROR_INPUT, "%s: the faces of a sky box are squares of one size, and this one is %dx%d.",
-                     sky->faces[i], image->width, image->height);
+            lom_fail(error, LOM_ERROR_INPUT,
+                     "%s: the faces of a sky box are squares of one size, and this one is %dx%d.", sky->faces[i],
+                     image->width, image->height);
         if (fits && i == 0) {
-            *size  = image->width;
+            *size = image->width;
             pixels = lom_allocate(lom_image_size(image), 6, error);
         }
         if (fits && pixels != NULL)
@@ -39,19 +40,20 @@ lom_texture *lom_load_sky(lom_device *device, const lom_sky_params *sky, bool sr
     uint8_t *pixels = join_faces(sky, &size, error);
     if (pixels == NULL)
         return NULL;
-    lom_texture *box = lom_make_texture(device, &(lom_texture_desc){ .kind   = LOM_TEXTURE_CUBE,
-                                                                     .width  = size,
-                                                                     .height = size,
-                                                                     .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
-                                                                     .pixels = pixels });
+    lom_texture *box =
+        lom_make_texture(device, &(lom_texture_desc){ .kind = LOM_TEXTURE_CUBE,
+                                                      .width = size,
+                                                      .height = size,
+                                                      .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
+                                                      .pixels = pixels });
     lom_release(pixels);
     if (box == NULL)
         lom_fail(error, lom_device_error(device)->code, "%s", lom_device_error(device)->text);
     return box;
 }
 
-/* The ray through (ndc x, ndc y) in view space is (x / p00, y / p11, -1); the rows of the view's rotation take it to the
- * world, and the sky's own rotation about y turns it back. */
+/* The ray through (ndc x, ndc y) in view space is (x / p00, y / p11, -1); the rows of the view's rotation take it to
+ * the world, and the sky's own rotation about y turns it back. */
 static void find_direction(const lom_sky_params *sky, const lom_mat4 *projection, const lom_mat4 *view, float out[3][3])
 {
     double ray[3] = { 1 / projection->m[0][0], 1 / projection->m[1][1], -1 };
@@ -70,15 +72,15 @@ static void find_direction(const lom_sky_params *sky, const lom_mat4 *projection
 void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const lom_mat4 *projection,
                   const lom_mat4 *view)
 {
-    static const float      corners[3][2] = { { -1, -1 }, { 3, -1 }, { -1, 3 } };
-    struct lom_sky_uniforms uniforms      = { .box = box };
+    static const float corners[3][2] = { { -1, -1 }, { 3, -1 }, { -1, 3 } };
+    struct lom_sky_uniforms uniforms = { .box = box };
     find_direction(sky, projection, view, uniforms.direction);
     for (int i = 0; i < 3; i++)
         uniforms.color[i] = (float)(sky->intensity * (box != NULL ? 1 : sky->color[i]));
-    lom_draw(device, &(lom_draw_desc){ .shader          = box != NULL ? &lom_sky_box_shader : &lom_sky_color_shader,
-                                       .uniforms        = &uniforms,
-                                       .attribute       = { { corners, sizeof corners, 8, LOM_ATTRIBUTE_FLOAT2 } },
-                                       .count           = 3,
-                                       .depth_compare   = LOM_COMPARE_EQUAL,
+    lom_draw(device, &(lom_draw_desc){ .shader = box != NULL ? &lom_sky_box_shader : &lom_sky_color_shader,
+                                       .uniforms = &uniforms,
+                                       .attribute = { { corners, sizeof corners, 8, LOM_ATTRIBUTE_FLOAT2 } },
+                                       .count = 3,
+                                       .depth_compare = LOM_COMPARE_EQUAL,
                                        .depth_write_off = true });
 }

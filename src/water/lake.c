@@ -1,5 +1,5 @@
-/* The lake as a draw. In: its parameters and the camera. Out: one draw of a quad, which is placed by a translation and a
- * scale of (1,0,0) (0,0,0) (1,0,1) (0,0,1). */
+/* The lake as a draw. In: its parameters and the camera. Out: one draw of a quad, which is placed by a translation and
+ * a scale of (1,0,0) (0,0,0) (1,0,1) (0,0,1). */
 #include "water/lake.h"
 
 static void set_vector(float out[3], const double in[3])
@@ -12,38 +12,38 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
 {
     double moved = view->time * water->flow_speed;
 
-    struct lom_lake_uniforms u = { .light             = view->light,
-                                   .eye               = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
-                                   .level             = (float)water->level,
-                                   .pixel             = { 1.0f / (float)view->frame_width, 1.0f / (float)view->frame_height },
-                                   .tile              = (float)(1 / water->tile),
-                                   .move              = (float)(moved - lom_double_floor(moved)),
-                                   .near_plane        = (float)view->near_plane,
-                                   .flow_strength     = (float)water->flow_strength,
-                                   .normal_up         = (float)water->normal_up,
-                                   .reflectivity      = (float)water->reflectivity,
-                                   .fresnel_power     = (float)water->fresnel_power,
-                                   .shininess         = (float)water->shininess,
+    struct lom_lake_uniforms u = { .light = view->light,
+                                   .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
+                                   .level = (float)water->level,
+                                   .pixel = { 1.0f / (float)view->frame_width, 1.0f / (float)view->frame_height },
+                                   .tile = (float)(1 / water->tile),
+                                   .move = (float)(moved - lom_double_floor(moved)),
+                                   .near_plane = (float)view->near_plane,
+                                   .flow_strength = (float)water->flow_strength,
+                                   .normal_up = (float)water->normal_up,
+                                   .reflectivity = (float)water->reflectivity,
+                                   .fresnel_power = (float)water->fresnel_power,
+                                   .shininess = (float)water->shininess,
                                    .specular_strength = (float)water->specular_strength,
-                                   .tint_amount       = (float)water->tint_amount,
-                                   .shore_depth       = (float)water->shore_depth,
-                                   .quad              = { (float)(water->position[0] - water->size[0] / 2),
-                                                          (float)(water->position[1] - water->size[1] / 2),
-                                                          (float)water->size[0], (float)water->size[1] },
-                                   .reflection        = view->reflection,
-                                   .refraction        = view->refraction,
-                                   .refraction_depth  = view->refraction_depth,
-                                   .normal_map        = view->normal_map,
-                                   .flow_map          = view->flow_map,
-                                   .has_reflection    = view->reflection != NULL,
-                                   .has_refraction    = water->refraction && view->refraction != NULL,
-                                   .has_projection    = water->projection,
-                                   .has_flow          = water->flow && view->flow_map != NULL,
-                                   .has_normals       = water->normals && view->normal_map != NULL,
-                                   .has_fresnel       = water->fresnel,
-                                   .has_specular      = water->specular,
-                                   .has_tint          = water->tint,
-                                   .has_soft_shore    = water->soft_shore && view->refraction_depth != NULL };
+                                   .tint_amount = (float)water->tint_amount,
+                                   .shore_depth = (float)water->shore_depth,
+                                   .quad = { (float)(water->position[0] - water->size[0] / 2),
+                                             (float)(water->position[1] - water->size[1] / 2), (float)water->size[0],
+                                             (float)water->size[1] },
+                                   .reflection = view->reflection,
+                                   .refraction = view->refraction,
+                                   .refraction_depth = view->refraction_depth,
+                                   .normal_map = view->normal_map,
+                                   .flow_map = view->flow_map,
+                                   .has_reflection = view->reflection != NULL,
+                                   .has_refraction = water->refraction && view->refraction != NULL,
+                                   .has_projection = water->projection,
+                                   .has_flow = water->flow && view->flow_map != NULL,
+                                   .has_normals = water->normals && view->normal_map != NULL,
+                                   .has_fresnel = water->fresnel,
+                                   .has_specular = water->specular,
+                                   .has_tint = water->tint,
+                                   .has_soft_shore = water->soft_shore && view->refraction_depth != NULL };
     for (int row = 0; row < 4; row++)
         for (int column = 0; column < 4; column++)
             u.clip_from_world.m[row][column] = (float)view->clip_from_world.m[row][column];
@@ -52,18 +52,17 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
     return u;
 }
 
-void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water_params *water, const lom_lake_view *view)
+void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water_params *water,
+                   const lom_lake_view *view)
 {
-    struct lom_lake_uniforms uniforms      = find_uniforms(water, view);
-    lom_blend                over          = { .enabled      = true,
-                                               .source_color = LOM_FACTOR_SOURCE_ALPHA,
-                                               .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
-                                               .target_alpha = LOM_FACTOR_ONE };
-    lom_draw_desc            draw = { .shader          = shader,
-                                      .uniforms        = &uniforms,
-                                      .count           = 4,
-                                      .topology        = LOM_TRIANGLE_STRIP,
-                                      .depth_write_off = true };
+    struct lom_lake_uniforms uniforms = find_uniforms(water, view);
+    lom_blend over = { .enabled = true,
+                       .source_color = LOM_FACTOR_SOURCE_ALPHA,
+                       .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+                       .target_alpha = LOM_FACTOR_ONE };
+    lom_draw_desc draw = {
+        .shader = shader, .uniforms = &uniforms, .count = 4, .topology = LOM_TRIANGLE_STRIP, .depth_write_off = true
+    };
     if (shader == &lom_lake_shader)
         draw.blend[0] = over;
     lom_draw(device, &draw);

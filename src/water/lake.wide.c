@@ -1,5 +1,5 @@
-/* The planar lake's shaders (spec, part A, steps 3 to 9). In: fragments of the quad, the reflection and refraction of the
- * scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
+/* The planar lake's shaders (spec, part A, steps 3 to 9). In: fragments of the quad, the reflection and refraction of
+ * the scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
 #include "water/lake.h"
 
 enum { WORLD_X, WORLD_Y, WORLD_Z };
@@ -7,33 +7,33 @@ enum { WORLD_X, WORLD_Y, WORLD_Z };
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_lake_uniforms *lake = uniforms;
-    lom_float                       u = lom_to_float(in->vertex & 1), v = lom_to_float(in->vertex >> 1);
+    lom_float u = lom_to_float(in->vertex & 1), v = lom_to_float(in->vertex >> 1);
     lom_float3 world = { lake->quad[0] + u * lake->quad[2], lom_splat(lake->level), lake->quad[1] + v * lake->quad[3] };
-    out->position         = lom_transform4(&lake->clip_from_world, world);
+    out->position = lom_transform4(&lake->clip_from_world, world);
     out->varying[WORLD_X] = world.x;
     out->varying[WORLD_Y] = world.y;
     out->varying[WORLD_Z] = world.z;
 }
 
 struct surface {
-    lom_float  s, t;       /* where the pictures are looked up */
-    lom_float  depth;      /* metres of water below */
-    lom_float3 normal;     /* unit length */
-    lom_float  offset_s, offset_t;
+    lom_float s, t;    /* where the pictures are looked up */
+    lom_float depth;   /* metres of water below */
+    lom_float3 normal; /* unit length */
+    lom_float offset_s, offset_t;
 };
 
 /* Depth of the water straight down, from the refraction's depth picture: with reversed infinite depth near / z is the
  * distance along the view axis, and the point below lies on the fragment's own ray. */
 static lom_float water_depth(const struct lom_lake_uniforms *lake, const lom_varyings *in)
 {
-    lom_float stored   = lom_sample_depth(lake->refraction_depth, in->x * lake->pixel[0], in->y * lake->pixel[1]);
+    lom_float stored = lom_sample_depth(lake->refraction_depth, in->x * lake->pixel[0], in->y * lake->pixel[1]);
     lom_float distance = lake->near_plane / lom_max(stored, lom_splat(1e-6f));
-    lom_float drop     = (lake->eye[1] - in->varying[WORLD_Y]) * (distance / in->w - 1.0f);
+    lom_float drop = (lake->eye[1] - in->varying[WORLD_Y]) * (distance / in->w - 1.0f);
     return lom_max(drop, (lom_float){ 0 });
 }
 
-/* Steps 4 and 5: the flow map, read where it has drifted to, displaces the maps' coordinates and the lookups; the normal map
- * has y and z swapped because the surface faces up, and its up component is scaled (3 in the reference). */
+/* Steps 4 and 5: the flow map, read where it has drifted to, displaces the maps' coordinates and the lookups; the
+ * normal map has y and z swapped because the surface faces up, and its up component is scaled (3 in the reference). */
 static void perturb(const struct lom_lake_uniforms *lake, const lom_varyings *in, struct surface *w)
 {
     lom_float u = in->varying[WORLD_X] * lake->tile, v = in->varying[WORLD_Z] * lake->tile;
@@ -41,19 +41,19 @@ static void perturb(const struct lom_lake_uniforms *lake, const lom_varyings *in
     lom_float uy = lom_dy(in, WORLD_X) * lake->tile, vy = lom_dy(in, WORLD_Z) * lake->tile;
     w->offset_s = w->offset_t = (lom_float){ 0 };
     if (lake->has_flow) {
-        lom_float  lod   = lom_lod_of(lake->flow_map, ux, vx, uy, vy);
+        lom_float lod = lom_lod_of(lake->flow_map, ux, vx, uy, vy);
         lom_float4 drift = lom_sample(lake->flow_map, u + lake->move, v, lod);
-        u                = u + drift.x * 0.1f;
-        v                = v + (drift.y * 0.1f + lake->move);
-        lom_float4 flow  = lom_sample(lake->flow_map, u, v, lod);
-        w->offset_s      = (flow.x * 2.0f - 1.0f) * lake->flow_strength;
-        w->offset_t      = (flow.y * 2.0f - 1.0f) * lake->flow_strength;
+        u = u + drift.x * 0.1f;
+        v = v + (drift.y * 0.1f + lake->move);
+        lom_float4 flow = lom_sample(lake->flow_map, u, v, lod);
+        w->offset_s = (flow.x * 2.0f - 1.0f) * lake->flow_strength;
+        w->offset_t = (flow.y * 2.0f - 1.0f) * lake->flow_strength;
     }
     w->normal = lom_splat3(0, 1, 0);
     if (lake->has_normals) {
         lom_float4 texel = lom_sample(lake->normal_map, u, v, lom_lod_of(lake->normal_map, ux, vx, uy, vy));
-        w->normal        = lom_normalize3((lom_float3){ texel.x * 2.0f - 1.0f, texel.z * lake->normal_up,
-                                                        texel.y * 2.0f - 1.0f });
+        w->normal =
+            lom_normalize3((lom_float3){ texel.x * 2.0f - 1.0f, texel.z * lake->normal_up, texel.y * 2.0f - 1.0f });
     }
 }
 
@@ -92,26 +92,26 @@ static lom_float transmitted_share(const struct lom_lake_uniforms *lake, lom_flo
 
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    const struct lom_lake_uniforms *lake  = uniforms;
-    lom_float3                      world = { in->varying[WORLD_X], in->varying[WORLD_Y], in->varying[WORLD_Z] };
-    lom_float3                      to_eye = lom_normalize3(lom_sub3(lom_uniform3(lake->eye), world));
-    struct surface                  w      = { .depth = lom_splat(1e9f) };
+    const struct lom_lake_uniforms *lake = uniforms;
+    lom_float3 world = { in->varying[WORLD_X], in->varying[WORLD_Y], in->varying[WORLD_Z] };
+    lom_float3 to_eye = lom_normalize3(lom_sub3(lom_uniform3(lake->eye), world));
+    struct surface w = { .depth = lom_splat(1e9f) };
     if (lake->refraction_depth != NULL)
         w.depth = water_depth(lake, in);
     perturb(lake, in, &w);
     place_lookups(lake, in, &w);
     lom_float3 reflection = look_up(lake->reflection, lake->has_reflection, &w, lake->color);
     lom_float3 refraction = look_up(lake->refraction, lake->has_refraction, &w, lake->color);
-    lom_float3 color      = lom_mix3(reflection, refraction, transmitted_share(lake, to_eye, w.normal));
+    lom_float3 color = lom_mix3(reflection, refraction, transmitted_share(lake, to_eye, w.normal));
     if (lake->has_tint)
         color = lom_mix3(color, lom_uniform3(lake->tint_color), lom_splat(lake->tint_amount));
     if (lake->has_specular) {
         lom_float highlight = lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess);
-        highlight           = highlight * lake->specular_strength * lom_saturate(w.depth * 0.5f);
-        color               = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
+        highlight = highlight * lake->specular_strength * lom_saturate(w.depth * 0.5f);
+        color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
     }
     lom_float alpha = lake->has_soft_shore ? lom_saturate(w.depth / lake->shore_depth) : lom_splat(1.0f);
-    out->color[0]   = (lom_float4){ color.x, color.y, color.z, alpha };
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
 }
 
 static void mask_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -121,7 +121,7 @@ static void mask_fragment(lom_fragment *out, const lom_varyings *in, const void 
     out->color[0] = (lom_float4){ lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
 }
 
-LOM_SHADER(lom_lake_shader, vertex, fragment, .varyings = 3, .reads = 7, .differentiates = 5,
-           .reads_position = true, .colors = 1, .uniforms_size = sizeof(struct lom_lake_uniforms))
+LOM_SHADER(lom_lake_shader, vertex, fragment, .varyings = 3, .reads = 7, .differentiates = 5, .reads_position = true,
+           .colors = 1, .uniforms_size = sizeof(struct lom_lake_uniforms))
 LOM_SHADER(lom_lake_mask_shader, vertex, mask_fragment, .varyings = 3, .colors = 1,
            .uniforms_size = sizeof(struct lom_lake_uniforms))

@@ -95,7 +95,7 @@ static void gathers_read_what_their_indices_name(void)
 static void compress_keeps_set_lanes_in_order(void)
 {
     for (uint64_t n = 0; n < 70000; n++) {
-        float    a[LOM_LANES], b[LOM_LANES];
+        float a[LOM_LANES], b[LOM_LANES];
         lom_mask mask = lom_mask_of_bits((uint32_t)n);
         lom_compress(a, mask, lom_as_float(pattern(6, n)));
         lom_defined_compress(b, mask, lom_as_float(pattern(6, n)));

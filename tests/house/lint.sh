@@ -1,0 +1,44 @@
+#!/bin/sh
+# What the house asks of the source, apart from what it does: run by `make lint`. Names every finding; fails when there is
+# one. A tool that is not installed is named and passed over.
+BUILD=${BUILD:-build}
+CC=${CC:-cc}
+status=0
+found() { echo "lint: $1"; status=1; }
+have() { command -v "$1" >/dev/null 2>&1 || { echo "lint: $1 is not installed, so $2 was not checked"; return 1; }; }
+
+tests/house/layers.sh || status=1
+
+sources=$(ls include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])
+if have clang-format "the format"; then
+    clang-format --dry-run -Werror $sources 2>"$BUILD/format.log" || {
+        grep -o '^[^:]*' "$BUILD/format.log" | sort -u | grep '^[a-z]*/' | sed 's/$/: not formatted; run make format/'; status=1; }
+fi
+foreign=$(nm -g --defined-only "$BUILD/liblom.a" 2>/dev/null | awk 'NF == 3 && $3 !~ /^lom_/ { print $3 }')
+[ -z "$foreign" ] || found "exported without lom_: $(echo $foreign)"
+transcendental=$(nm -u "$BUILD/liblom.a" 2>/dev/null | awk 'NF == 2 { print $2 }' |
+    grep -E '^(sinf?|cosf?|tanf?|asinf?|acosf?|atanf?|atan2f?|expf?|exp2f?|logf?|log2f?|log10f?|powf?|fmaf?|sinhf?|coshf?|tanhf?|cbrtf?|hypotf?|qsort|rand)$' | sort -u)
+[ -z "$transcendental" ] || found "libm or an unstable call is used: $(echo $transcendental)"
+if have objdump "the instructions"; then
+    fused=$(objdump -d --no-show-raw-insn "$BUILD/liblom.a" 2>/dev/null |
+        grep -cE 'v?f(n?m)(add|sub|addsub|subadd)[0-9]*[ps][sd]|[[:space:]]v?rcp[0-9]*[ps]s|[[:space:]]v?rsqrt[0-9]*[ps]s')
+    [ "$fused" -eq 0 ] || found "$fused fused or approximate instructions in $BUILD/liblom.a"
+fi
+for header in include/lom/*.h; do
+    $CC -std=gnu11 -Wall -Wextra -Wno-psabi -Iinclude -Isrc/lanes -fsyntax-only -x c "$header" || found "$header alone in C"
+done
+if have g++ "the headers in C++"; then
+    for header in include/lom/*.h; do
+        g++ -std=gnu++17 -Wall -Wextra -Wno-psabi -Iinclude -Isrc/lanes -fsyntax-only -x c++ "$header" ||
+            found "$header alone in C++"
+    done
+fi
+if have cppcheck "what cppcheck sees"; then
+    cppcheck --quiet --std=c11 --language=c --enable=warning,performance,portability --inline-suppr -j 2 \
+        --suppress=missingIncludeSystem --suppress=uninitvar --suppress=internalAstError --suppress=syntaxError \
+        --error-exitcode=1 -Iinclude -Isrc -Isrc/lanes $(ls src/*/*.c | grep -v '\.wide\.c') || status=1
+fi
+long=$(wc -l $sources | awk '$2 != "total" && $1 > 600 { print $2 " (" $1 " lines)" }')
+[ -z "$long" ] || found "long files: $long"
+[ $status -eq 0 ] && echo "lint: clean"
+exit $status
