@@ -15,7 +15,7 @@ MACHINE := $(shell $(CC) -dumpmachine)
 
 # The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
-WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length
+WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
 CFLAGS      = -std=gnu11 -O$(O) -g -fPIC $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
@@ -65,7 +65,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long lint format bench bench-mathematics install clean
+.PHONY: fuzz all demo check check-long lint format bench bench-peers bench-mathematics install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -135,6 +135,13 @@ check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 # Every float through every unary lane function: a quarter of an hour.
 check-long: $(BUILD)/tests/lanes/test_mathematics.w4
 	LOM_EXHAUSTIVE=1 $(BUILD)/tests/lanes/test_mathematics.w4
+
+# Milliseconds a frame of every workload; against other renderers, in turn, into bench/results/peers-1280x720.md.
+bench: $(BUILD)/lom
+	$(BUILD)/lom bench
+
+bench-peers: $(BUILD)/lom
+	BUILD='$(BUILD)' bench/peers.sh
 
 # Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
 bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))

@@ -23,7 +23,7 @@ work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 trap 'exit 2' INT TERM
 
-field() { sed -n 's/.*"'"$1"'":"\{0,1\}\([^",}]*\).*/\1/p'; }
+field() { sed -n 's/.*"'"$1"'": *"\{0,1\}\([^",}]*\).*/\1/p'; }
 # The peers' cloud walks every step: it is what cloud-skip is compared with.
 peer_workload() { case $1 in cloud-skip) echo cloud ;; *) echo "$1" ;; esac; }
 # The frames of slow peers are bounded by time, 20 s a run.

@@ -46,8 +46,9 @@ static double error_in_ulps(double got, double hi, double lo)
     X(asin, ASIN)                                                                                                      \
     X(acos, ACOS)                                                                                                      \
     X(atan, ATAN)                                                                                                      \
-    X(exp, EXP) X(exp2, EXP2) X(expm1, EXPM1) X(log, LOG) X(log2, LOG2) X(log1p, LOG1P) X(sinh, SINH) X(cosh, COSH)    \
-        X(tanh, TANH) X(erf, ERF) X(cbrt, CBRT)
+    X(exp, EXP)                                                                                                        \
+    X(exp2, EXP2) X(expm1, EXPM1) X(log, LOG) X(log2, LOG2) X(log1p, LOG1P) X(sinh, SINH) X(cosh, COSH) X(tanh, TANH)  \
+        X(erf, ERF) X(cbrt, CBRT)
 
 static const struct unary {
     const char *name;
