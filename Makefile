@@ -67,7 +67,6 @@ fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.
 
 .PHONY: fuzz all demo check check-long lint format bench bench-peers bench-mathematics install clean
 .DELETE_ON_ERROR:
-.SECONDARY:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
 

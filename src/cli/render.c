@@ -21,7 +21,7 @@ struct values {
 
 static const lom_option options[] = {
     { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "OUT", 0, 0,
-      "the picture: png, ppm, pgm, pam, pfm or y4m by its ending; %04d stands for the frame's number; - is stdout" },
+      "the picture; %04d stands for the number of the frame, - is stdout" },
     { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9,
       "the frame to draw, 0 when not given" },
     { "frames", 0, LOM_OPTION_INTEGER, offsetof(struct values, frames), "A:B", 0, 1e9,
@@ -43,7 +43,8 @@ static const lom_command_line line = {
     .name = "render",
     .arguments = "SCENE -o OUT",
     .summary = "draw a scene",
-    .details = "-o may be left out with --hash or --stats. Any frame alone has the bytes that it has in a run.",
+    .details = "OUT is png, ppm, pgm, pam, pfm or y4m by its ending. -o may be left out with --hash or --stats. Any "
+               "frame alone has the bytes that it has in a run.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
