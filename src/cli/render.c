@@ -43,8 +43,8 @@ static const lom_command_line line = {
     .name = "render",
     .arguments = "SCENE -o OUT",
     .summary = "draw a scene",
-    .details = "OUT is png, ppm, pgm, pam, pfm or y4m by its ending. -o may be left out with --hash or --stats. Any "
-               "frame alone has the bytes that it has in a run.",
+    .details = "OUT is png, ppm, pgm, pam, pfm or y4m by its ending. -o may be left out with --hash or --stats.\n"
+               "Any frame alone has the bytes that it has in a run.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,

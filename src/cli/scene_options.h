@@ -40,7 +40,7 @@ struct lom_scene_options {
           "KEY=VALUE",                                                                                                 \
           0,                                                                                                           \
           0,                                                                                                           \
-          "change a key of the scene, like water.level=12; may be repeated" },                                         \
+          "change a key of the scene, like water.level=12" },                                                          \
         { "threads",                                                                                                   \
           0,                                                                                                           \
           LOM_OPTION_INTEGER,                                                                                          \
