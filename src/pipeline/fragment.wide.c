@@ -240,5 +240,8 @@ void LOM_WIDE(lom_find_constant)(struct lom_tile *tile)
         tile->constant[i][2] = out.color[i].z[0];
         tile->constant[i][3] = out.color[i].w[0];
     }
+    tile->constant_bytes = 0;
+    for (int c = 0; c < 4; c++)
+        tile->constant_bytes |= lom_unorm_of(tile->constant[0][c], 255) << 8 * c;
     tile->constant_draw = draw;
 }

@@ -115,6 +115,11 @@ static void write_constant(struct lom_tile *tile, const int32_t *pixel, lom_mask
     if (tile->constant_draw != tile->draw)
         LOM_WIDE(lom_find_constant)(tile);
     memcpy(places.pixel, pixel, sizeof places.pixel);
+    if (tile->pass->colors == 1 && tile->pass->color[0].kind == COLOR_UNORM8 && !tile->draw->blends &&
+        tile->draw->desc.shader->colors >= 1) {
+        lom_store_places(tile->color[0], tile, &places, covered, lom_splat_int((int32_t)tile->constant_bytes));
+        return;
+    }
     for (int i = 0; i < tile->pass->colors; i++)
         color[i] = (lom_float4){ lom_splat(tile->constant[i][0]), lom_splat(tile->constant[i][1]),
                                  lom_splat(tile->constant[i][2]), lom_splat(tile->constant[i][3]) };

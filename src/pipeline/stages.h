@@ -129,6 +129,7 @@ struct lom_tile {
     void *color[LOM_MAX_COLORS];          /* uint32_t for 8-bit formats, else 4 planes of floats */
     const struct lom_draw *constant_draw; /* whose constant colour is in constant */
     float constant[LOM_MAX_COLORS][4];
+    uint32_t constant_bytes; /* of the first output, where it is stored as it is */
     struct lom_queue queue;
     uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel */
     uint64_t fragments, packets;
