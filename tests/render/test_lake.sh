@@ -1,0 +1,55 @@
+#!/bin/sh
+# Proves on the demo scene, small: one hash for every lane width and thread count; a crop is the cut-out of the whole; a
+# frame alone is the frame of a run; each of the water's steps shows; water out of view costs no pass.
+lom=${BUILD:-build}/lom
+scene=assets/scenes/lake.toml
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+verdict() { # name, why (empty: passed)
+    if [ -z "$2" ]; then echo "PASS $1"; else echo "FAIL $1: $2; repeat: tests/render/test_lake.sh"; fi
+}
+hash() { "$lom" render $scene --size 160x90 --hash "$@" | cut -d' ' -f1; }
+
+whole=$(hash)
+why=
+for run in '4 1' '4 5' '8 2' '8 3' '16 1' '16 8'; do
+    lanes=${run% *} threads=${run#* }
+    other=$(hash --lanes "$lanes" --threads "$threads")
+    [ "$other" = "$whole" ] || why="$lanes lanes on $threads threads give $other, not $whole"
+done
+[ -n "$whole" ] || why='no hash'
+verdict one_hash_for_lanes_and_threads "$why"
+
+"$lom" render $scene --size 160x90 -o "$folder/whole.ppm"
+why=
+for crop in '0,0,160,90' '33,41,70,49' '101,57,1,1' '7,60,151,30'; do
+    "$lom" render $scene --size 160x90 --crop $crop -o "$folder/crop.ppm" || why="crop $crop fails"
+    x=${crop%%,*} rest=${crop#*,}
+    y=${rest%%,*} rest=${rest#*,}
+    width=${rest%,*} height=${rest#*,}
+    printf 'P6\n%d %d\n255\n' "$width" "$height" >"$folder/cut.ppm"
+    row=0
+    while [ $row -lt "$height" ]; do # the header of the whole is "P6\n160 90\n255\n": 14 bytes
+        tail -c +$((15 + ((y + row) * 160 + x) * 3)) "$folder/whole.ppm" | head -c $((width * 3)) >>"$folder/cut.ppm"
+        row=$((row + 1))
+    done
+    cmp -s "$folder/crop.ppm" "$folder/cut.ppm" || why="crop $crop is not the cut-out"
+done
+verdict crop_is_the_cut_out "$why"
+
+alone=$(hash --frame 3)
+run=$("$lom" render $scene --size 160x90 --frames 2:3 --hash | sed -n 's/  frame 3$//p')
+[ "$alone" = "$run" ] && [ "$alone" != "$whole" ] && why= || why="$alone alone, $run in a run, $whole at first"
+verdict a_frame_alone_is_the_frame_of_a_run "$why"
+
+why=
+sunny='--set light.azimuth=10 --set light.elevation=14' # ahead, so that the highlight is in the picture
+lit=$(hash $sunny)
+for step in reflection refraction projection flow normals fresnel specular tint soft_shore; do
+    [ "$(hash $sunny --set water.$step=false)" != "$lit" ] || why="water.$step=false changes nothing"
+done
+verdict every_step_of_the_water_shows "$why"
+
+away=$("$lom" plan $scene --size 160x90 --set camera.pitch=60)
+case $away in *'*  reflection'* | *'*  water'*) why=$away ;; *'reflection'*'left out'*) why= ;; *) why=$away ;; esac
+verdict no_water_in_view_costs_no_pass "$why"
