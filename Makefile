@@ -65,7 +65,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long lint format bench bench-peers bench-mathematics install clean
+.PHONY: fuzz all demo check check-long lint format bench bench-peers bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -131,9 +131,10 @@ demo: $(BUILD)/lom
 check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
 
-# Every float through every unary lane function: a quarter of an hour.
-check-long: $(BUILD)/tests/lanes/test_mathematics.w4
-	LOM_EXHAUSTIVE=1 $(BUILD)/tests/lanes/test_mathematics.w4
+# Every float through every conversion (a minute) and every unary lane function (a quarter of an hour).
+LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4
+check-long: $(LONG_TESTS)
+	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
 
 # Milliseconds a frame of every workload; against other renderers, in turn, into bench/results/peers-1280x720.md.
 bench: $(BUILD)/lom
@@ -144,6 +145,10 @@ bench-peers: $(BUILD)/lom
 
 # Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
 bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))
+	for program in $^; do $$program || exit 1; done
+
+# Nanoseconds a texture sample (bench/results/sampling.md).
+bench-sampling: $(foreach v,4 8 16,$(BUILD)/bench/sampling.w$(v))
 	for program in $^; do $$program || exit 1; done
 
 format:

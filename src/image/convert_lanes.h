@@ -47,8 +47,8 @@ LOM_INLINE lom_int lom_half_of_lanes(lom_float x)
 {
     lom_int sign = (lom_as_int(x) >> 16) & 0x8000;
     lom_float magnitude = lom_abs(x);
-    lom_int bits = lom_as_int(magnitude);
-    lom_int normal = ((bits + 0xfff + ((bits >> 13) & 1)) >> 13) - (112 << 10);
+    lom_uint bits = (lom_uint)magnitude; /* unsigned: a NaN's bits carry into the sign */
+    lom_int normal = (lom_int)((bits + 0xfff + ((bits >> 13) & 1)) >> 13) - (112 << 10);
     lom_int small = lom_as_int(magnitude + 0.5f) - lom_as_int(lom_splat(0.5f));
     lom_int half = lom_select_int(magnitude < 0x1p-14f, small, normal);
     half = lom_select_int(magnitude >= 65520.0f, lom_splat_int(0x7c00), half) | sign;

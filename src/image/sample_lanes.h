@@ -120,6 +120,16 @@ LOM_INLINE sample_footprint sample_footprint_of(const lom_texture *texture, lom_
 /* Channels as they are filtered: RGBA8 as r, 256 g, 65536 b, a (a mask and no shift; the power of two is divided out at
  * the end, exactly), sRGB as linear light with a in 0..255 (RGBA8: by table; RGBA32F: texture->decoded), floats as they
  * are. */
+LOM_INLINE lom_float4 sample_unpack(bool srgb, lom_int texel)
+{
+    lom_float alpha = lom_to_float((lom_int)((lom_uint)texel >> 24));
+    if (srgb)
+        return (lom_float4){ lom_float_of_srgb8_lanes(texel & 255), lom_float_of_srgb8_lanes(texel >> 8 & 255),
+                             lom_float_of_srgb8_lanes(texel >> 16 & 255), alpha };
+    return (lom_float4){ lom_to_float(texel & 0xff), lom_to_float(texel & 0xff00), lom_to_float(texel & 0xff0000),
+                         alpha };
+}
+
 LOM_INLINE lom_float4 sample_texel(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index)
 {
     if (storage == LOM_STORAGE_R32F)
@@ -130,13 +140,7 @@ LOM_INLINE lom_float4 sample_texel(const lom_texture *texture, lom_storage stora
             rows[i] = base + (size_t)(uint32_t)index[i] * 4;
         return lom_load_rows(rows, 0);
     }
-    lom_int texel = lom_gather_int(texture->texels, index);
-    lom_float alpha = lom_to_float((lom_int)((lom_uint)texel >> 24));
-    if (srgb)
-        return (lom_float4){ lom_float_of_srgb8_lanes(texel & 255), lom_float_of_srgb8_lanes(texel >> 8 & 255),
-                             lom_float_of_srgb8_lanes(texel >> 16 & 255), alpha };
-    return (lom_float4){ lom_to_float(texel & 0xff), lom_to_float(texel & 0xff00), lom_to_float(texel & 0xff0000),
-                         alpha };
+    return sample_unpack(srgb, lom_gather_int(texture->texels, index));
 }
 
 LOM_INLINE lom_float4 sample_mix(lom_storage storage, lom_float4 a, lom_float4 b, lom_float t)
@@ -146,16 +150,29 @@ LOM_INLINE lom_float4 sample_mix(lom_storage storage, lom_float4 a, lom_float4 b
     return (lom_float4){ lom_mix(a.x, b.x, t), lom_mix(a.y, b.y, t), lom_mix(a.z, b.z, t), lom_mix(a.w, b.w, t) };
 }
 
+/* Texels index and index + 1. */
+LOM_INLINE void sample_pair(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index,
+                            lom_float4 *first, lom_float4 *second)
+{
+    if (storage == LOM_STORAGE_RGBA32F) {
+        *first = sample_texel(texture, storage, srgb, index);
+        *second = sample_texel(texture, storage, srgb, index + 1);
+        return;
+    }
+    lom_int a, b;
+    lom_gather_pairs(texture->texels, index, &a, &b);
+    *first = storage == LOM_STORAGE_R32F ? (lom_float4){ .x = lom_as_float(a) } : sample_unpack(srgb, a);
+    *second = storage == LOM_STORAGE_R32F ? (lom_float4){ .x = lom_as_float(b) } : sample_unpack(srgb, b);
+}
+
 LOM_INLINE lom_float4 sample_square(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index,
                                     const sample_footprint *print)
 {
     lom_int below = index + print->pitch;
-    lom_float4 a = sample_texel(texture, storage, srgb, index);
-    lom_float4 b = sample_texel(texture, storage, srgb, index + 1);
-    lom_float4 top = sample_mix(storage, a, b, print->s);
-    lom_float4 c = sample_texel(texture, storage, srgb, below);
-    lom_float4 d = sample_texel(texture, storage, srgb, below + 1);
-    return sample_mix(storage, top, sample_mix(storage, c, d, print->s), print->t);
+    lom_float4 a, b, c, d;
+    sample_pair(texture, storage, srgb, index, &a, &b);
+    sample_pair(texture, storage, srgb, below, &c, &d);
+    return sample_mix(storage, sample_mix(storage, a, b, print->s), sample_mix(storage, c, d, print->s), print->t);
 }
 
 LOM_INLINE lom_float4 sample_level(const lom_texture *texture, lom_texture_kind kind, lom_storage storage, bool srgb,

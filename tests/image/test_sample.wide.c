@@ -637,8 +637,8 @@ static void s1_no_seam_at_edges_and_corners(void)
             a[axis] = k & 8 ? 1 : -1;
             if (other != axis)
                 a[other] = k & 16 ? 1 : -1; /* on an edge */
-            if (k % 5 == 0)
-                a[3 - axis - other > 2 ? 0 : 3 - axis - other] = k & 32 ? 1 : -1; /* at a corner */
+            if (k % 5 == 0 && other != axis)
+                a[3 - axis - other] = k & 32 ? 1 : -1; /* at a corner */
             for (int i = 0; i < 3; i++)
                 b[i] = a[i] + (random_unit(22, (uint64_t)(k * 3 + i)) - 0.5) * 1e-4;
             lom_float4 p0 = lom_sample_cube(p.texture, lom_splat3((float)a[0], (float)a[1], (float)a[2]), lom_splat(0));
