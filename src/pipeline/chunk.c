@@ -215,6 +215,7 @@ static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, st
             uint32_t copy = (uint32_t)chunk->row_count++;
             memcpy(chunk->rows + copy * pitch, chunk->rows + provoking * pitch, pitch * sizeof(float));
             memcpy(chunk->clip + copy * 4, chunk->clip + provoking * 4, 4 * sizeof(float));
+            chunk->codes[copy] = chunk->codes[provoking];
             for (int v = 0; v < chunk->draw->desc.shader->varyings; v++)
                 if (flat >> v & 1)
                     chunk->rows[copy * pitch + ROW_HEADER + (size_t)v] =

@@ -3,8 +3,7 @@
  * cut here: the raster stage tests their sign at each pixel, which splits a triangle between d and -d exactly.
  *
  * Invariant: an edge that two triangles share is cut at bitwise the same vertex, because every edge is cut from its
- * lexicographically smaller clip position; t = dA / (dA - dB), in double. Few triangles get here: one at a time, in
- * order. */
+ * lexicographically smaller clip position, in double. Few triangles get here: one at a time, in order. */
 #include "pipeline/project.h"
 #include "pipeline/stages.h"
 
@@ -13,6 +12,8 @@ enum { PLANES = 7, MAX_POLYGON = 3 + PLANES };
 struct plane { /* inside where x X + y Y + z Z + w W + constant >= 0 */
     double x, y, z, w, constant;
     unsigned code;
+    int axis; /* the coordinate that is ratio W on the plane; 3: W itself is ratio */
+    float ratio;
 };
 
 static void list_planes(const struct lom_pass *pass, struct plane planes[PLANES])
@@ -20,13 +21,13 @@ static void list_planes(const struct lom_pass *pass, struct plane planes[PLANES]
     struct lom_guard guard = lom_guard_of(pass);
     bool centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
     struct plane list[PLANES] = {
-        { 0, 0, 0, 1, -(double)LOM_SMALLEST_W, CODE_W },
-        { 0, 0, centred ? 1 : -1, 1, 0, CODE_NEAR },
-        { 0, 0, centred ? -1 : 1, centred ? 1 : 0, 0, CODE_FAR },
-        { 1, 0, 0, guard.x, 0, CODE_GUARD },
-        { -1, 0, 0, guard.x, 0, CODE_GUARD },
-        { 0, 1, 0, guard.y, 0, CODE_GUARD },
-        { 0, -1, 0, guard.y, 0, CODE_GUARD },
+        { 0, 0, 0, 1, -(double)LOM_SMALLEST_W, CODE_W, 3, LOM_SMALLEST_W },
+        { 0, 0, centred ? 1 : -1, 1, 0, CODE_NEAR, 2, centred ? -1 : 1 },
+        { 0, 0, centred ? -1 : 1, centred ? 1 : 0, 0, CODE_FAR, 2, centred ? 1 : 0 },
+        { 1, 0, 0, guard.x, 0, CODE_GUARD, 0, -guard.x },
+        { -1, 0, 0, guard.x, 0, CODE_GUARD, 0, guard.x },
+        { 0, 1, 0, guard.y, 0, CODE_GUARD, 1, -guard.y },
+        { 0, -1, 0, guard.y, 0, CODE_GUARD, 1, guard.y },
     };
     memcpy(planes, list, sizeof list);
 }
@@ -44,6 +45,22 @@ static bool is_smaller(const float *a, const float *b)
     return false;
 }
 
+/* (q dA - p dB) / (dA - dB): what p + (q - p) t is for t = dA / (dA - dB), without its cancellation when the result is
+ * far smaller than p, as it is next to w = 0. */
+static float mix(float p, float q, double da, double db)
+{
+    return (float)((q * da - p * db) / (da - db));
+}
+
+/* Outcode of a row's distances, as the vertex stage has it. */
+static uint16_t distance_code(const struct lom_draw *draw, const float *row)
+{
+    unsigned code = 0;
+    for (int i = 0; i < draw->distances; i++)
+        code |= (unsigned)(row[draw->distance_offset + i] < 0) << i;
+    return (uint16_t)code;
+}
+
 /* Appends the point of edge (a, b) on the plane; returns its row number. */
 static uint32_t cut_edge(const struct plane *plane, struct lom_chunk *chunk, uint32_t a, uint32_t b)
 {
@@ -55,14 +72,15 @@ static uint32_t cut_edge(const struct plane *plane, struct lom_chunk *chunk, uin
     size_t pitch = (size_t)chunk->draw->row_floats;
     uint32_t row = (uint32_t)chunk->row_count++;
     const float *p = chunk->clip + (size_t)a * 4, *q = chunk->clip + (size_t)b * 4;
+    float *result = chunk->clip + (size_t)row * 4;
     double da = distance_to(plane, p), db = distance_to(plane, q);
-    double t = da / (da - db);
-    for (int i = 0; i < 4; i++)
-        chunk->clip[(size_t)row * 4 + (size_t)i] = (float)(p[i] + ((double)q[i] - p[i]) * t);
+    for (size_t i = 0; i < 4; i++)
+        result[i] = mix(p[i], q[i], da, db);
+    result[plane->axis] = plane->axis == 3 ? plane->ratio : plane->ratio * result[3]; /* exactly on the plane */
     const float *from = chunk->rows + a * pitch, *to = chunk->rows + b * pitch;
     for (size_t i = ROW_HEADER; i < pitch; i++)
-        chunk->rows[row * pitch + i] = (float)(from[i] + ((double)to[i] - from[i]) * t);
-    chunk->codes[row] = 0;
+        chunk->rows[row * pitch + i] = mix(from[i], to[i], da, db);
+    chunk->codes[row] = distance_code(chunk->draw, chunk->rows + row * pitch);
     return row;
 }
 

@@ -50,6 +50,24 @@ LOM_INLINE int memory_index(const struct lom_tile *tile, int x, int y)
     return y * tile->edge + x * 2;
 }
 
+/* d / w of the three vertices, scaled by a power of two so that the largest is in 1..2: no product with a weight
+ * overflows, and none that could decide alone vanishes. */
+static void scale_distances(const lom_triangle *t, size_t offset, float d[3])
+{
+    double product[3], largest = 0, scale;
+    for (int k = 0; k < 3; k++) {
+        product[k] = (double)t->row[k][offset] * t->row[k][3]; /* exact */
+        double size = product[k] < 0 ? -product[k] : product[k];
+        largest = size > largest ? size : largest;
+    }
+    uint64_t bits;
+    memcpy(&bits, &largest, sizeof bits);
+    bits = (UINT64_C(2046) - (bits >> 52)) << 52; /* 2^-exponent */
+    memcpy(&scale, &bits, sizeof scale);
+    for (int k = 0; k < 3; k++)
+        d[k] = (float)(product[k] * scale);
+}
+
 /* Where a triangle crosses a user clip distance the sign of sum(l d / w) decides; it is odd in d, so d and -d share the
  * pixels exactly. Where the sum is 0 the sign of its gradient decides, as the top-left rule does for edges. */
 static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *t, const lom_float l[3])
@@ -59,10 +77,7 @@ static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *
         if (!(t->clip >> i & 1))
             continue;
         float d[3];
-        for (int k = 0; k < 3; k++) {
-            float product = t->row[k][tile->draw->distance_offset + i] * t->row[k][3];
-            d[k] = product > 1e30f ? 1e30f : product < -1e30f ? -1e30f : product;
-        }
+        scale_distances(t, (size_t)(tile->draw->distance_offset + i), d);
         lom_float sum = l[0] * d[0] + l[1] * d[1] + l[2] * d[2];
         double gx = 0, gy = 0;
         for (int k = 0; k < 3; k++) {
