@@ -1,4 +1,4 @@
-/* lom/measure.h - workloads to time, and timing them.
+/* lom/measure.h - workloads to time, and timing them; the self-test.
  *
  * The workloads are those of bench/peers/README.md, drawn from its formulas by the pipeline; what its harness draws on
  * an implementation of OpenGL is the same picture. Setting up is not timed; a frame is.
@@ -44,6 +44,26 @@ typedef struct lom_timing {
 /* Draws `warm_up` frames untimed (0 or more), then `frames` (1..10000), each timed by the monotonic clock. */
 bool lom_time_workload(lom_workload *workload, lom_device *device, int warm_up, int frames, lom_timing *timing,
                        lom_error *error);
+
+/* ---- the self-test: the promise of the same bytes, checked on this machine ---- */
+
+typedef struct lom_selftest_part {
+    const char *name;
+    uint64_t hash, expected; /* of this build on this machine; recorded for LOM_PICTURE_VERSION */
+} lom_selftest_part;
+
+enum { LOM_SELFTEST_PARTS = 9 };
+
+typedef struct lom_selftest {
+    uint64_t hash, expected; /* of all parts together */
+    lom_selftest_part part[LOM_SELFTEST_PARTS];
+    char difference[200]; /* empty, or one sentence that names the first part that differs, and where */
+} lom_selftest;
+
+/* Runs made-up content through numbers, codecs, double and lane mathematics and the whole pipeline, at every lane
+ * variant that this processor runs, on 1, 2 and 3 threads with different tiles. Reads no file. False only when it could
+ * not be done; a difference is a result. */
+bool lom_run_selftest(lom_selftest *result, lom_error *error);
 
 #ifdef __cplusplus
 }
