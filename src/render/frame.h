@@ -1,0 +1,33 @@
+/* A frame while it is drawn: what its stages share. A stage is a file frame_NAME.c with one function, named in the
+ * table of frame.c; it draws into the frame's targets and adds a step to the plan for each pass that it runs or leaves
+ * out. */
+#ifndef LOM_RENDER_FRAME_H
+#define LOM_RENDER_FRAME_H
+
+#include "render/renderer.h"
+
+struct frame {
+    lom_renderer *renderer;
+    const lom_scene *scene;
+    int width, height; /* of the whole frame */
+    lom_rect crop;     /* the part of it that is drawn: what the targets color, depth and mask hold */
+    double time;       /* seconds */
+    lom_camera_view camera;
+    struct lom_scene_view view; /* the camera's, with the sky and no clip plane */
+    lom_rect water;             /* where a surface of water is seen, in frame pixels; width 0: nowhere */
+    lom_plan *plan;
+};
+
+/* Adds a step to the plan with its text; the caller sets the size of its target. A plan that is full keeps its last
+ * step for all that follow. */
+lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* A pass over the drawn part of the frame: this colour target and the frame's depth, both cleared unless the caller
+ * asks to keep them. */
+lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color);
+
+/* The stages of other files. False: the error, or the device's, says why. */
+bool lom_draw_lake_stage(struct frame *f, lom_error *error);
+
+#endif
