@@ -164,6 +164,15 @@ LOM_INLINE lom_float lom_to_float(lom_int x)
     return __builtin_convertvector(x, lom_float);
 }
 
+/* Exact. */
+LOM_INLINE lom_double lom_defined_to_double(lom_int x)
+{
+    lom_double y;
+    for (int i = 0; i < LOM_LANES; i++)
+        y[i] = x[i];
+    return y;
+}
+
 /* The largest integer not above x; -0, infinities and NaN as they are. */
 LOM_INLINE lom_float lom_defined_floor(lom_float x)
 {
@@ -286,6 +295,12 @@ LOM_INLINE uint32_t lom_bits(lom_mask mask)
 LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
 {
     return lom_defined_load_rows(rows, offset);
+}
+#endif
+#ifndef LOM_OVERRIDES_TO_DOUBLE
+LOM_INLINE lom_double lom_to_double(lom_int x)
+{
+    return lom_defined_to_double(x);
 }
 #endif
 #ifndef LOM_OVERRIDES_ROUNDING

@@ -268,16 +268,11 @@ static edge_class reduce_edge(const struct edges *e, int i, int edge, struct til
     return EDGE_CROSSES;
 }
 
-LOM_INLINE lom_double to_double(lom_int x)
-{
-    return __builtin_convertvector(x, lom_double);
-}
-
 static void emit_large(struct lom_tile *tile, const lom_triangle *t, const struct edges *e, int x, int y, int part,
                        lom_mask covered)
 {
     lom_float l[3] = { { 0 } };
-    lom_double px = to_double(lane_x(part) + x), py = to_double(lane_y(part) + y);
+    lom_double px = lom_to_double(lane_x(part) + x), py = lom_to_double(lane_y(part) + y);
     if (t->clip != 0 || tile->depth != NULL || !tile->draw->constant) {
         lom_double e1 = px * (double)e->dx[1] + py * (double)e->dy[1] + (double)e->start[1];
         lom_double e2 = px * (double)e->dx[2] + py * (double)e->dy[2] + (double)e->start[2];

@@ -51,15 +51,10 @@ LOM_INLINE void order(struct packet *p, int a, int b)
         lom_select_int(swap & was_a, lom_splat_int(b), lom_select_int(swap & was_b, lom_splat_int(a), p->provoking));
 }
 
-LOM_INLINE lom_double to_double(lom_int x)
-{
-    return __builtin_convertvector(x, lom_double);
-}
-
 static lom_double twice_area(const struct packet *p)
 {
-    lom_double ax = to_double(p->v[1].x - p->v[0].x), ay = to_double(p->v[1].y - p->v[0].y);
-    lom_double bx = to_double(p->v[2].x - p->v[0].x), by = to_double(p->v[2].y - p->v[0].y);
+    lom_double ax = lom_to_double(p->v[1].x - p->v[0].x), ay = lom_to_double(p->v[1].y - p->v[0].y);
+    lom_double bx = lom_to_double(p->v[2].x - p->v[0].x), by = lom_to_double(p->v[2].y - p->v[0].y);
     return ax * by - ay * bx;
 }
 

@@ -48,6 +48,8 @@ static void compare_all(lom_int p, lom_int q)
     CHECK(same(lom_floor(a), lom_defined_floor(a)), "floor of %08x", p[0]);
     CHECK(same(lom_round(a), lom_defined_round(a)), "round of %08x", p[0]);
     CHECK(same_int(lom_to_int(a), lom_defined_to_int(a)), "to_int of %08x", p[0]);
+    lom_double wide = lom_to_double(p), defined = lom_defined_to_double(p);
+    CHECK(memcmp(&wide, &defined, sizeof wide) == 0 && defined[0] == p[0], "to_double of %08x", p[0]);
     CHECK(lom_bits(m) == lom_defined_bits(m), "bits of %08x", m[0]);
 }
 
