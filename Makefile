@@ -65,7 +65,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long lint format bench bench-peers bench-mathematics bench-sampling install clean
+.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -135,6 +135,10 @@ check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4
 check-long: $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
+
+# One hash from gcc and clang at every level, and from emulated architectures (bench/results/matrix.md).
+matrix:
+	@BUILD='$(BUILD)' ROWS='$(ROWS)' LAUNCHER='$(LAUNCHER)' tests/house/matrix.sh
 
 # Milliseconds a frame of every workload; against other renderers, in turn, into bench/results/peers-1280x720.md.
 bench: $(BUILD)/lom

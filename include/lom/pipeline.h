@@ -322,6 +322,12 @@ typedef struct lom_blend {
     lom_blend_operation color_operation, alpha_operation;
 } lom_blend;
 
+/* Polygon offset. Every fragment's depth gets, before it is tested, m depth_bias_slope + r depth_bias, and is clamped
+ * to 0..1; both factors 0: nothing is added. Positive moves towards depth 1, which is nearer in reversed depth. m =
+ * max(|dz/dx|, |dz/dy|) of the triangle, a pixel; r is the step of the attachment: 1 / 65535 for DEPTH16, 1 / 16777215
+ * for DEPTH24, 2^(e - 23) for DEPTH32F where e is the exponent of the triangle's largest depth. Formulas, clamp and its
+ * NaN: OpenGL 4.6, 14.6.5 "Depth Offset"; Vulkan 1.3 "Depth Bias"; Direct3D 11.3, 15.10. A depth that the shader writes
+ * gets nothing. Bit for bit the nearest depth to (z + offset), rounded once. */
 typedef struct lom_draw_desc {
     const lom_shader *shader;
     const void *uniforms; /* uniforms_size bytes, copied */
@@ -340,6 +346,9 @@ typedef struct lom_draw_desc {
     lom_compare depth_compare;
     bool depth_test_off; /* nothing tested, nothing written */
     bool depth_write_off;
+    float depth_bias;       /* units r; finite */
+    float depth_bias_slope; /* times the slope m; finite */
+    float depth_bias_clamp; /* most (or, negative, least) that is added; 0 and NaN: no limit */
     lom_blend blend[LOM_MAX_COLORS];
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */

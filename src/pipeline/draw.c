@@ -52,6 +52,8 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
     if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_TRIANGLE_FAN)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "A draw of %s has a topology or an instance count that is none.", name);
+    if (!__builtin_isfinite(desc->depth_bias) || !__builtin_isfinite(desc->depth_bias_slope))
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "The depth bias of a draw of %s is not finite.", name);
     if (desc->count > UINT32_MAX || desc->first > UINT32_MAX)
         return lom_fail(&device->error, LOM_ERROR_LIMIT, "A draw of %s has more than 2^32 indices.", name);
     for (int i = 0; i < desc->shader->attributes; i++)
@@ -112,6 +114,7 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
                                                                  : desc->depth_compare;
     draw->depth_write = depth && !desc->depth_write_off;
     draw->late_depth = shader->discards || shader->writes_depth;
+    draw->biased = pass->depth != NULL && (desc->depth_bias != 0 || desc->depth_bias_slope != 0);
     draw->blends = false;
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;

@@ -5,6 +5,8 @@
  * triangle took: int32 where that is exact, else double, which holds every edge function exactly. */
 #include "pipeline/packet.h"
 
+#include <lom/lanes_mathematics.h>
+
 enum { PARTS = 16 / LOM_LANES };
 
 /* Edge functions of the ordered triangle over one tile: value at the tile's first pixel, steps a pixel right and down.
@@ -99,6 +101,17 @@ LOM_INLINE lom_float interpolate_depth(const lom_triangle *t, const lom_float l[
     return lom_clamp(z, lom_splat(low < z2 ? low : z2), lom_splat(high < z2 ? z2 : high));
 }
 
+/* The depth with the draw's bias, rounded once to what the attachment holds. Not inlined: few draws have one. */
+static __attribute__((noinline)) void offset_depth(const struct lom_tile *tile, const lom_triangle *t, lom_float *z)
+{
+    double scale = tile->pass->depth_scale;
+    lom_double one = lom_splat_double(1), sum = lom_widen(*z) + lom_depth_offset(tile->pass, tile->draw, t);
+    sum = lom_select_double(sum > 0.0, lom_select_double(sum < 1.0, sum, one), one - 1.0);
+    if (scale != 0)
+        sum = ((sum * scale + LOM_NEAREST) - LOM_NEAREST) / scale;
+    *z = lom_narrow(sum);
+}
+
 /* Adds the lanes of covered to the queue; shades a packet when it is full. */
 static void enqueue(struct lom_tile *tile, const lom_triangle *t, const int32_t *pixel, lom_mask taken,
                     lom_mask covered, const lom_float l[3], lom_float z)
@@ -153,6 +166,11 @@ static void emit(struct lom_tile *tile, const lom_triangle *t, int base, int par
     lom_store_int(pixel, lom_load_int(tile->offset + part * LOM_LANES) + base);
     if (tile->depth != NULL || draw->desc.shader->reads_position)
         z = interpolate_depth(t, l);
+    if (draw->biased) {
+        lom_float plain = z;
+        offset_depth(tile, t, &plain);
+        z = plain;
+    }
     if (tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write)) {
         int32_t *memory = (int32_t *)tile->depth + pixel[0];
         lom_float stored = lom_as_float(lom_load_block(memory, tile));

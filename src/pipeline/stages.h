@@ -76,7 +76,7 @@ struct lom_draw {
     int distances;       /* clip + cull */
     size_t triangles;    /* of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
-    bool depth_write, late_depth, blends, constant;
+    bool depth_write, late_depth, blends, constant, biased;
 };
 
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
@@ -214,6 +214,9 @@ int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, cons
                       uint32_t fan[LOM_MAX_FAN][3]);
 /* Stage 4: sorts the chunk's triangles into its bins. */
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
+
+/* What a draw's depth bias adds to the depths of a triangle (draw->biased). */
+double lom_depth_offset(const struct lom_pass *pass, const struct lom_draw *draw, const lom_triangle *t);
 
 /* Second half for one tile of the batch. */
 void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number);

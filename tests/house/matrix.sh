@@ -1,0 +1,79 @@
+#!/bin/bash
+# Proves that bytes do not depend on the compiler, its optimisation level, the architecture or its byte order. Builds the
+# program once for each row below, each into its own folder; compares the self-test, the lake at 160x90 at three widths,
+# and the float stages of the pipeline at three widths. Prints a table and one hash; status 1 when a row differs from the
+# first, 2 when a build fails. A compiler or an emulator that is not installed is a line with SKIP.
+#
+#   make matrix                                  every row
+#   make matrix ROWS="gcc-0 aarch64-3"           these rows
+#   make matrix LAUNCHER=ccache                  compilers started through another program
+set -u
+cd "$(dirname "$0")/../.." || exit 2
+rows=${ROWS:-gcc-0 gcc-1 gcc-2 gcc-3 clang-0 clang-1 clang-2 clang-3 aarch64-0 aarch64-3 s390x-0 s390x-3}
+root=${BUILD:-build}/matrix
+jobs=${JOBS:-$(nproc 2>/dev/null || echo 1)}
+mkdir -p "$root"
+status=0
+
+# compiler, archiver, linker flags and emulator of a row
+set_row() {
+    case $1 in
+    aarch64-*) compiler=aarch64-linux-gnu-gcc archiver=aarch64-linux-gnu-ar flags=-static emulator=qemu-aarch64 ;;
+    s390x-*) compiler=s390x-linux-gnu-gcc archiver=s390x-linux-gnu-ar flags=-static emulator=qemu-s390x ;;
+    *) compiler=${1%-*} archiver=ar flags= emulator= ;;
+    esac
+    [ -z "$emulator" ] || command -v "$emulator" >/dev/null || emulator=$emulator-static
+}
+
+missing() {
+    for tool in $compiler $archiver $emulator; do
+        command -v "$tool" >/dev/null || { echo "$tool"; return; }
+    done
+}
+
+# What a build answers, a word each: the self-test's hash, the lake's at 4, 8, 16 lanes, "same" for the float stages.
+answers() {
+    local folder=$1 program="$emulator $1/lom" floats=same
+    $program selftest 2>>"$folder/log" | cut -d' ' -f1
+    for lanes in 4 8 16; do
+        $program render assets/scenes/lake.toml --size 160x90 --lanes $lanes --hash --quiet 2>>"$folder/log" | cut -d' ' -f1
+    done
+    for lanes in 4 8 16; do
+        $emulator "$folder/tests/pipeline/test_invariance.w$lanes" float_stages_have_one_hash >>"$folder/log" 2>&1 ||
+            floats=differ
+    done
+    echo $floats
+}
+
+format='%-10s %-18s %-18s %-18s %-18s %s\n'
+printf "$format" build selftest "lake, 4 lanes" "lake, 8 lanes" "lake, 16 lanes" "float stages"
+first=
+for row in $rows; do
+    set_row "$row"
+    tool=$(missing)
+    if [ -n "$tool" ]; then
+        echo "SKIP $row: $tool is not installed"
+        continue
+    fi
+    folder=$root/$row
+    mkdir -p "$folder"
+    targets="$folder/lom"
+    for lanes in 4 8 16; do targets="$targets $folder/tests/pipeline/test_invariance.w$lanes"; done
+    if ! make -j"$jobs" CC="${LAUNCHER:-} $compiler" AR=$archiver O="${row##*-}" BUILD="$folder" SAN= SDL= LDFLAGS=$flags \
+        $targets >"$folder/log" 2>&1; then
+        echo "$row: the build fails:"
+        grep -E -m 5 "error|Error" "$folder/log"
+        status=2
+        continue
+    fi
+    result=$(answers "$folder" | tr '\n' ' ')
+    [ -n "$first" ] || first=$result
+    mark=
+    if [ "$result" != "$first" ] || [ "${result% same }" = "$result" ]; then
+        mark="  differs; see $folder/log"
+        [ $status -ne 0 ] || status=1
+    fi
+    printf "$format" "$row" $result | sed "s|\$|$mark|"
+done
+echo "$first" | sha256sum | sed 's/^\(.\{16\}\).*/\1  matrix/'
+exit $status
