@@ -8,6 +8,75 @@
 extern "C" {
 #endif
 
+/* ---- what the richer models add: [water.waves], [water.optics], [water.foam] ---- */
+
+typedef enum lom_waves_kind { LOM_WAVES_NONE, LOM_WAVES_GERSTNER, LOM_WAVES_SEA } lom_waves_kind;
+
+/* The waves on the surface. Gerstner: `count` trochoids of geometrically spaced lengths about one direction. Sea: the
+ * cascades of lom/sea.h. An angle is measured from +x towards +z and says where the waves travel to. */
+typedef struct lom_water_waves {
+    uint32_t given;
+    int kind;         /* lom_waves_kind */
+    double direction; /* radians */
+    int seed;
+    double height;          /* Gerstner: four standard deviations of the surface, metres */
+    double length[2];       /* Gerstner: the longest and the shortest wave, metres */
+    int count;              /* Gerstner: 1..LOM_MAX_WAVES */
+    double steepness;       /* Gerstner: 0 sines .. 1 the sum of all waves touches a cusp somewhere, never a loop */
+    double spread;          /* Gerstner: standard deviation of the waves' directions, radians */
+    int spectrum;           /* sea: lom_spectrum_kind */
+    const char *wind_level; /* sea: a name of the Beaufort scale, or NULL: wind_speed */
+    double wind_speed;      /* sea: m/s at 10 m */
+    double fetch, depth;    /* sea: metres; depth 0 is deep water */
+    double height_scale;    /* sea: factor on the heights */
+    double choppiness;      /* sea: factor on the horizontal displacement */
+    int cascades, size;     /* sea: how many, and samples a side of each */
+    double patch;           /* sea: metres of the largest cascade; 0: six peak wavelengths */
+} lom_water_waves;
+
+typedef enum lom_fresnel { LOM_FRESNEL_EXACT, LOM_FRESNEL_SCHLICK, LOM_FRESNEL_DOT } lom_fresnel;
+
+/* Names of water after N. G. Jerlov, Marine Optics (1976), table XXVII; pure water after Pope and Fry (1997). */
+typedef enum lom_water_type {
+    LOM_WATER_PURE,
+    LOM_WATER_I, /* the clearest oceans */
+    LOM_WATER_IA,
+    LOM_WATER_IB,
+    LOM_WATER_II,
+    LOM_WATER_III,
+    LOM_WATER_1C, /* coasts, from clear to turbid */
+    LOM_WATER_3C,
+    LOM_WATER_5C,
+    LOM_WATER_7C,
+    LOM_WATER_TYPE_COUNT
+} lom_water_type;
+
+typedef struct lom_water_optics {
+    uint32_t given;
+    double index;         /* of refraction, water against air */
+    int fresnel;          /* lom_fresnel */
+    int type;             /* lom_water_type */
+    double absorption[3]; /* 1/m of red, green, blue; the reader has put the type's here when the file gives none */
+    double scatter[3]; /* radiance of bottomless water, in parts of a white surface's under the same light; likewise */
+    double roughness;  /* mean square slope of the ripples that the waves do not contain */
+    double glitter;    /* factor on the sun's reflection */
+    double reach;      /* parts of the picture that a bent lookup may be away from its pixel, 0..1 */
+    int steps;         /* of a march against the scene's depth */
+    double caustics;   /* 0: none .. 1: the light on the bed as the waves focus it */
+    double caustics_size; /* metres a side of the square in front of the eye in which they are computed */
+    int caustics_texels;  /* a side of it */
+    double opacity;       /* of the tinted quad */
+} lom_water_optics;
+
+typedef struct lom_water_foam {
+    uint32_t given;
+    double amount;      /* 0: no foam .. 1 */
+    double threshold;   /* Jacobian below which waves break */
+    double window;      /* seconds that foam lasts: it is the decaying sum of what broke in them */
+    double shore_depth; /* metres of water that the shore's foam reaches to; 0: none */
+    double tile;        /* metres of one repetition of its pattern */
+} lom_water_foam;
+
 /* The planar lake. Its nine steps can be switched one by one (spec: reflection, refraction, projection, flow, normals,
  * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */
@@ -44,7 +113,19 @@ typedef struct lom_water_params {
     double tint_amount;       /* 0..1 */
     double shore_depth;       /* metres of water at which it is fully there */
     double clip_offset; /* metres by which the two clip planes reach over the surface, against gaps at the shore */
+
+    lom_water_waves waves;
+    lom_water_optics optics;
+    lom_water_foam foam;
 } lom_water_params;
+
+enum { LOM_MAX_WAVES = 32 };
+
+/* Attenuation (1/m) and the radiance of bottomless water (parts of white) at 650, 550 and 475 nm, for red, green and
+ * blue. Attenuation is Jerlov's of downward irradiance (table XXVII), which for pure water is its absorption. The
+ * radiance is 0.33 b / a (Gordon, Brown, Jacobs 1975): b, the light scattered back, is half of Morel's (1974) molecular
+ * 0.00288 (wavelength / 500 nm)^-4.32 plus our estimate of the particles' for the type. */
+void lom_water_type_optics(lom_water_type type, double absorption[3], double scatter[3]);
 
 /* ---- made: the maps of the planar lake ---- */
 

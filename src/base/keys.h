@@ -36,7 +36,7 @@ typedef struct lom_key {
     double initial[3];                 /* the default of booleans, numbers and choices, in the file's unit */
     const char *unit;                  /* "m", "degrees", NULL for a plain number */
     const char *text;                  /* the documentation: sentences */
-    const char *choices[8];            /* of LOM_KEY_CHOICE, ended by NULL */
+    const char *choices[12];           /* of LOM_KEY_CHOICE, ended by NULL */
     const struct lom_key_table *table; /* of LOM_KEY_TABLE and LOM_KEY_TABLES */
     size_t length_offset;              /* of LOM_KEY_TABLES */
     const char *initial_text;          /* what the documentation says of the default when no number can say it */

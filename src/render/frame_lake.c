@@ -162,6 +162,23 @@ static bool draw_surface(struct frame *f)
     return lom_end_pass(r->device);
 }
 
+/* The cheapest model: a blended quad of one colour. */
+static bool draw_tinted(struct frame *f)
+{
+    lom_renderer *r = f->renderer;
+    lom_lake_view view = lake_view(f);
+    lom_add_step(f, "reflection", false, "tinted water reflects nothing");
+    lom_add_step(f, "refraction", false, "tinted water is blended over the scene");
+    lom_step *step = lom_add_step(f, "water", true, "a quad of one colour, blended over the scene");
+    step->width = f->crop.width;
+    step->height = f->crop.height;
+    lom_pass_desc pass = lom_frame_pass(f, r->color);
+    pass.color_load[0] = pass.depth_load = LOM_LOAD_KEEP;
+    lom_begin_pass(r->device, &pass);
+    lom_draw_lake(r->device, &lom_lake_tinted_shader, &f->scene->water, &view);
+    return lom_end_pass(r->device);
+}
+
 static bool skip_water(struct frame *f, const char *reason)
 {
     static const char *const passes[] = { "reflection", "refraction", "water" };
@@ -179,6 +196,8 @@ bool lom_draw_lake_stage(struct frame *f, lom_error *error)
         return skip_water(f, "water.enabled is false");
     if (!is_in_view(f))
         return skip_water(f, "the water's quad is outside the view");
+    if (f->scene->quality.water == LOM_WATER_TINTED)
+        return draw_tinted(f);
     if (!draw_visibility(f, error))
         return false;
     if (f->water.width == 0)

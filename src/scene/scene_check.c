@@ -217,6 +217,17 @@ static bool check_water(lom_reader *reader, const lom_toml_value *root)
     lom_scene *scene = reader->scene;
     if (child(child(root, "water"), "size") == NULL && scene->terrain.given != 0)
         memcpy(scene->water.size, scene->terrain.size, sizeof scene->water.size);
+    lom_water_optics *optics = &scene->water.optics;
+    const lom_toml_value *given = child(child(root, "water"), "optics");
+    double absorption[3], scatter[3];
+    lom_water_type_optics((lom_water_type)optics->type, absorption, scatter);
+    if (child(given, "absorption") == NULL)
+        memcpy(optics->absorption, absorption, sizeof absorption);
+    if (child(given, "scatter") == NULL)
+        memcpy(optics->scatter, scatter, sizeof scatter);
+    if (scene->water.waves.length[0] < scene->water.waves.length[1])
+        return fail_at(reader, root, child(child(root, "water"), "waves"), "length",
+                       "the longest wave comes first, then the shortest.");
     return true;
 }
 

@@ -210,7 +210,8 @@ static const lom_key_table entity_table = { sizeof(lom_entity), entity, COUNT(en
                                             "A mesh that stands in the scene. There may be 16384 of them." };
 
 static const lom_key quality[] = {
-    { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar" }, .text = "Model of the water." },
+    { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar", "tinted" },
+      .text = "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`." },
     { "shading", LOM_KEY_CHOICE, AT(lom_quality, shading), .choices = { "phong", "gouraud", "flat" },
       .text = "Light for each fragment, for each vertex, or for each face." },
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),

@@ -27,6 +27,7 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
                                    .specular_strength = (float)water->specular_strength,
                                    .tint_amount = (float)water->tint_amount,
                                    .shore_depth = (float)water->shore_depth,
+                                   .opacity = (float)water->optics.opacity,
                                    .quad = { (float)(water->position[0] - water->size[0] / 2),
                                              (float)(water->position[1] - water->size[1] / 2), (float)water->size[0],
                                              (float)water->size[1] },
@@ -63,7 +64,7 @@ void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water
     lom_draw_desc draw = {
         .shader = shader, .uniforms = &uniforms, .count = 4, .topology = LOM_TRIANGLE_STRIP, .depth_write_off = true
     };
-    if (shader == &lom_lake_shader)
+    if (shader != &lom_lake_mask_shader)
         draw.blend[0] = over;
     lom_draw(device, &draw);
 }

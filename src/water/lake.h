@@ -16,7 +16,7 @@ struct lom_lake_uniforms {
     float move;     /* repetitions the maps have moved, in [0, 1) */
     float near_plane;
     float flow_strength, normal_up, reflectivity, fresnel_power;
-    float shininess, specular_strength, tint_amount, shore_depth;
+    float shininess, specular_strength, tint_amount, shore_depth, opacity;
     float color[3], tint_color[3];
     float quad[4]; /* x, z of the quad's corner and its extent */
     const lom_texture *reflection, *refraction, *refraction_depth, *normal_map, *flow_map;
@@ -25,8 +25,8 @@ struct lom_lake_uniforms {
         has_soft_shore;
 };
 
-/* The colour of the surface, and its mere presence (one channel, 1). */
-extern const lom_shader lom_lake_shader, lom_lake_mask_shader;
+/* The colour of the surface, its mere presence (one channel, 1), and its tint alone. */
+extern const lom_shader lom_lake_shader, lom_lake_mask_shader, lom_lake_tinted_shader;
 
 /* What a pass of the lake needs besides its parameters. */
 typedef struct lom_lake_view {
@@ -38,7 +38,7 @@ typedef struct lom_lake_view {
     const lom_texture *reflection, *refraction, *refraction_depth, *normal_map, *flow_map;
 } lom_lake_view;
 
-/* Draws the quad with one of the two shaders: depth tested, blended over the scene by its alpha. */
+/* Draws the quad with one of the three shaders: depth tested, blended over the scene by its alpha. */
 void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water_params *water,
                    const lom_lake_view *view);
 

@@ -121,7 +121,17 @@ static void mask_fragment(lom_fragment *out, const lom_varyings *in, const void 
     out->color[0] = (lom_float4){ lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
 }
 
+static void tinted_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_lake_uniforms *lake = uniforms;
+    (void)in;
+    out->color[0] = (lom_float4){ lom_splat(lake->tint_color[0]), lom_splat(lake->tint_color[1]),
+                                  lom_splat(lake->tint_color[2]), lom_splat(lake->opacity) };
+}
+
 LOM_SHADER(lom_lake_shader, vertex, fragment, .varyings = 3, .reads = 7, .differentiates = 5, .reads_position = true,
            .colors = 1, .uniforms_size = sizeof(struct lom_lake_uniforms))
 LOM_SHADER(lom_lake_mask_shader, vertex, mask_fragment, .varyings = 3, .colors = 1,
+           .uniforms_size = sizeof(struct lom_lake_uniforms))
+LOM_SHADER(lom_lake_tinted_shader, vertex, tinted_fragment, .varyings = 3, .colors = 1,
            .uniforms_size = sizeof(struct lom_lake_uniforms))

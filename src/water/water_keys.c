@@ -82,9 +82,16 @@ static const lom_key keys[] = {
     { "clip_offset", LOM_KEY_NUMBER, AT(clip_offset), .maximum = 1000, .initial = { 0 }, .unit = "m",
       .text = "How far the two clip planes reach over the surface, so that displaced lookups find no gap at the shore. "
               "The published method has none." },
+
+    { "waves", LOM_KEY_TABLE, AT(waves), .table = &lom_water_waves_keys },
+    { "optics", LOM_KEY_TABLE, AT(optics), .table = &lom_water_optics_keys },
+    { "foam", LOM_KEY_TABLE, AT(foam), .table = &lom_water_foam_keys },
 };
 
 const lom_key_table lom_water_keys = {
     sizeof(lom_water_params), keys, sizeof keys / sizeof *keys,
-    "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water."
+    "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water. Richer "
+    "models (`quality.water`) read the tables inside this one, and of these keys `enabled`, `level`, `position`, "
+    "`size` "
+    "and `tint_color`."
 };

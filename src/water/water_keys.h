@@ -5,5 +5,7 @@
 #include "base/keys.h"
 
 extern const lom_key_table lom_water_keys;
+/* The tables inside it. */
+extern const lom_key_table lom_water_waves_keys, lom_water_optics_keys, lom_water_foam_keys;
 
 #endif
