@@ -79,18 +79,26 @@ lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_erro
  * first: the hash that `lom render --hash` and the golden tests print. */
 uint64_t lom_hash_image(const lom_image *image);
 
-/* Reads a picture from a file, by its content: PNG, PPM/PGM/PBM, PAM, PFM. Colour of 8 and 16 bits is stored as the
- * file has it (the _SRGB formats are never chosen; the caller says what the numbers mean with lom_reinterpret_image).
+/* Reads a picture from a file, by its content: PNG, PPM/PGM/PBM, PAM, PFM, NRRD (a volume). Colour of 8 and 16 bits is
+ * stored as the file has it (the _SRGB formats are never chosen; the caller says what the numbers mean with
+ * lom_reinterpret_image).
  */
 lom_image *lom_read_image(const char *path, lom_error *error);
 /* The same from memory; name is used in messages. */
 lom_image *lom_decode_image(const uint8_t *data, size_t size, const char *name, lom_error *error);
-/* Writes by the extension of path, or by kind ("png", "ppm", "pgm", "pam", "pfm") when that is not NULL. 8-bit and
- * 16-bit formats as they are, 32-bit floats only to pfm (others need lom_convert_image first); ppm, pgm and pfm drop
- * alpha, and ppm shows gray as three equal channels. */
+/* Writes by the extension of path, or by kind ("png", "ppm", "pgm", "pam", "pfm", "nrrd") when that is not NULL. 8-bit
+ * and 16-bit formats as they are, 32-bit floats only to pfm (others need lom_convert_image first); ppm, pgm and pfm
+ * drop alpha, and ppm shows gray as three equal channels. */
 bool lom_write_image(const char *path, const char *kind, const lom_image *image, lom_error *error);
 /* The same into memory; data is NULL on failure. */
 lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *error);
+/* A volume of density from a file: NRRD (raw or gzip; of several channels the last), or raw little-endian voxels, x
+ * first, of 1, 2 or 4 (float) bytes each, whose size says how many there are (NULL or 0: none, NRRD only). R8, R16 or
+ * R32F; floats are never NaN. NULL on failure; nothing is allocated for what a file only declares. */
+lom_image *lom_read_volume(const char *path, const int size[3], lom_error *error);
+/* The same from memory, raw. */
+lom_image *lom_decode_raw_volume(const uint8_t *data, size_t size, int width, int height, int depth, const char *name,
+                                 lom_error *error);
 /* Changes what the stored numbers mean, without touching them: between formats of equal channels and bits. */
 bool lom_reinterpret_image(lom_image *image, lom_format format, lom_error *error);
 

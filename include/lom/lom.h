@@ -7,6 +7,8 @@
 #include <lom/image.h>
 #include <lom/texture.h>
 #include <lom/geometry.h>
+#include <lom/march.h>
+#include <lom/cloud.h>
 #include <lom/pipeline.h>
 #include <lom/scene.h>
 #include <lom/sky.h>

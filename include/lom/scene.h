@@ -7,6 +7,7 @@
 #ifndef LOM_SCENE_H
 #define LOM_SCENE_H
 
+#include <lom/cloud.h>
 #include <lom/geometry.h>
 #include <lom/sky.h>
 #include <lom/water.h>
@@ -144,12 +145,18 @@ typedef enum lom_texture_filter {
 
 typedef struct lom_quality {
     uint32_t given;
-    int water;               /* lom_water_model */
-    int shading;             /* lom_shading */
-    int texture_filter;      /* lom_texture_filter */
-    bool mipmaps;            /* false: the finest level alone */
-    double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
-    double refraction_scale; /* the same of the refraction picture */
+    int water;                /* lom_water_model */
+    int clouds;               /* lom_cloud_model */
+    double cloud_error;       /* of an optical depth, in parts of the greatest one of that length: bounds the step */
+    double cloud_stop;        /* a ray stops when less than this share of the light behind comes through */
+    int cloud_octaves;        /* of multiple scattering, 1..8 */
+    bool cloud_jitter;        /* samples are shifted along the ray by a table of blue noise */
+    double cloud_light_scale; /* voxels of the light's grid a voxel of the density, along each axis */
+    int shading;              /* lom_shading */
+    int texture_filter;       /* lom_texture_filter */
+    bool mipmaps;             /* false: the finest level alone */
+    double reflection_scale;  /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
+    double refraction_scale;  /* the same of the refraction picture */
 } lom_quality;
 
 /* ---- the scene ---- */
@@ -163,9 +170,12 @@ typedef struct lom_scene {
     lom_terrain terrain; /* there is none when given is 0 */
     lom_sky_params sky;
     lom_water_params water; /* drawn when given is not 0 and enabled is set */
+    lom_clouds clouds;
     lom_quality quality;
     lom_entity *entities;
     size_t entity_count;
+    lom_cloud *cloud; /* [[cloud]] */
+    size_t cloud_count;
     const char *path;                /* of the scene file, as it was named */
     struct lom_scene_memory *memory; /* what the strings and arrays live in */
 } lom_scene;

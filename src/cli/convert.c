@@ -1,5 +1,5 @@
-/* `lom convert`. In: an image or a mesh. Out: the same in another kind of file. Invariant: what both kinds can hold is
- * kept exactly; samples that change their depth are rounded correctly; OUT is complete or untouched. */
+/* `lom convert`. In: an image, a volume or a mesh. Out: the same in another kind of file. Invariant: what both kinds
+ * can hold is kept exactly; samples that change their depth are rounded correctly; OUT is complete or untouched. */
 #include "commands.h"
 #include "options.h"
 #include "paths.h"
@@ -10,7 +10,7 @@
 
 struct values {
     const char *format, *bits;
-    lom_option_integers channels;
+    lom_option_integers channels, voxels;
     bool srgb;
 };
 
@@ -18,13 +18,13 @@ static const lom_option options[] = {
     { .name = "format",
       .kind = LOM_OPTION_CHOICE,
       .field = offsetof(struct values, format),
-      .value = "png|ppm|pgm|pam|pfm|obj",
+      .value = "png|ppm|pgm|pam|pfm|nrrd|obj",
       .help = "the kind of OUT, whatever it is called" },
     { .name = "bits",
       .kind = LOM_OPTION_CHOICE,
       .field = offsetof(struct values, bits),
-      .value = "8|16",
-      .help = "bits a sample; as in IN by default, 8 from floats" },
+      .value = "8|16|32",
+      .help = "bits a sample; as in IN by default, 8 from floats but in nrrd; 32 are floats" },
     { .name = "channels",
       .kind = LOM_OPTION_INTEGER,
       .field = offsetof(struct values, channels),
@@ -32,6 +32,13 @@ static const lom_option options[] = {
       .minimum = 1,
       .maximum = 4,
       .help = "1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha" },
+    { .name = "voxels",
+      .kind = LOM_OPTION_INTEGER,
+      .field = offsetof(struct values, voxels),
+      .value = "WxHxD",
+      .minimum = 1,
+      .maximum = LOM_MAX_SIZE,
+      .help = "IN is raw voxels, this many along x, y and z, of 8 or 16 bits or floats, little-endian" },
     { .name = "srgb",
       .kind = LOM_OPTION_FLAG,
       .field = offsetof(struct values, srgb),
@@ -41,9 +48,10 @@ static const lom_option options[] = {
 static const lom_command_line line = {
     .name = "convert",
     .arguments = "IN OUT",
-    .summary = "Writes an image or a mesh in another form",
+    .summary = "Writes an image, a volume or a mesh in another form",
     .details =
-        "The kind of OUT is its extension or --format: png, ppm, pgm, pam (8 or 16 bits), pfm (floats), obj. IN is "
+        "The kind of OUT is its extension or --format: png, ppm, pgm, pam (8 or 16 bits), pfm (floats), nrrd "
+        "(volumes; 8 or 16 bits or floats), obj. IN is "
         "told\n"
         "by its content. Samples keep their value in 0..1, correctly rounded; without --srgb no transfer function is\n"
         "applied. ppm has no alpha, pgm is gray: Rec. 709 luminance of the samples as they are.\n"
@@ -57,13 +65,14 @@ static const lom_command_line line = {
 /* What an image file can hold: channels[n] is how many n channels become in it. */
 struct kind {
     const char *name;
-    bool is_float;
+    bool is_float, is_any; /* holds floats alone; or unorm and floats */
     int channels[5];
 };
 
 static const struct kind kinds[] = {
-    { "png", false, { 0, 1, 2, 3, 4 } }, { "pam", false, { 0, 1, 2, 3, 4 } }, { "ppm", false, { 0, 3, 3, 3, 3 } },
-    { "pgm", false, { 0, 1, 1, 1, 1 } }, { "pfm", true, { 0, 1, 1, 3, 3 } },
+    { "png", false, false, { 0, 1, 2, 3, 4 } }, { "pam", false, false, { 0, 1, 2, 3, 4 } },
+    { "ppm", false, false, { 0, 3, 3, 3, 3 } }, { "pgm", false, false, { 0, 1, 1, 1, 1 } },
+    { "pfm", true, false, { 0, 1, 1, 3, 3 } },  { "nrrd", false, true, { 0, 1, 2, 3, 4 } },
 };
 
 static const struct kind *find_kind(const struct values *values, const char *path)
@@ -141,9 +150,11 @@ static bool reshape(lom_image **image, const struct kind *kind, const struct val
     int channels = values->channels.given ? (int)values->channels.value[0] : kind->channels[from->channels];
     if (kind->channels[channels] != channels)
         return lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold %d channels.", kind->name, channels);
-    int bits = kind->is_float ? 32 : from->is_float ? 8 : from->bits;
+    int bits = kind->is_float ? 32 : from->is_float && !kind->is_any ? 8 : from->bits;
     if (values->bits != NULL && !kind->is_float)
-        bits = strcmp(values->bits, "8") == 0 ? 8 : 16;
+        bits = strcmp(values->bits, "8") == 0 ? 8 : strcmp(values->bits, "16") == 0 ? 16 : 32;
+    if (bits == 32 && !kind->is_float && !kind->is_any)
+        return lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold floats.", kind->name);
     if (kind->is_float && values->bits != NULL)
         return lom_fail(error, LOM_ERROR_USAGE, "A pfm file holds floats; --bits does not apply to it.");
     bool srgb = values->srgb && from->is_float != kind->is_float;
@@ -165,10 +176,11 @@ static bool convert_image(const char *in, const char *out, const struct values *
 {
     const struct kind *kind = find_kind(values, out);
     if (kind == NULL)
-        return lom_fail(error, LOM_ERROR_USAGE,
-                        "%s: its extension is none of png, ppm, pgm, pam, pfm; --format can say what it is to be.",
-                        out);
-    lom_image *image = lom_read_image(in, error);
+        return lom_fail(
+            error, LOM_ERROR_USAGE,
+            "%s: its extension is none of png, ppm, pgm, pam, pfm, nrrd; --format can say what it is to be.", out);
+    const int size[3] = { (int)values->voxels.value[0], (int)values->voxels.value[1], (int)values->voxels.value[2] };
+    lom_image *image = values->voxels.given ? lom_read_volume(in, size, error) : lom_read_image(in, error);
     bool done = image != NULL && reshape(&image, kind, values, error) && lom_write_image(out, kind->name, image, error);
     lom_free_image(image);
     return done;

@@ -28,7 +28,8 @@ static const lom_command_line line = {
     .arguments = "FILE...",
     .summary = "Says what is in images, meshes and scenes",
     .details =
-        "Meshes are *.obj, scenes *.toml, anything else is read as an image (PNG, PPM, PGM, PBM, PAM, PFM). Triangles\n"
+        "Meshes are *.obj, scenes *.toml, anything else is read as an image (PNG, PPM, PGM, PBM, PAM, PFM) or a volume "
+        "(NRRD). Triangles\n"
         "count n - 2 a polygon; vertices are those left after equal corners became one. The hash of an image covers "
         "its\n"
         "size, its format and its samples; that of a mesh its vertices, its triangles and their materials; that of a\n"

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "options.h"
 
+#include <lom/cloud.h>
 #include <lom/lom.h>
 #include <lom/sky.h>
 #include <lom/water.h>
@@ -16,7 +17,8 @@ static const double degree = 3.141592653589793 / 180.0;
 
 struct values {
     const char *output;
-    lom_option_integers size, seed;
+    const char *bits;
+    lom_option_integers size, seed, voxels;
     lom_option_number azimuth, elevation, haziness, cloudiness, roughness;
 };
 
@@ -195,6 +197,10 @@ static const lom_option options[] = {
     { "size", 0, LOM_OPTION_INTEGER, offsetof(struct values, size), "N", 8, 4096, "pixels a side" },
     { "seed", 0, LOM_OPTION_INTEGER, offsetof(struct values, seed), "N", 0, 1e15,
       "another seed gives another one of its kind" },
+    { "voxels", 0, LOM_OPTION_INTEGER, offsetof(struct values, voxels), "WxHxD", 1, LOM_MAX_VOLUME,
+      "cloud: voxels along x, y (up) and z" },
+    { "bits", 0, LOM_OPTION_CHOICE, offsetof(struct values, bits), "8|16|32", 0, 0,
+      "cloud: bits a voxel, 32 are floats; 16 by default" },
     { "azimuth", 0, LOM_OPTION_NUMBER, offsetof(struct values, azimuth), "DEGREES", -360, 360,
       "sky-box: where the sun stands, 0 north (-z), 90 east (+x)" },
     { "elevation", 0, LOM_OPTION_NUMBER, offsetof(struct values, elevation), "DEGREES", 0, 90,
@@ -210,7 +216,9 @@ static const lom_option options[] = {
 static const lom_command_line line = {
     .name = "make",
     .arguments = "KIND [NAME]",
-    .summary = "Makes a picture or a mesh: height-map, normal-map, flow-map, sky-box, albedo NAME, entity NAME; or all",
+    .summary =
+        "Makes a picture, a mesh or a volume: height-map, normal-map, flow-map, sky-box, albedo NAME, entity NAME, "
+        "cloud NAME; or all",
     .details = "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
                "options a\n"
                "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
@@ -258,8 +266,29 @@ static parameters merge(const recipe *r, const struct values *v)
     return p;
 }
 
+/* A cloud's density as a volume (.nrrd); no asset of the project, since scenes name clouds by kind. */
+static bool make_cloud(const char *kind, const struct values *v, lom_error *error)
+{
+    static const lom_format formats[] = { LOM_FORMAT_R8, LOM_FORMAT_R16, LOM_FORMAT_R32F };
+    int format = v->bits == NULL || strcmp(v->bits, "16") == 0 ? 1 : strcmp(v->bits, "8") == 0 ? 0 : 2;
+    lom_image *made = lom_make_cloud(&(lom_cloud_desc){ .kind = kind,
+                                                        .width = (int)v->voxels.value[0],
+                                                        .height = (int)v->voxels.value[1],
+                                                        .depth = (int)v->voxels.value[2],
+                                                        .seed = v->seed.given ? (uint64_t)v->seed.value[0] : 1 },
+                                     error);
+    lom_image *volume = made != NULL ? lom_convert_image(made, formats[format], error) : NULL;
+    bool written = volume != NULL && lom_write_image(v->output, "nrrd", volume, error);
+    lom_free_image(made);
+    lom_free_image(volume);
+    return written;
+}
+
 static void print_list(void)
 {
+    for (size_t i = 0; lom_cloud_kind_at(i) != NULL; i++)
+        printf("%-10s %-18s %-7s %s\n", "cloud", lom_cloud_kind_at(i)->name, lom_cloud_kind_at(i)->abbreviation,
+               lom_cloud_kind_at(i)->text);
     for (size_t i = 0; i < RECIPE_COUNT; i++)
         printf("%-10s %-10s %s\n", recipes[i].kind, recipes[i].name != NULL ? recipes[i].name : "", recipes[i].path);
 }
@@ -322,6 +351,8 @@ int lom_command_make(int argc, char **argv)
         return make_all(&v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     if (strcmp(arguments.items[0], "scene-docs") == 0 && arguments.count == 1)
         return make_scene_docs(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
+    if (strcmp(arguments.items[0], "cloud") == 0 && arguments.count == 2)
+        return make_cloud(arguments.items[1], &v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     const recipe *found = find_recipe(&arguments);
     if (found == NULL)
         return lom_complain("make: there is no %s%s%s; `lom make list` prints what there is.", arguments.items[0],

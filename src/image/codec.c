@@ -21,14 +21,16 @@ static const struct {
     { "P7", 2, lom_decode_pam },
     { "PF", 2, lom_decode_pfm },
     { "Pf", 2, lom_decode_pfm },
+    { "NRRD", 4, lom_decode_nrrd },
 };
 
 static const struct {
     const char *kind;
     lom_bytes (*encode)(const lom_image *image, lom_error *error);
+    bool holds_slices;
 } encoders[] = {
-    { "png", lom_encode_png }, { "ppm", lom_encode_ppm }, { "pgm", lom_encode_pgm },
-    { "pam", lom_encode_pam }, { "pfm", lom_encode_pfm },
+    { "png", lom_encode_png, false }, { "ppm", lom_encode_ppm, false }, { "pgm", lom_encode_pgm, false },
+    { "pam", lom_encode_pam, false }, { "pfm", lom_encode_pfm, false }, { "nrrd", lom_encode_nrrd, true },
 };
 
 lom_format lom_unorm_format(int channels, int bits)
@@ -61,7 +63,7 @@ lom_image *lom_decode_image(const uint8_t *data, size_t size, const char *name, 
     for (size_t i = 0; i < sizeof decoders / sizeof *decoders; i++)
         if (size >= decoders[i].length && memcmp(data, decoders[i].signature, decoders[i].length) == 0)
             return decoders[i].decode(data, size, name, error);
-    lom_fail(error, LOM_ERROR_INPUT, "%s: byte 0: this is no picture (PNG, PBM, PGM, PPM, PAM or PFM).", name);
+    lom_fail(error, LOM_ERROR_INPUT, "%s: byte 0: this is no picture (PNG, PBM, PGM, PPM, PAM, PFM or NRRD).", name);
     return NULL;
 }
 
@@ -89,12 +91,12 @@ lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *
     for (size_t i = 0; kind != NULL && i < sizeof encoders / sizeof *encoders; i++) {
         if (!is_kind(kind, encoders[i].kind))
             continue;
-        if (image->depth == 1)
+        if (image->depth == 1 || encoders[i].holds_slices)
             return encoders[i].encode(image, error);
         lom_fail(error, LOM_ERROR_USAGE, "A picture file holds one slice, not %d.", image->depth);
         return (lom_bytes){ 0 };
     }
-    lom_fail(error, LOM_ERROR_USAGE, "There is no picture kind \"%s\" to write; it is png, ppm, pgm, pam or pfm.",
+    lom_fail(error, LOM_ERROR_USAGE, "There is no picture kind \"%s\" to write; it is png, ppm, pgm, pam, pfm or nrrd.",
              kind != NULL ? kind : "");
     return (lom_bytes){ 0 };
 }

@@ -11,11 +11,14 @@ lom_image *lom_decode_pnm(const uint8_t *data, size_t size, const char *name, lo
 lom_image *lom_decode_pam(const uint8_t *data, size_t size, const char *name, lom_error *error);
 lom_image *lom_decode_pfm(const uint8_t *data, size_t size, const char *name, lom_error *error);
 
+lom_image *lom_decode_nrrd(const uint8_t *data, size_t size, const char *name, lom_error *error);
+
 lom_bytes lom_encode_png(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_ppm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pgm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pam(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pfm(const lom_image *image, lom_error *error);
+lom_bytes lom_encode_nrrd(const lom_image *image, lom_error *error); /* any depth */
 
 /* The unorm format of 1..4 channels and 8 or 16 bits. */
 lom_format lom_unorm_format(int channels, int bits);

@@ -248,11 +248,54 @@ static bool check_entities(lom_reader *reader, const lom_toml_value *root)
     return true;
 }
 
+/* ---- [[cloud]] ---- */
+
+/* What the file leaves to the kind. */
+static bool fill_cloud(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *place, lom_cloud *cloud)
+{
+    if (cloud->file != NULL && cloud->kind != NULL)
+        return fail_at(reader, root, place, "file", "a cloud has either a kind or a file, not both.");
+    if (cloud->file != NULL)
+        return true;
+    if (cloud->kind == NULL)
+        cloud->kind = "cumulus_mediocris";
+    lom_error unknown = { 0 };
+    const lom_cloud_kind *kind = lom_find_cloud_kind(cloud->kind, &unknown);
+    if (kind == NULL)
+        return fail_at(reader, root, place, "kind", unknown.text);
+    if (child(place, "size") == NULL)
+        memcpy(cloud->size, kind->size, sizeof cloud->size);
+    if (child(place, "extinction") == NULL)
+        cloud->extinction = kind->extinction;
+    for (int i = 0; i < 3; i++) {
+        if (cloud->voxels[i] != lom_double_floor(cloud->voxels[i]))
+            return fail_at(reader, root, place, "voxels", "\"voxels\" must be made of whole numbers.");
+        if (cloud->voxels[i] == 0)
+            cloud->voxels[i] = kind->voxels[i];
+    }
+    return true;
+}
+
+static bool check_clouds(lom_reader *reader, const lom_toml_value *root)
+{
+    const lom_scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->cloud_count; i++) {
+        lom_cloud *cloud = &scene->cloud[i];
+        const lom_toml_value *place = element(root, "cloud", i);
+        if (!fill_cloud(reader, root, place, cloud))
+            return false;
+        for (size_t j = 0; j < i && cloud->name != NULL; j++)
+            if (scene->cloud[j].name != NULL && strcmp(scene->cloud[j].name, cloud->name) == 0)
+                return fail_at(reader, root, place, "name", "another cloud has this name already.");
+    }
+    return true;
+}
+
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
-    static bool (*const checks[])(lom_reader *,
-                                  const lom_toml_value *) = { check_camera,  check_light, check_sky,
-                                                              check_terrain, check_water, check_entities };
+    static bool (*const checks[])(lom_reader *, const lom_toml_value *) = { check_camera,  check_light, check_sky,
+                                                                            check_terrain, check_water, check_entities,
+                                                                            check_clouds };
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         if (!checks[i](reader, root))
             return false;

@@ -3,6 +3,7 @@
  * new table of keys is one line in `root`. */
 #include "scene_keys.h"
 
+#include "cloud/cloud_keys.h"
 #include "sky/sky_keys.h"
 #include "water/water_keys.h"
 
@@ -212,6 +213,22 @@ static const lom_key_table entity_table = { sizeof(lom_entity), entity, COUNT(en
 static const lom_key quality[] = {
     { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar", "tinted" },
       .text = "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`." },
+    { "clouds", LOM_KEY_CHOICE, AT(lom_quality, clouds),
+      .choices = { "octaves", "forward", "single", "original", "billboard", "off" },
+      .text = "Model of the clouds: marched with octaves of multiple scattering, with multiple forward scattering, or "
+              "with light that was scattered once; the reference work's; a flat picture; none." },
+    { "cloud_error", LOM_KEY_NUMBER, AT(lom_quality, cloud_error), .flags = LOM_KEY_ABOVE, .maximum = 1,
+      .initial = { 0.05 },
+      .text =
+          "Bound on the error of an optical depth, in parts of the greatest one of that length: it sets the step." },
+    { "cloud_stop", LOM_KEY_NUMBER, AT(lom_quality, cloud_stop), .maximum = 1, .initial = { 0.004 },
+      .text = "A ray ends when less than this share of the light behind comes through." },
+    { "cloud_octaves", LOM_KEY_INTEGER, AT(lom_quality, cloud_octaves), .minimum = 1, .maximum = 8, .initial = { 4 },
+      .text = "Octaves of multiple scattering." },
+    { "cloud_jitter", LOM_KEY_BOOL, AT(lom_quality, cloud_jitter), .initial = { 1 },
+      .text = "Shift samples along the ray by a table of blue noise, which breaks up bands." },
+    { "cloud_light_scale", LOM_KEY_NUMBER, AT(lom_quality, cloud_light_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,
+      .initial = { 0.5 }, .text = "Size of the grid of light, in parts of the density's, along each axis." },
     { "shading", LOM_KEY_CHOICE, AT(lom_quality, shading), .choices = { "phong", "gouraud", "flat" },
       .text = "Light for each fragment, for each vertex, or for each face." },
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),
@@ -236,6 +253,9 @@ static const lom_key root[] = {
     { "water", LOM_KEY_TABLE, AT(lom_scene, water), .table = &lom_water_keys },
     { "entity", LOM_KEY_TABLES, AT(lom_scene, entities), .table = &entity_table,
       .length_offset = AT(lom_scene, entity_count), .text = "Meshes in the scene." },
+    { "clouds", LOM_KEY_TABLE, AT(lom_scene, clouds), .table = &lom_clouds_keys },
+    { "cloud", LOM_KEY_TABLES, AT(lom_scene, cloud), .table = &lom_cloud_keys,
+      .length_offset = AT(lom_scene, cloud_count), .text = "Clouds in the scene." },
     { "quality", LOM_KEY_TABLE, AT(lom_scene, quality), .table = &quality_table },
 };
 const lom_key_table lom_scene_keys = { sizeof(lom_scene), root, COUNT(root), "The scene as a whole." };

@@ -1,0 +1,108 @@
+/* lom/cloud.h - clouds: volumes of density that are made by kind and seed, and how a scene's clouds are lit and drawn.
+ *
+ * A cloud's volume is an image with depth: x to the right, y up (row 0 is the lowest), z towards the viewer; a voxel is
+ * the density at its centre, 0 to 1. docs/clouds.md derives every model; formulas are named by the paper they come
+ * from.
+ */
+#ifndef LOM_CLOUD_H
+#define LOM_CLOUD_H
+
+#include <lom/geometry.h>
+#include <lom/march.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- made: volumes of density ---- */
+
+/* What a kind is when nothing else is said. */
+typedef struct lom_cloud_kind {
+    const char *name;         /* "cumulus_congestus" */
+    const char *abbreviation; /* "Cu con", "" when it has none */
+    const char *text;         /* a sentence */
+    double low, high;         /* range of the base, metres above sea level; both 0: it has none */
+    double size[3];           /* metres along x, y, z */
+    int voxels[3];
+    double extinction; /* 1/m where the density is 1 */
+} lom_cloud_kind;
+
+/* The kinds, from 0; NULL behind the last. */
+const lom_cloud_kind *lom_cloud_kind_at(size_t index);
+/* By name or abbreviation, case as written; NULL (and an error that suggests the nearest name) when there is none. */
+const lom_cloud_kind *lom_find_cloud_kind(const char *name, lom_error *error);
+
+typedef struct lom_cloud_desc {
+    const char *kind;
+    int width, height, depth; /* voxels, 1..LOM_MAX_VOLUME; 0: the kind's */
+    uint64_t seed;
+} lom_cloud_desc;
+/* A volume of density, R16, the same bytes everywhere. NULL on failure; freed with lom_free_image. */
+lom_image *lom_make_cloud(const lom_cloud_desc *desc, lom_error *error);
+
+/* ---- [[cloud]] ---- */
+
+typedef struct lom_cloud {
+    uint32_t given;
+    const char *name; /* NULL when it has none; unique in the scene */
+    const char *kind; /* one that lom_find_cloud_kind knows; NULL when file is set */
+    const char *file; /* a volume of density of the user's, or NULL */
+    double voxels[3]; /* of the made volume, or of a raw file; 0: the kind's */
+    int seed;
+    lom_vec3 position;  /* metres: the middle of the base of its box */
+    double size[3];     /* metres along x, y, z; the reader has put the kind's where the file names none */
+    double yaw;         /* radians about y, counter-clockwise seen from above */
+    double density;     /* factor on the volume's density */
+    double extinction;  /* 1/m where the volume's density is 1; the kind's where the file names none */
+    double detail;      /* 0..1: how far tiling noise eats into thin parts */
+    double detail_size; /* metres of one repetition of that noise */
+    bool visible;
+} lom_cloud;
+
+/* ---- [clouds]: the light and the air that all clouds share ---- */
+
+typedef enum lom_cloud_phase {
+    LOM_PHASE_DUAL = 0, /* blend of two Henyey-Greenstein lobes */
+    LOM_PHASE_HENYEY_GREENSTEIN,
+    LOM_PHASE_RAYLEIGH,
+    LOM_PHASE_ISOTROPIC
+} lom_cloud_phase;
+
+typedef enum lom_cloud_original_light {
+    LOM_ORIGINAL_COMBINED = 0, /* in advance and in real time */
+    LOM_ORIGINAL_ADVANCE,
+    LOM_ORIGINAL_REAL_TIME,
+    LOM_ORIGINAL_NONE
+} lom_cloud_original_light;
+
+typedef struct lom_clouds {
+    uint32_t given;
+    int phase;                           /* lom_cloud_phase */
+    double forward, backward, blend;     /* mean cosines of the lobes (-1..1) and the share of the backward one */
+    double silver, silver_spread;        /* strength of the silver lining and 1 - mean cosine of its lobe */
+    double albedo;                       /* share of light that an encounter scatters, 0..1 */
+    double brightness;                   /* factor on the sun's light in clouds */
+    double sky[3], ground[3];            /* linear radiance from above and from below */
+    double haze_color[3], haze_distance; /* metres after which a share of 1/e of a cloud is left; 0: clear air */
+    bool shadows;                        /* clouds shadow one another, the ground and the water */
+    double shadow_strength;              /* 0..1, of those on the ground and the water */
+    int original_light;                  /* lom_cloud_original_light */
+    double lighter, dark_light;          /* the original's constants of lighting in advance */
+} lom_clouds;
+
+/* ---- quality.clouds ---- */
+
+typedef enum lom_cloud_model {
+    LOM_CLOUDS_OCTAVES = 0, /* marched; octaves of multiple scattering */
+    LOM_CLOUDS_FORWARD,     /* marched; Harris's multiple forward scattering */
+    LOM_CLOUDS_SINGLE,      /* marched; light that was scattered once */
+    LOM_CLOUDS_ORIGINAL,    /* the reference work's fixed steps and light */
+    LOM_CLOUDS_BILLBOARD,   /* a flat picture */
+    LOM_CLOUDS_OFF
+} lom_cloud_model;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

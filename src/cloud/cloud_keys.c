@@ -1,0 +1,85 @@
+/* The tables of the scene file's [clouds] and [[cloud]] keys. In: nothing. Out: names, ranges, defaults and
+ * documentation of every member of lom_clouds and lom_cloud. */
+#include "cloud_keys.h"
+
+#include <lom/cloud.h>
+
+#define AT(member)     offsetof(lom_cloud, member)
+#define OF_ALL(member) offsetof(lom_clouds, member)
+
+static const lom_key cloud[] = {
+    { "name", LOM_KEY_STRING, AT(name), .text = "A name of its own, for overrides and messages." },
+    { "kind", LOM_KEY_STRING, AT(kind),
+      .text = "What it is: a name or abbreviation that `lom make list` prints. Genera of the atmosphere: `cirrus`, "
+              "`cirrocumulus`, `cirrostratus`, `altocumulus`, `altostratus`, `stratocumulus`, `stratus`, "
+              "`nimbostratus`, `cumulonimbus`; species of cumulus: `cumulus_fractus`, `cumulus_humilis`, "
+              "`cumulus_mediocris`, `cumulus_congestus`; earlier models: `hemisphere`, `hemisphere_perlin`, `puffs`, "
+              "`automaton`, `wyvill`.",
+      .initial_text = "`cumulus_mediocris`" },
+    { "file", LOM_KEY_FILE, AT(file),
+      .text = "A volume of density of your own instead of `kind`: NRRD, or raw voxels of 8 bits with `voxels`." },
+    { "voxels", LOM_KEY_NUMBER, AT(voxels), 3, .minimum = 0, .maximum = LOM_MAX_VOLUME,
+      .text = "Voxels along x, y and z.", .initial_text = "the kind's" },
+    { "seed", LOM_KEY_INTEGER, AT(seed), .minimum = 0, .maximum = 2147483647, .initial = { 1 },
+      .text = "Another seed gives another cloud of the kind." },
+    { "position", LOM_KEY_NUMBER, AT(position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .text = "Where the middle of its base is." },
+    { "size", LOM_KEY_NUMBER, AT(size), 3, .flags = LOM_KEY_ABOVE | LOM_KEY_SPREAD, .maximum = 1e6, .unit = "m",
+      .initial = { 1000, 1000, 1000 }, .text = "Extent of its box along x, y and z.", .initial_text = "the kind's" },
+    { "yaw", LOM_KEY_ANGLE, AT(yaw), .minimum = -360, .maximum = 360, .unit = "degrees",
+      .text = "Turns it about the y axis, counter-clockwise seen from above." },
+    { "density", LOM_KEY_NUMBER, AT(density), .maximum = 1000, .initial = { 1 },
+      .text = "Factor on the volume's density." },
+    { "extinction", LOM_KEY_NUMBER, AT(extinction), .maximum = 1000, .initial = { 0.04 }, .unit = "1/m",
+      .text = "Share of the light that a metre takes where the density is 1.", .initial_text = "the kind's" },
+    { "detail", LOM_KEY_NUMBER, AT(detail), .maximum = 1, .initial = { 0.35 },
+      .text = "How far noise finer than the voxels eats into thin parts when it is marched." },
+    { "detail_size", LOM_KEY_NUMBER, AT(detail_size), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 180 },
+      .unit = "m", .text = "Length of one repetition of that noise." },
+    { "visible", LOM_KEY_BOOL, AT(visible), .initial = { 1 }, .text = "Whether it is drawn." },
+};
+const lom_key_table lom_cloud_keys = { sizeof(lom_cloud), cloud, sizeof cloud / sizeof *cloud,
+                                       "A cloud: a box of density. Boxes should not overlap." };
+
+static const lom_key clouds[] = {
+    { "phase", LOM_KEY_CHOICE, OF_ALL(phase), .choices = { "dual", "henyey_greenstein", "rayleigh", "isotropic" },
+      .text = "Where light goes that is scattered: two Henyey-Greenstein lobes, the forward one alone, Rayleigh's "
+              "function, or everywhere." },
+    { "forward", LOM_KEY_NUMBER, OF_ALL(forward), .minimum = -0.99, .maximum = 0.99, .initial = { 0.8 },
+      .text = "Mean cosine of the forward lobe." },
+    { "backward", LOM_KEY_NUMBER, OF_ALL(backward), .minimum = -0.99, .maximum = 0.99, .initial = { -0.3 },
+      .text = "Mean cosine of the backward lobe." },
+    { "blend", LOM_KEY_NUMBER, OF_ALL(blend), .maximum = 1, .initial = { 0.35 },
+      .text = "Share of the backward lobe." },
+    { "silver", LOM_KEY_NUMBER, OF_ALL(silver), .maximum = 100, .initial = { 0.6 },
+      .text = "Strength of the silver lining: a narrow lobe around the sun, seen through thin edges." },
+    { "silver_spread", LOM_KEY_NUMBER, OF_ALL(silver_spread), .minimum = 0.01, .maximum = 1, .initial = { 0.1 },
+      .text = "How wide that lobe is: 1 less its mean cosine." },
+    { "albedo", LOM_KEY_NUMBER, OF_ALL(albedo), .maximum = 1, .initial = { 1 },
+      .text = "Share of the light that a droplet scatters; the rest is absorbed." },
+    { "brightness", LOM_KEY_NUMBER, OF_ALL(brightness), .maximum = 1000, .initial = { 1 },
+      .text = "Factor on the sun's light in clouds." },
+    { "sky", LOM_KEY_COLOR, OF_ALL(sky), 3, .maximum = 1000, .initial = { 0.28, 0.4, 0.6 },
+      .text = "Light that reaches clouds from the sky above." },
+    { "ground", LOM_KEY_COLOR, OF_ALL(ground), 3, .maximum = 1000, .initial = { 0.1, 0.11, 0.1 },
+      .text = "Light that reaches clouds from below." },
+    { "haze_color", LOM_KEY_COLOR, OF_ALL(haze_color), 3, .maximum = 1000, .initial = { 0.55, 0.66, 0.78 },
+      .text = "Colour of the air that far clouds turn to." },
+    { "haze_distance", LOM_KEY_NUMBER, OF_ALL(haze_distance), .maximum = 1e9, .unit = "m",
+      .text = "Distance at which 1/e of a cloud is left; 0 is clear air." },
+    { "shadows", LOM_KEY_BOOL, OF_ALL(shadows), .initial = { 1 },
+      .text = "Whether clouds shadow one another, the ground and the water." },
+    { "shadow_strength", LOM_KEY_NUMBER, OF_ALL(shadow_strength), .maximum = 1, .initial = { 0.85 },
+      .text = "How dark the shadows on the ground and the water are." },
+    { "original_light", LOM_KEY_CHOICE, OF_ALL(original_light),
+      .choices = { "combined", "advance", "real_time", "none" },
+      .text = "With `quality.clouds = \"original\"`: which of its two kinds of light." },
+    { "lighter", LOM_KEY_NUMBER, OF_ALL(lighter), .maximum = 100, .initial = { 0.6 },
+      .text = "The original's factor on densities that lie towards the sun. Its value was never published; ours keeps "
+              "a cloud of full density half lit at its middle." },
+    { "dark_light", LOM_KEY_NUMBER, OF_ALL(dark_light), .maximum = 1000, .initial = { 8 },
+      .text = "The original's factor on the number of voxels passed when the density summed up is above 250. Its value "
+              "was never published; ours darkens a voxel fully behind some thirty others." },
+};
+const lom_key_table lom_clouds_keys = { sizeof(lom_clouds), clouds, sizeof clouds / sizeof *clouds,
+                                        "What all clouds share: how they scatter, and the light of sky and ground." };

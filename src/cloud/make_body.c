@@ -1,0 +1,184 @@
+/* Cumulus and cumulonimbus: heaps of bubbles (turrets that rise and narrow, a broad base, an anvil), in metres. In: a
+ * volume and a seed. Out: densities. Invariant: bubbles lie inside the box, with room for billows. */
+#include "cloud/cloud_kinds.h"
+#include "cloud/shape.h"
+
+struct recipe {
+    float size[3];
+    int turrets, rise;              /* bubbles of the base ring come on top: 2 a turret */
+    double spread;                  /* of the turrets, in parts of the half width */
+    double low_radius, high_radius; /* of a turret's bubbles at its foot and its head */
+    double height;                  /* of the highest turret, in parts of the room above the base */
+    double anvil;                   /* radius of an anvil; 0: none */
+    struct lom_cloud_body body;     /* all but the bubbles */
+};
+
+static const struct recipe recipes[] = {
+    /* fractus */
+    { { 700, 350, 600 },
+      5,
+      2,
+      0.62,
+      62,
+      45,
+      0.62,
+      0,
+      { .base = 40,
+        .base_depth = 60,
+        .billow = 75,
+        .billow_size = 150,
+        .warp = 70,
+        .warp_size = 260,
+        .softness = 130,
+        .thin = 0.7f } },
+    /* humilis */
+    { { 1100, 450, 1000 },
+      8,
+      2,
+      0.66,
+      150,
+      105,
+      0.72,
+      0,
+      { .base = 35,
+        .base_depth = 40,
+        .billow = 58,
+        .billow_size = 185,
+        .warp = 45,
+        .warp_size = 420,
+        .softness = 70,
+        .thin = 0.55f } },
+    /* mediocris */
+    { { 1600, 1000, 1500 },
+      10,
+      4,
+      0.6,
+      250,
+      165,
+      0.86,
+      0,
+      { .base = 50,
+        .base_depth = 45,
+        .billow = 85,
+        .billow_size = 270,
+        .warp = 70,
+        .warp_size = 600,
+        .softness = 80,
+        .thin = 0.5f } },
+    /* congestus */
+    { { 2600, 3000, 2500 },
+      9,
+      9,
+      0.5,
+      480,
+      280,
+      0.9,
+      0,
+      { .base = 90,
+        .base_depth = 70,
+        .billow = 150,
+        .billow_size = 430,
+        .warp = 120,
+        .warp_size = 1000,
+        .softness = 110,
+        .thin = 0.5f } },
+    /* cumulonimbus */
+    { { 12000, 9000, 11000 },
+      9,
+      9,
+      0.34,
+      1500,
+      1150,
+      0.86,
+      4700,
+      { .base = 300,
+        .base_depth = 250,
+        .billow = 480,
+        .billow_size = 1350,
+        .warp = 420,
+        .warp_size = 3200,
+        .softness = 420,
+        .thin = 0.6f } },
+};
+
+static void add_bubble(struct lom_cloud_body *body, const struct recipe *r, double x, double y, double z, double radius,
+                       double flatness)
+{
+    double room = radius + r->body.billow * 0.6;
+    double reach_x = r->size[0] / 2 - room, reach_z = r->size[2] / 2 - room;
+    double square = x * x / (reach_x * reach_x) + z * z / (reach_z * reach_z);
+    if (square > 1) { /* back inside the ellipse that fits the box */
+        double scale = 1 / lom_double_sqrt(square);
+        x *= scale;
+        z *= scale;
+    }
+    double highest = r->size[1] - radius / flatness - r->body.billow * 0.7;
+    y = y < highest ? y : highest;
+    if (body->bubble_count < LOM_MAX_BUBBLES)
+        body->bubble[body->bubble_count++] =
+            (struct lom_cloud_bubble){ (float)(x + r->size[0] / 2), (float)y, (float)(z + r->size[2] / 2),
+                                       (float)radius, (float)flatness };
+}
+
+static double uniform(uint64_t seed, uint64_t *counter)
+{
+    return lom_random_uniform(seed, (*counter)++);
+}
+
+/* A turret from the base up; the middle ones are higher. */
+static void add_turret(struct lom_cloud_body *body, const struct recipe *r, int index, uint64_t seed, uint64_t *counter)
+{
+    double angle = 2.399963229728653 * index + 6.283185307179586 * uniform(seed, counter); /* about the golden angle */
+    double along = lom_double_sqrt((index + 0.5 * uniform(seed, counter)) / r->turrets);
+    double x = along * r->spread * r->size[0] / 2 * lom_double_cos(angle);
+    double z = along * r->spread * r->size[2] / 2 * lom_double_sin(angle);
+    double height =
+        (r->size[1] - r->body.base) * r->height * (1 - 0.62 * along * along) * (0.78 + 0.22 * uniform(seed, counter));
+    double lean_x = 0.5 * uniform(seed, counter) - 0.25, lean_z = 0.5 * uniform(seed, counter) - 0.25;
+    for (int k = 0; k < r->rise; k++) {
+        double f = r->rise > 1 ? (double)k / (r->rise - 1) : 0;
+        double radius = (r->low_radius + (r->high_radius - r->low_radius) * f) * (0.75 + 0.4 * uniform(seed, counter)) *
+                        (1 - 0.25 * along);
+        double turn = 6.283185307179586 * uniform(seed, counter), off = 0.55 * radius * uniform(seed, counter);
+        double y = r->body.base + 0.15 * radius + (height - radius) * f;
+        add_bubble(body, r, x + lean_x * height * f * 0.5 + off * lom_double_cos(turn), y,
+                   z + lean_z * height * f * 0.5 + off * lom_double_sin(turn), radius, 1);
+    }
+    for (int k = 0; k < 2; k++) { /* around its foot */
+        double radius = 0.62 * r->low_radius * (0.7 + 0.6 * uniform(seed, counter));
+        double turn = 6.283185307179586 * uniform(seed, counter);
+        add_bubble(body, r, x + 1.1 * r->low_radius * lom_double_cos(turn), r->body.base + 0.1 * radius,
+                   z + 1.1 * r->low_radius * lom_double_sin(turn), radius, 1.15);
+    }
+}
+
+/* Flat bubbles at the top that spread to one side, with the wind at that height. */
+static void add_anvil(struct lom_cloud_body *body, const struct recipe *r, uint64_t seed, uint64_t *counter)
+{
+    for (int k = 0; k < 14; k++) {
+        double turn = 6.283185307179586 * uniform(seed, counter), along = lom_double_sqrt(uniform(seed, counter));
+        double radius = r->anvil * (0.42 + 0.28 * uniform(seed, counter)) * (1 - 0.35 * along);
+        double x = (0.16 + 0.62 * along * lom_double_cos(turn)) * r->anvil * 1.25;
+        double z = 0.75 * along * lom_double_sin(turn) * r->anvil;
+        double y = r->size[1] * (0.85 + 0.03 * uniform(seed, counter));
+        add_bubble(body, r, x, y, z, radius, 4.2);
+    }
+}
+
+bool lom_make_body(lom_image *volume, int variety, uint64_t seed, lom_error *error)
+{
+    (void)error;
+    const struct recipe *r = &recipes[variety];
+    struct lom_cloud_body body = r->body;
+    uint64_t key = lom_random_bits(seed, (uint64_t)variety + 100), counter = 0;
+    for (int i = 0; i < r->turrets; i++)
+        add_turret(&body, r, i, key, &counter);
+    if (r->anvil > 0)
+        add_anvil(&body, r, key, &counter);
+    struct lom_cloud_shape shape = { .voxels = { volume->width, volume->height, volume->depth },
+                                     .size = { r->size[0], r->size[1], r->size[2] },
+                                     .seed = (uint32_t)key,
+                                     .body = &body };
+    lom_fill_shape((uint16_t *)volume->pixels, &shape);
+    return true;
+}

@@ -1,0 +1,109 @@
+/* The densities of Perlin-Worley shapes, a row of voxels at a time. In: a shape. Out: 16-bit densities.
+ *
+ * A body is where s = max over its bubbles of (radius - distance) is above 0, displaced by billows: octaves of inverted
+ * cellular noise (Worley 1996; Schneider and Vos 2015 for clouds), which swell round and crease sharply. A layer is
+ * where noise exceeds a threshold set by the coverage, times a profile over its height.
+ *
+ * Invariant: the density is 0 in the outermost voxels, so that no cloud ends in a wall. */
+#include "cloud/shape.h"
+#include "cloud/cloud_noise.h"
+
+/* A vector of slow noise. */
+static lom_float3 slow_noise(lom_float3 p, float size, uint32_t seed)
+{
+    lom_float3 q = lom_scale3(p, lom_splat(1 / size));
+    return (lom_float3){ lom_gradient_octaves(q, 2, -1, seed), lom_gradient_octaves(q, 2, -1, seed + 101),
+                         lom_gradient_octaves(q, 2, -1, seed + 202) };
+}
+
+/* Metres inside the union of the bubbles; negative outside. */
+static lom_float depth_inside(const struct lom_cloud_body *body, lom_float3 p)
+{
+    lom_float depth = lom_splat(-1e9f);
+    for (int i = 0; i < body->bubble_count; i++) {
+        const struct lom_cloud_bubble *b = &body->bubble[i];
+        lom_float dx = p.x - b->x, dy = (p.y - b->y) * b->flatness, dz = p.z - b->z;
+        lom_float distance = lom_sqrt(dx * dx + dy * dy + dz * dz);
+        depth = lom_max(depth, (b->radius - distance) * (1 / b->flatness));
+    }
+    return depth;
+}
+
+static lom_float body_density(const struct lom_cloud_shape *shape, lom_float3 p)
+{
+    const struct lom_cloud_body *body = shape->body;
+    float reach = body->billow + body->softness + body->warp;
+    lom_float depth = depth_inside(body, p);
+    if (!lom_any((depth > -reach) & (p.y > body->base - body->base_depth)))
+        return (lom_float){ 0 };
+    if (lom_any(depth < reach)) {
+        lom_float3 moved = lom_add3(p, lom_scale3(slow_noise(p, body->warp_size, shape->seed), lom_splat(body->warp)));
+        lom_float3 q = lom_scale3(moved, lom_splat(1 / body->billow_size));
+        lom_float billow = lom_billow_octaves(q, 4, -1, shape->seed + 7);
+        depth = depth_inside(body, moved) + body->billow * (2.2f * (billow - 0.45f));
+    }
+    lom_float density = lom_smoothstep((lom_float){ 0 }, lom_splat(body->softness), depth);
+    lom_float3 flat = { p.x, { 0 }, p.z };
+    lom_float uneven =
+        lom_gradient_octaves(lom_scale3(flat, lom_splat(1.6f / body->billow_size)), 3, -1, shape->seed + 31);
+    lom_float above = p.y - body->base + uneven * (0.7f * body->base_depth);
+    density = density * lom_smoothstep((lom_float){ 0 }, lom_splat(body->base_depth), above);
+    lom_float height = lom_saturate((p.y - body->base) * (1 / (0.6f * shape->size[1])));
+    return density * lom_mix(lom_splat(body->thin), lom_splat(1.0f), height);
+}
+
+static lom_float layer_density(const struct lom_cloud_shape *shape, lom_float3 p)
+{
+    const struct lom_cloud_layer *layer = shape->layer;
+    lom_float height = p.y * (1 / shape->size[1]);
+    lom_float profile = lom_smoothstep((lom_float){ 0 }, lom_splat(layer->rise), height) *
+                        (1.0f - lom_smoothstep(lom_splat(1.0f - layer->fall), lom_splat(1.0f), height));
+    if (!lom_any(profile > 0.0f))
+        return (lom_float){ 0 };
+    lom_float3 moved = lom_add3(p, lom_scale3(slow_noise(p, layer->warp_size, shape->seed), lom_splat(layer->warp)));
+    moved.x = moved.x + layer->shear * p.y;
+    lom_float3 q = { moved.x * (1 / layer->cell[0]), moved.y * (1 / layer->cell[1]), moved.z * (1 / layer->cell[2]) };
+    lom_float noise = lom_gradient_octaves(q, 5, -1, shape->seed + 3);
+    noise = lom_mix(0.5f + 0.9f * noise, 1.0f - 2.4f * lom_abs(noise), lom_splat(layer->streak));
+    if (layer->billow_share > 0) {
+        lom_float billow = 1.7f * lom_billow_octaves(q, 3, -1, shape->seed + 7) - 0.28f;
+        noise = lom_mix(noise, billow, lom_splat(layer->billow_share));
+    }
+    lom_float3 wide = { p.x * (1 / layer->patch_size), { 0 }, p.z * (1 / layer->patch_size) };
+    lom_float patch = lom_gradient_octaves(wide, 3, -1, shape->seed + 57);
+    lom_float threshold = 1.0f - layer->coverage - layer->patch * patch;
+    /* where the layer is thin (low profile) more noise is needed: domes above, a flat base below */
+    lom_float excess = (noise - threshold - 0.35f * (1.0f - profile)) * layer->contrast;
+    return lom_saturate(excess) * lom_saturate(profile * 3.0f);
+}
+
+/* Falls to 0 towards the faces of the box, over `share` of the side. */
+static lom_float border(lom_float at, float share)
+{
+    lom_float from_face = 0.5f - lom_abs(at - 0.5f);
+    return lom_smoothstep((lom_float){ 0 }, lom_splat(share), from_face);
+}
+
+void LOM_WIDE(lom_shape_row)(uint16_t *row, const struct lom_cloud_shape *shape, int y, int z)
+{
+    const int *n = shape->voxels;
+    float share = shape->layer != NULL ? 0.14f : 0.03f;
+    float inner_y = ((float)y + 0.5f) / (float)n[1], inner_z = ((float)z + 0.5f) / (float)n[2];
+    bool outermost = (y == 0 || y == n[1] - 1 || z == 0 || z == n[2] - 1) && n[1] > 2 && n[2] > 2;
+    for (int x = 0; x < n[0]; x += LOM_LANES) {
+        lom_int voxel = lom_lane_index() + x;
+        lom_float inner_x = (lom_to_float(voxel) + 0.5f) / (float)n[0];
+        lom_float density = { 0 };
+        if (!outermost) {
+            lom_float3 p = { inner_x * shape->size[0], lom_splat(inner_y * shape->size[1]),
+                             lom_splat(inner_z * shape->size[2]) };
+            density = shape->body != NULL ? body_density(shape, p) : layer_density(shape, p);
+            density = density * (border(inner_x, share) * border(lom_splat(inner_z), share));
+            density = lom_select((voxel == 0) | (voxel == n[0] - 1), (lom_float){ 0 }, density);
+        }
+        int32_t words[LOM_LANES];
+        lom_store_int(words, lom_to_int(lom_saturate(density) * 65535.0f + 0.5f));
+        for (int i = 0; i < LOM_LANES && x + i < n[0]; i++)
+            row[x + i] = (uint16_t)words[i];
+    }
+}
