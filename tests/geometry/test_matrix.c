@@ -168,6 +168,37 @@ static void mirrors(void)
     }
 }
 
+/* A camera mirrored in a level plane with its pitch inverted sees what the view times the mirror matrix shows, upside
+ * down: so a lookup with y inverted in the one is the lookup as it is in the other, and depths agree. */
+static void an_inverted_pitch_is_the_mirror_upside_down(void)
+{
+    const lom_vec3 up = { 0, 1, 0 };
+    uint64_t counter = 0;
+    for (int i = 0; i < 1000; i++) {
+        double level = uniform(&counter, -5, 5), yaw = uniform(&counter, -PI, PI), pitch = uniform(&counter, -1.5, 1.5);
+        lom_vec3 eye = random_vector(&counter, -9, 9), under = { eye.x, 2 * level - eye.y, eye.z };
+        double flat = lom_double_cos(pitch), rise = lom_double_sin(pitch);
+        lom_vec3 ahead = { -lom_double_sin(yaw) * flat, rise, -lom_double_cos(yaw) * flat },
+                 inverted = { ahead.x, -rise, ahead.z };
+        lom_mat4 view = lom_look_at(eye, lom_vec3_add(eye, ahead), up), mirror = lom_mirror(up, level);
+        lom_mat4 projection = lom_perspective(uniform(&counter, 0.3, 2), 1.6, 0.1);
+        lom_mat4 mirrored = lom_multiply(&view, &mirror);
+        lom_mat4 moved = lom_look_at(under, lom_vec3_add(under, inverted), up);
+        mirrored = lom_multiply(&projection, &mirrored);
+        moved = lom_multiply(&projection, &moved);
+        for (int k = 0; k < 20; k++) {
+            lom_vec3 p = random_vector(&counter, -50, 50);
+            double a[4], b[4];
+            lom_transform_clip(&mirrored, p, a);
+            lom_transform_clip(&moved, p, b);
+            double size = __builtin_fabs(a[3]) + 1;
+            CHECK(__builtin_fabs(a[0] - b[0]) < 1e-11 * size && __builtin_fabs(a[1] + b[1]) < 1e-11 * size &&
+                      a[2] == b[2] && __builtin_fabs(a[3] - b[3]) < 1e-11 * size,
+                  "camera %d, point %d: %g %g %g, %g %g %g", i, k, a[0], a[1], a[3], b[0], b[1], b[3]);
+        }
+    }
+}
+
 static void look_at(void)
 {
     lom_mat4 identity = lom_identity();
@@ -296,6 +327,7 @@ int main(int argc, char **argv)
     RUN(singular);
     RUN(normals);
     RUN(mirrors);
+    RUN(an_inverted_pitch_is_the_mirror_upside_down);
     RUN(look_at);
     RUN(projections);
     RUN(frustum);

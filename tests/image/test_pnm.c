@@ -166,6 +166,48 @@ static void pfm_orders(void)
     }
 }
 
+/* Files of every kind, cut after each byte and with each bit flipped: a picture, or an error with the name. A file of
+ * raw samples that was cut is never a picture. */
+static void damaged_anywhere(void)
+{
+    static const struct {
+        const char *bytes;
+        size_t size;
+        bool raw;
+    } files[] = {
+#define FILE_OF(text, raw) { text, sizeof text - 1, raw }
+        FILE_OF("P1 # c\n3 2\n1 0 1\n0 1 0\n", false),
+        FILE_OF("P2 3 2 15\n1 2 3\n15 0 7\n", false),
+        FILE_OF("P3 1 2 255\n1 2 3\n250 0 7\n", false),
+        FILE_OF("P4 9 2\n\xaa\x80\x55\x00", true),
+        FILE_OF("P5 3 2 255\nabcdef", true),
+        FILE_OF("P5 2 1 4000\n\x01\x02\x03\x04", true),
+        FILE_OF("P6 1 2 255\nabcdef", true),
+        FILE_OF("P7\nWIDTH 2\nHEIGHT 1\nDEPTH 4\nMAXVAL 255\nTUPLTYPE RGB_ALPHA\nENDHDR\nabcdefgh", true),
+        FILE_OF("Pf 2 1 -1\nabcdefgh", true),
+        FILE_OF("PF 1 1 1\nabcdefghijkl", true),
+#undef FILE_OF
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        for (size_t k = 0; k < files[i].size * 9; k++) {
+            lom_error error = { 0 };
+            size_t size = k < files[i].size ? k : files[i].size;
+            uint8_t *exact = lom_allocate(files[i].size, 1, NULL);
+            memcpy(exact, files[i].bytes, files[i].size);
+            if (k >= files[i].size)
+                exact[(k - files[i].size) / 8] ^= (uint8_t)(1 << (k - files[i].size) % 8);
+            uint8_t *cut = malloc(size + (size == 0)); /* a read behind the end is caught */
+            memcpy(cut, exact, size);
+            lom_image *image = lom_decode_image(cut, size, "t", &error);
+            CHECK((image != NULL) == (error.code == LOM_OK), "file %zu, damage %zu: code %d", i, k, error.code);
+            CHECK(image != NULL || strncmp(error.text, "t: ", 3) == 0, "file %zu: %s", i, error.text);
+            CHECK(image == NULL || !files[i].raw || size == files[i].size, "file %zu, %zu bytes: taken", i, size);
+            lom_free_image(image);
+            lom_release(exact);
+            free(cut);
+        }
+}
+
 static void malformed(void)
 {
     static const char *const files[] = {
@@ -305,6 +347,7 @@ int main(int argc, char **argv)
     RUN(dropped_and_replicated);
     RUN(pfm_orders);
     RUN(malformed);
+    RUN(damaged_anywhere);
     RUN(huge_declarations);
     RUN(y4m);
     return check_result();

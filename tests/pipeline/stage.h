@@ -86,6 +86,23 @@ static inline lom_draw_desc draw_of(const lom_shader *shader, const vertex *v, s
     return desc;
 }
 
+/* Stages of shaders that show the four values of attribute 1 as they are. */
+LOM_INLINE void place_values(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->position = in->attribute[0];
+    out->varying[0] = in->attribute[1].x;
+    out->varying[1] = in->attribute[1].y;
+    out->varying[2] = in->attribute[1].z;
+    out->varying[3] = in->attribute[1].w;
+}
+
+LOM_INLINE void show_values(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->color[0] = (lom_float4){ in->varying[0], in->varying[1], in->varying[2], in->varying[3] };
+}
+
 /* source + target */
 static inline lom_blend adding(void)
 {

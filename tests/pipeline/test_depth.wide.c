@@ -222,6 +222,34 @@ static void t12_depth_ranges_may_be_inverted_or_empty(void)
     }
 }
 
+/* T12: viewports, frames and ranges that cannot be are errors with a sentence; nothing is drawn. */
+static void t12_impossible_passes_are_refused(void)
+{
+    static const lom_pass_desc bad[] = { { .viewport = { 0, 0, 8, 0 } },
+                                         { .viewport = { 0, 0, -1, 8 } },
+                                         { .viewport = { 0, 0, 32769, 8 } },
+                                         { .viewport = { 40000, 0, 8, 8 } },
+                                         { .frame_width = 8 },
+                                         { .frame_width = 32769 },
+                                         { .frame_height = -64 },
+                                         { .origin_x = 1 },
+                                         { .min_depth = -0.5f },
+                                         { .max_depth = 1.5f },
+                                         { .samples = 4 } };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        stage s = open_depth(0);
+        begin(&s, bad[i]);
+        CHECK(!lom_end_pass(s.device) && lom_device_error(s.device)->code == LOM_ERROR_USAGE &&
+                  lom_device_error(s.device)->text[0] != 0,
+              "case %zu is taken", i);
+        close_stage(&s);
+    }
+    stage s = open_depth(0);
+    lom_begin_pass(s.device, &(lom_pass_desc){ 0 });
+    CHECK(!lom_end_pass(s.device), "a pass without attachments is taken");
+    close_stage(&s);
+}
+
 /* ---- depth bias: OpenGL 4.6, 14.6.5 ---- */
 
 /* The depth that a pixel gets, from the one it has without a bias: the sum is clamped and rounded once. */
@@ -408,6 +436,7 @@ int main(int argc, char **argv)
     RUN(z5_written_depths_are_clamped_z6_nan_is_zero);
     RUN(t11_reversed_depth_keeps_planes_in_order);
     RUN(t12_depth_ranges_may_be_inverted_or_empty);
+    RUN(t12_impossible_passes_are_refused);
     RUN(z4_constants_are_whole_steps);
     RUN(z4_slopes_are_the_steeper_of_two);
     RUN(z4_no_slope_times_any_factor_is_nothing);

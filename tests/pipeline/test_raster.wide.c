@@ -5,28 +5,12 @@
 
 enum { SIZE = 128, UNITS = SIZE * 256 };
 
-static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->position = in->attribute[0];
-    out->varying[0] = in->attribute[1].x;
-    out->varying[1] = in->attribute[1].y;
-    out->varying[2] = in->attribute[1].z;
-    out->varying[3] = in->attribute[1].w;
-}
-
 static void count(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     (void)in;
     (void)uniforms;
     lom_float one = lom_splat(1.0f / 255.0f);
     out->color[0] = (lom_float4){ one, one, one, one };
-}
-
-static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->color[0] = (lom_float4){ in->varying[0], in->varying[1], in->varying[2], in->varying[3] };
 }
 
 static void add_one(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -37,9 +21,9 @@ static void add_one(lom_fragment *out, const lom_varyings *in, const void *unifo
     out->color[0] = (lom_float4){ one, one, one, one };
 }
 
-LOM_SHADER(counter, place, count, .attributes = 1, .colors = 1)
-LOM_SHADER(whole_counter, place, add_one, .attributes = 1, .colors = 1)
-LOM_SHADER(values, place, show, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(counter, place_values, count, .attributes = 1, .colors = 1)
+LOM_SHADER(whole_counter, place_values, add_one, .attributes = 1, .colors = 1)
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
 
 static vertex vertices[3 * 65536];
 

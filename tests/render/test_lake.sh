@@ -53,3 +53,14 @@ verdict every_step_of_the_water_shows "$why"
 away=$("$lom" plan $scene --size 160x90 --set camera.pitch=60)
 case $away in *'*  reflection'* | *'*  water'*) why=$away ;; *'reflection'*'left out'*) why= ;; *) why=$away ;; esac
 verdict no_water_in_view_costs_no_pass "$why"
+
+# T19, T20: where the plane is parallel to the line of sight, cuts the camera, or lies above it, and where the mirrored
+# camera stands inside the terrain. --check refuses NaN and a picture of one colour.
+why=
+for camera in '[-14,0,458]|0' '[-14,1e-9,458]|-10' '[-14,-2,458]|10' '[-55,3,415]|-8'; do
+    set -- --check --set "camera.position=${camera%|*}" --set "camera.pitch=${camera#*|}"
+    narrow=$(hash --lanes 4 "$@" 2>&1) || why="$camera: $narrow"
+    [ "$narrow" = "$(hash --lanes 16 --threads 3 "$@" 2>&1)" ] || why="$camera: two hashes"
+    case $narrow in *lom*) why="$camera: $narrow" ;; esac
+done
+verdict cameras_on_the_plane_and_mirrored_into_the_ground "$why"

@@ -1,0 +1,199 @@
+/* Proves what varyings are at this width (A2..A6): constants stay constants, wild values stay inside their hull, flat
+ * ones are the last vertex's in every topology, far ends of long edges keep the bound, helpers outside stay finite. */
+#include "stage.h"
+
+enum { SIZE = 64, UNITS = SIZE * 256 };
+
+static lom_float is_finite(lom_float x)
+{
+    return lom_select(lom_abs(x) <= 0x1.fffffep127f, lom_splat(1), lom_splat(-1));
+}
+
+/* 1 where a value is finite, -1 where not: the varying, its difference in the quad, its analytic derivatives. */
+static void examine(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    lom_float value = in->varying[0];
+    out->color[0] = (lom_float4){ is_finite(value), is_finite(lom_quad_dx(value) + lom_quad_dy(value)),
+                                  is_finite(lom_dx(in, 0)), is_finite(lom_dy(in, 0)) };
+}
+
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(flats, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .flat = 15, .colors = 1)
+LOM_SHADER(helpers, place_values, examine, .attributes = 2, .varyings = 4, .reads = 15, .differentiates = 1,
+           .quads = true, .colors = 1)
+
+static vertex vertices[64];
+
+/* A random triangle with w between 1 and `ratio`; half of them are small. */
+static void put_triangle(float ratio, bool small)
+{
+    int64_t x = random_whole(0, UNITS), y = random_whole(0, UNITS), reach = small ? 3 * 256 : UNITS;
+    for (int k = 0; k < 3; k++) {
+        place_at(&vertices[k], x + random_whole(-reach, reach), y + random_whole(-reach, reach), SIZE);
+        float w = k == 0 ? 1 : k == 1 ? ratio : random_float(1, ratio);
+        for (int i = 0; i < 4; i++)
+            vertices[k].position[i] *= w;
+    }
+}
+
+static void draw_values(stage *s, const lom_shader *shader, size_t count, lom_topology topology)
+{
+    lom_draw_desc desc = draw_of(shader, vertices, count);
+    desc.topology = topology;
+    begin(s, (lom_pass_desc){ .clear_color = { { -2, -2, -2, -2 } } });
+    lom_draw(s->device, &desc);
+    finish(s);
+}
+
+static stage open_floats(void)
+{
+    return open_stage((lom_device_desc){ .threads = 1 }, SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_NONE);
+}
+
+/* A2: an attribute that is the same at all vertices is exactly that in every pixel, whatever the perspective. */
+static void a2_constants_stay_constant(void)
+{
+    static const float constants[4] = { 1.0f / 3, -1e30f, 1e-40f, 16777215 };
+    stage s = open_floats();
+    int pixels = 0;
+    for (int round = 0; round < 400; round++) {
+        static const float ratios[] = { 1, 1e2f, 1e4f, 1e6f };
+        put_triangle(ratios[round % 4], round % 8 < 4);
+        for (int k = 0; k < 3; k++)
+            memcpy(vertices[k].value, constants, sizeof constants);
+        draw_values(&s, &values, 3, LOM_TRIANGLES);
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            const float *value = floats_at(&s, p % SIZE, p / SIZE);
+            pixels += value[0] != -2;
+            CHECK(value[0] == -2 || memcmp(value, constants, sizeof constants) == 0, "round %d, pixel %d: %a", round, p,
+                  (double)value[0]);
+        }
+    }
+    CHECK(pixels > 10000, "%d pixels", pixels);
+    close_stage(&s);
+}
+
+/* A3: 1e30 beside -1e30, and denormals, stay finite and between the least and the largest of the three. */
+static void a3_wild_values_stay_inside_their_hull(void)
+{
+    static const float wild[] = { 1e30f, -1e30f, 1e-40f, -1e-40f, 0, 1, 0x1p122f, -0x1p122f };
+    stage s = open_floats();
+    for (int round = 0; round < 400; round++) {
+        float low[4] = { 1e38f, 1e38f, 1e38f, 1e38f }, high[4] = { -1e38f, -1e38f, -1e38f, -1e38f };
+        put_triangle(round % 2 == 0 ? 1 : 1e5f, round % 4 < 2);
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 4; i++) {
+                float v = vertices[k].value[i] = wild[random_whole(0, 7)];
+                low[i] = v < low[i] ? v : low[i];
+                high[i] = v > high[i] ? v : high[i];
+            }
+        draw_values(&s, &values, 3, LOM_TRIANGLES);
+        for (int p = 0; p < SIZE * SIZE; p++)
+            for (int i = 0; i < 4; i++) {
+                float value = floats_at(&s, p % SIZE, p / SIZE)[i];
+                CHECK(value == -2 || (value >= low[i] && value <= high[i]), "round %d: %g outside %g..%g", round,
+                      (double)value, (double)low[i], (double)high[i]);
+            }
+    }
+    close_stage(&s);
+}
+
+/* A4: the last vertex of each triangle, in lists, strips and fans, of both windings. */
+static void a4_flat_values_are_the_last_vertex_s(void)
+{
+    enum { COUNT = 12 };
+    stage s = open_floats();
+    for (int topology = LOM_TRIANGLES; topology <= LOM_TRIANGLE_FAN; topology++)
+        for (int round = 0; round < 40; round++) {
+            for (int v = 0; v < COUNT; v++) {
+                place_at(&vertices[v], random_whole(0, UNITS), random_whole(0, UNITS), SIZE);
+                for (int i = 0; i < 4; i++)
+                    vertices[v].value[i] = (float)(v + 100 * i);
+            }
+            draw_values(&s, &flats, COUNT, (lom_topology)topology);
+            for (int p = 0; p < SIZE * SIZE; p++) {
+                int last = -2; /* of the last triangle that covers the pixel */
+                for (int v = 2; v < COUNT; v += topology == LOM_TRIANGLES ? 3 : 1) {
+                    int first = topology == LOM_TRIANGLE_FAN ? 0 : v - 2;
+                    snapped corner[3] = { snap(vertices[first].position, SIZE, SIZE),
+                                          snap(vertices[v - 1].position, SIZE, SIZE),
+                                          snap(vertices[v].position, SIZE, SIZE) };
+                    last = covers(corner, p % SIZE, p / SIZE) ? v : last;
+                }
+                const float *value = floats_at(&s, p % SIZE, p / SIZE);
+                CHECK(value[0] == (float)last && (last == -2 || value[3] == (float)(last + 300)),
+                      "topology %d, pixel %d: vertex %g, not %d", topology, p, (double)value[0], last);
+            }
+        }
+    close_stage(&s);
+}
+
+/* A5: an edge 65 000 pixels long; the value is x, exact at every pixel within the bound, at both ends. */
+static void a5_far_ends_of_long_edges_keep_the_bound(void)
+{
+    enum { FRAME = 32768 };
+    static const int origins[] = { 0, FRAME / 2 - SIZE, FRAME - SIZE };
+    const float left = -16300, right = FRAME + 16300;
+    for (int o = 0; o < 3; o++) {
+        stage s = open_floats();
+        static const float y[3] = { -100, 200, 20 };
+        for (int k = 0; k < 3; k++) {
+            float x = k == 2 ? right : left;
+            vertices[k] = (vertex){ .position = { x / (FRAME / 2) - 1, 1 - y[k] / (FRAME / 2), 0.5f, 1 },
+                                    .value = { x, 0, 0, 0 } };
+        }
+        lom_draw_desc desc = draw_of(&values, vertices, 3);
+        begin(&s, (lom_pass_desc){ .frame_width = FRAME, .frame_height = FRAME, .origin_x = origins[o] });
+        lom_draw(s.device, &desc);
+        finish(&s);
+        int pixels = 0;
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            float value = floats_at(&s, p % SIZE, p / SIZE)[0];
+            double error = (double)value - (origins[o] + p % SIZE + 0.5);
+            if (value == 0)
+                continue;
+            pixels++;
+            CHECK(error <= 8 * 0x1p-24 * right && error >= -8 * 0x1p-24 * right, "pixel %d of %d: off by %g", p,
+                  origins[o], error);
+        }
+        CHECK(pixels > 100, "%d pixels at %d", pixels, origins[o]);
+        close_stage(&s);
+    }
+}
+
+/* A6: quads reach outside of their triangle, where 1/w may pass through 0; nothing that a shader sees is infinite. */
+static void a6_helpers_outside_the_triangle_stay_finite(void)
+{
+    stage s = open_floats();
+    int pixels = 0;
+    for (int round = 0; round < 600; round++) {
+        static const float ratios[] = { 1, 1e2f, 1e4f, 1e6f };
+        put_triangle(ratios[round % 4], round % 8 < 6);
+        for (int k = 0; k < 3; k++)
+            vertices[k].value[0] = random_float(-1000, 1000);
+        draw_values(&s, &helpers, 3, LOM_TRIANGLES);
+        for (int p = 0; p < SIZE * SIZE; p++)
+            for (int i = 0; i < 4; i++) {
+                float value = floats_at(&s, p % SIZE, p / SIZE)[i];
+                pixels += value != -2;
+                CHECK(value != -1, "round %d, pixel %d: value %d is not finite", round, p, i);
+            }
+    }
+    CHECK(pixels > 10000, "%d values", pixels);
+    close_stage(&s);
+}
+
+int main(int argc, char **argv)
+{
+    if (!check_lanes_run()) {
+        printf("SKIP this processor has no instructions for this width\n");
+        return 0;
+    }
+    RUN(a2_constants_stay_constant);
+    RUN(a3_wild_values_stay_inside_their_hull);
+    RUN(a4_flat_values_are_the_last_vertex_s);
+    RUN(a5_far_ends_of_long_edges_keep_the_bound);
+    RUN(a6_helpers_outside_the_triangle_stay_finite);
+    return check_result();
+}
