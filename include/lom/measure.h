@@ -64,6 +64,9 @@ typedef struct lom_selftest {
  * variant that this processor runs, on 1, 2 and 3 threads with different tiles. Reads no file. False only when it could
  * not be done; a difference is a result. */
 bool lom_run_selftest(lom_selftest *result, lom_error *error);
+/* All pictures of the parts that draw, side by side in 8 bits: to look at where a part differs. Freed with
+ * lom_free_image; NULL on failure. */
+lom_image *lom_draw_selftest(lom_error *error);
 
 #ifdef __cplusplus
 }

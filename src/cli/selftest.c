@@ -7,6 +7,7 @@
 
 struct values {
     bool parts;
+    const char *output;
 };
 
 static const lom_option options[] = {
@@ -14,6 +15,12 @@ static const lom_option options[] = {
       .kind = LOM_OPTION_FLAG,
       .field = offsetof(struct values, parts),
       .help = "the hash of each part as well" },
+    { .name = "output",
+      .letter = 'o',
+      .kind = LOM_OPTION_TEXT,
+      .field = offsetof(struct values, output),
+      .value = "OUT",
+      .help = "keep the pictures that the parts draw, side by side" },
 };
 
 static const lom_command_line line = {
@@ -25,6 +32,14 @@ static const lom_command_line line = {
     .option_count = sizeof options / sizeof options[0],
 };
 
+static bool write_pictures(const char *path, lom_error *error)
+{
+    lom_image *sheet = lom_draw_selftest(error);
+    bool written = sheet != NULL && lom_write_image(path, NULL, sheet, error);
+    lom_free_image(sheet);
+    return written;
+}
+
 int lom_command_selftest(int argc, char **argv)
 {
     struct values values = { .parts = false };
@@ -34,7 +49,7 @@ int lom_command_selftest(int argc, char **argv)
         return status;
     lom_selftest result;
     lom_error error = { .code = LOM_OK };
-    if (!lom_run_selftest(&result, &error))
+    if (!lom_run_selftest(&result, &error) || (values.output != NULL && !write_pictures(values.output, &error)))
         return lom_complain_error(&error);
     for (int i = 0; values.parts && i < LOM_SELFTEST_PARTS; i++)
         printf("%016llx  %s\n", (unsigned long long)result.part[i].hash, result.part[i].name);

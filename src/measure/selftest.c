@@ -63,14 +63,14 @@ static bool run_part(lom_selftest *result, int index, lom_error *error)
     if (parts[index].plain != NULL && !parts[index].plain(&part->hash, error))
         return false;
     for (int i = 0; parts[index].drawn != NULL && i < DEVICES; i++) {
-        uint64_t hash = LOM_HASH_START;
+        struct lom_selftest_sum sum = { .hash = LOM_HASH_START };
         if (i > 0 && is_known(&devices[i]))
             continue;
-        if (!parts[index].drawn(&hash, &devices[i], error))
+        if (!parts[index].drawn(&sum, &devices[i], error))
             return false;
         if (i == 0)
-            part->hash = hash;
-        else if (hash != part->hash)
+            part->hash = sum.hash;
+        else if (sum.hash != part->hash)
             differ(result, part->name, &devices[i]);
     }
     if (part->hash != part->expected)
@@ -91,4 +91,21 @@ bool lom_run_selftest(lom_selftest *result, lom_error *error)
     }
     lom_leave_float_state(&state);
     return done;
+}
+
+lom_image *lom_draw_selftest(lom_error *error)
+{
+    lom_float_state state;
+    struct lom_selftest_sum sum = { .sheet =
+                                        lom_create_image(LOM_CELL_COLUMNS * LOM_CELL_WIDTH,
+                                                         LOM_CELL_ROWS * LOM_CELL_HEIGHT, 1, LOM_FORMAT_RGB8, error) };
+    bool done = sum.sheet != NULL;
+    lom_enter_float_state(&state);
+    for (int i = 0; done && i < LOM_SELFTEST_PARTS; i++)
+        done = parts[i].drawn == NULL || parts[i].drawn(&sum, &(lom_device_desc){ 0 }, error);
+    lom_leave_float_state(&state);
+    if (done)
+        return sum.sheet;
+    lom_free_image(sum.sheet);
+    return NULL;
 }

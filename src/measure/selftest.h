@@ -22,8 +22,15 @@ extern const lom_shader lom_selftest_functions, lom_selftest_surface, lom_selfte
 
 /* A part without a device. False after an error. */
 typedef bool lom_selftest_plain(uint64_t *hash, lom_error *error);
+/* What a drawn part adds its pictures to: a hash, and, where it is not NULL, a sheet that shows them in cells. */
+struct lom_selftest_sum {
+    uint64_t hash;
+    lom_image *sheet; /* RGB8 */
+    int shown;
+};
+enum { LOM_CELL_WIDTH = 72, LOM_CELL_HEIGHT = 48, LOM_CELL_COLUMNS = 6, LOM_CELL_ROWS = 5 };
 /* A part that draws; device descriptors are passed so that a part may open its own. */
-typedef bool lom_selftest_drawn(uint64_t *hash, const lom_device_desc *device, lom_error *error);
+typedef bool lom_selftest_drawn(struct lom_selftest_sum *sum, const lom_device_desc *device, lom_error *error);
 
 lom_selftest_plain lom_selftest_numbers, lom_selftest_random, lom_selftest_mathematics, lom_selftest_pictures;
 lom_selftest_drawn lom_selftest_draw_functions, lom_selftest_draw_surface, lom_selftest_draw_cut,

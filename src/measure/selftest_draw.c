@@ -40,24 +40,40 @@ static lom_pass_desc pass_into(const struct targets *targets)
     return pass;
 }
 
-static bool add_texture(uint64_t *hash, const lom_texture *texture, lom_error *error)
+/* The picture in 8 bits in the sheet's next cell. */
+static bool show_image(struct lom_selftest_sum *sum, const lom_image *image, lom_error *error)
 {
-    lom_image *image = lom_read_texture(texture, 0, 0, error);
-    if (image != NULL)
-        *hash = lom_selftest_add(*hash, lom_hash_image(image));
+    int left = sum->shown % LOM_CELL_COLUMNS * LOM_CELL_WIDTH, top = sum->shown / LOM_CELL_COLUMNS * LOM_CELL_HEIGHT;
+    lom_image *bytes = lom_convert_image(image, LOM_FORMAT_RGB8, error);
+    sum->shown++;
+    for (int y = 0; bytes != NULL && y < bytes->height; y++)
+        memcpy(lom_image_pixel(sum->sheet, left, top + y, 0), lom_image_pixel(bytes, 0, y, 0),
+               (size_t)bytes->width * 3);
+    lom_free_image(bytes);
+    return bytes != NULL;
+}
+
+/* Adds the picture, and frees it; NULL: the error says why. */
+static bool add_image(struct lom_selftest_sum *sum, lom_image *image, lom_error *error)
+{
+    bool done = image != NULL;
+    if (done) {
+        sum->hash = lom_selftest_add(sum->hash, lom_hash_image(image));
+        done = sum->sheet == NULL || show_image(sum, image, error);
+    }
     lom_free_image(image);
-    return image != NULL;
+    return done;
 }
 
 /* Ends the pass and hashes what it drew. */
-static bool finish(uint64_t *hash, lom_device *device, const struct targets *targets, lom_error *error)
+static bool finish(struct lom_selftest_sum *sum, lom_device *device, const struct targets *targets, lom_error *error)
 {
     if (!lom_end_pass(device))
         return lom_fail(error, lom_device_error(device)->code, "%s", lom_device_error(device)->text);
     for (int i = 0; i < targets->colors; i++)
-        if (!add_texture(hash, targets->color[i], error))
+        if (!add_image(sum, lom_read_texture(targets->color[i], 0, 0, error), error))
             return false;
-    return targets->depth == NULL || add_texture(hash, targets->depth, error);
+    return targets->depth == NULL || add_image(sum, lom_read_texture(targets->depth, 0, 0, error), error);
 }
 
 static uint8_t texel(int layer, int x, int y, int channel)
@@ -138,7 +154,7 @@ static lom_draw_desc mesh_draw(const lom_mesh *mesh, const lom_shader *shader,
     return draw;
 }
 
-bool lom_selftest_draw_functions(uint64_t *hash, const lom_device_desc *desc, lom_error *error)
+bool lom_selftest_draw_functions(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {
     lom_device *device = lom_open_device(desc);
     struct lom_selftest_uniforms uniforms = { .depth = 0.5f };
@@ -146,12 +162,12 @@ bool lom_selftest_draw_functions(uint64_t *hash, const lom_device_desc *desc, lo
     lom_pass_desc pass = pass_into(&targets);
     lom_begin_pass(device, &pass);
     draw_strip(device, &lom_selftest_functions, &uniforms);
-    bool done = finish(hash, device, &targets, error);
+    bool done = finish(sum, device, &targets, error);
     lom_close_device(device);
     return done;
 }
 
-bool lom_selftest_draw_surface(uint64_t *hash, const lom_device_desc *desc, lom_error *error)
+bool lom_selftest_draw_surface(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {
     static const lom_format formats[] = { LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_RGBA16F };
     lom_device *device = lom_open_device(desc);
@@ -165,7 +181,7 @@ bool lom_selftest_draw_surface(uint64_t *hash, const lom_device_desc *desc, lom_
         draw.cull = i == 0 ? LOM_CULL_BACK : LOM_CULL_NONE;
         lom_begin_pass(device, &pass);
         lom_draw(device, &draw);
-        done = finish(hash, device, &targets, error);
+        done = finish(sum, device, &targets, error);
     }
     lom_free_mesh(mesh);
     lom_close_device(device);
@@ -183,7 +199,7 @@ static const lom_blend largest = { .enabled = true,
                                    .color_operation = LOM_BLEND_MAX,
                                    .alpha_operation = LOM_BLEND_MIN };
 
-bool lom_selftest_draw_cut(uint64_t *hash, const lom_device_desc *desc, lom_error *error)
+bool lom_selftest_draw_cut(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {
     static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA32F, LOM_FORMAT_RGBA16 };
     lom_device *device = lom_open_device(desc);
@@ -201,14 +217,14 @@ bool lom_selftest_draw_cut(uint64_t *hash, const lom_device_desc *desc, lom_erro
         pass.scissor = i == 2 ? (lom_rect){ 5, 3, 51, 40 } : (lom_rect){ 0, 0, 0, 0 };
         lom_begin_pass(device, &pass);
         lom_draw(device, &draw);
-        done = finish(hash, device, &targets, error);
+        done = finish(sum, device, &targets, error);
     }
     lom_free_mesh(mesh);
     lom_close_device(device);
     return done;
 }
 
-bool lom_selftest_draw_samples(uint64_t *hash, const lom_device_desc *desc, lom_error *error)
+bool lom_selftest_draw_samples(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {
     lom_device *device = lom_open_device(desc);
     struct lom_selftest_uniforms uniforms = make_uniforms(device);
@@ -218,7 +234,7 @@ bool lom_selftest_draw_samples(uint64_t *hash, const lom_device_desc *desc, lom_
         lom_pass_desc pass = pass_into(&targets);
         lom_begin_pass(device, &pass);
         draw_strip(device, &lom_selftest_samples, &uniforms);
-        done = finish(hash, device, &targets, error);
+        done = finish(sum, device, &targets, error);
     }
     lom_close_device(device);
     return done;
@@ -229,15 +245,13 @@ static const char lake_scene[] =
     "[light]\nazimuth = 30\nelevation = 12\n[sky]\ncolor = [0.3, 0.5, 0.9]\n"
     "[water]\nsize = [30, 20]\nshininess = 20\n";
 
-bool lom_selftest_draw_lake(uint64_t *hash, const lom_device_desc *desc, lom_error *error)
+bool lom_selftest_draw_lake(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {
     lom_scene *scene = lom_decode_scene(lake_scene, strlen(lake_scene), "selftest.toml", NULL, 0, error);
     lom_renderer *renderer = scene != NULL ? lom_create_renderer(scene, desc, error) : NULL;
     lom_frame frame = { .image = NULL };
     bool done = renderer != NULL && lom_render_frame(renderer, &(lom_frame_desc){ .frame = 7 }, &frame, error);
-    if (done)
-        *hash = lom_selftest_add(*hash, lom_hash_image(frame.image));
-    lom_free_image(frame.image);
+    done = done && add_image(sum, frame.image, error);
     lom_free_renderer(renderer);
     lom_free_scene(scene);
     return done;
