@@ -13,6 +13,7 @@
 #include <lom/scene.h>
 #include <lom/sky.h>
 #include <lom/water.h>
+#include <lom/reference.h>
 #include <lom/render.h>
 
 #endif

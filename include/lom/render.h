@@ -28,7 +28,7 @@ enum { LOM_MAX_STEPS = 64, LOM_MAX_STEP_TEXT = 160 };
 
 /* One pass, or one that was left out. */
 typedef struct lom_step {
-    char name[24]; /* "scene", "visibility", "reflection", "refraction", "water" */
+    char name[24]; /* "scene", "visibility", "reflection", "refraction", "water", "reference" */
     bool runs;
     char text[LOM_MAX_STEP_TEXT]; /* what it draws from what into what; or why it was left out */
     int width, height;            /* of its target */

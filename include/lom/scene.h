@@ -129,9 +129,10 @@ typedef struct lom_entity {
 
 /* ---- [quality]: the dials ---- */
 
-typedef enum lom_water_model {                       /* from cheap to exact, but for the default, which comes first */
+typedef enum lom_water_model {                       /* from cheap to exact, but for the first and the third */
                                LOM_WATER_PLANAR,     /* a quad with pictures of the scene above and below */
                                LOM_WATER_TINTED,     /* a quad of one colour */
+                               LOM_WATER_REFERENCE,  /* rays in double precision through the whole frame */
                                LOM_WATER_NORMAL_MAP, /* waves as normals on two triangles */
                                LOM_WATER_DISPLACED,  /* waves as a mesh, light bent by Snell's law */
                                LOM_WATER_MARCHED     /* waves met by a ray for each pixel */
@@ -142,6 +143,13 @@ typedef enum lom_texture_filter {
     LOM_TEXTURE_BILINEAR, /* linear within the nearest level */
     LOM_TEXTURE_NEAREST
 } lom_texture_filter;
+
+typedef struct lom_reference_quality { /* [quality.reference] */
+    uint32_t given;
+    int samples; /* of a pixel */
+    int depth;   /* crossings of water that a path may have */
+    double sun;  /* radians: the radius of the sun's disc as water shows it */
+} lom_reference_quality;
 
 typedef struct lom_quality {
     uint32_t given;
@@ -157,6 +165,7 @@ typedef struct lom_quality {
     bool mipmaps;             /* false: the finest level alone */
     double reflection_scale;  /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale;  /* the same of the refraction picture */
+    lom_reference_quality reference;
 } lom_quality;
 
 /* ---- the scene ---- */

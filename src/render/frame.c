@@ -75,18 +75,20 @@ static lom_counters subtract(lom_counters a, lom_counters b)
                            a.tiles - b.tiles };
 }
 
-static bool draw_frame(struct frame *f, lom_error *error)
+/* What the stages draw, read back. */
+static lom_image *draw_stages(struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
-        return false;
+        return NULL;
     bool done = true;
     for (size_t i = 0; done && i < sizeof stages / sizeof stages[0]; i++)
         done = stages[i](f, error);
     if (done)
-        return true;
+        return lom_read_texture(r->color, 0, 0, error);
     const lom_error *failed = lom_device_error(r->device);
-    return lom_fail(error, failed->code, "%s", failed->text);
+    lom_fail(error, failed->code, "%s", failed->text);
+    return NULL;
 }
 
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
@@ -107,8 +109,8 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     lom_float_state state;
     lom_enter_float_state(&state);
     look(&f);
-    if (draw_frame(&f, error))
-        out->image = lom_output_image(renderer, error);
+    lom_image *drawn = renderer->reference != NULL ? lom_draw_reference(&f, error) : draw_stages(&f, error);
+    out->image = lom_output_image(scene, drawn, error);
     lom_leave_float_state(&state);
     out->counters = subtract(lom_device_counters(renderer->device), before);
     return out->image != NULL;

@@ -27,6 +27,9 @@ lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char 
  * asks to keep them. */
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color);
 
+/* A frame that the reference draws instead of the stages: linear RGB32F of the crop, NULL on failure. */
+lom_image *lom_draw_reference(struct frame *f, lom_error *error);
+
 /* The stages of other files. False: the error, or the device's, says why. */
 bool lom_draw_lake_stage(struct frame *f, lom_error *error);
 

@@ -5,6 +5,10 @@
 static bool load(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
+    if (scene->quality.water == LOM_WATER_REFERENCE) {
+        renderer->reference = lom_create_reference(scene, error);
+        return renderer->reference != NULL;
+    }
     renderer->sky = lom_load_sky(renderer->device, &scene->sky, scene->output.transfer == LOM_TRANSFER_SRGB, error);
     if (renderer->sky == NULL && scene->sky.given != 0 && scene->sky.faces[0] != NULL)
         return false;
@@ -44,6 +48,7 @@ void lom_free_renderer(lom_renderer *renderer)
     }
     for (size_t i = 0; i < renderer->path_count; i++)
         lom_release(renderer->paths[i]);
+    lom_free_reference(renderer->reference);
     lom_free_mesh(renderer->terrain);
     lom_release(renderer->entities);
     lom_release(renderer->blocks);

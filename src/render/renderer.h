@@ -4,6 +4,7 @@
 
 #include "render/surface.h"
 
+#include <lom/reference.h>
 #include <lom/render.h>
 
 struct lom_cached_texture {
@@ -35,6 +36,7 @@ struct lom_terrain_block {
 struct lom_renderer {
     const lom_scene *scene;
     lom_device *device;
+    lom_reference *reference; /* instead of all that follows, where the water's model is the reference */
 
     struct lom_cached_texture *textures;
     size_t texture_count, texture_capacity;
@@ -77,7 +79,7 @@ struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* Makes the targets for a frame of this size of which target_width x target_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int target_width, int target_height,
                       lom_error *error);
-/* The picture in the scene's output format. */
-lom_image *lom_output_image(const lom_renderer *renderer, lom_error *error);
+/* A drawn picture, which is freed, in the scene's output format; NULL stays NULL. */
+lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error);
 
 #endif

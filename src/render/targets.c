@@ -95,11 +95,10 @@ static lom_image *encode_16(const lom_image *linear, bool srgb, lom_error *error
     return out;
 }
 
-lom_image *lom_output_image(const lom_renderer *renderer, lom_error *error)
+lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error)
 {
-    const lom_output *output = &renderer->scene->output;
+    const lom_output *output = &scene->output;
     bool srgb = output->transfer == LOM_TRANSFER_SRGB;
-    lom_image *drawn = lom_read_texture(renderer->color, 0, 0, error);
     lom_image *out = NULL;
     if (drawn == NULL)
         return NULL;

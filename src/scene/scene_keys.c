@@ -210,9 +210,23 @@ static const lom_key entity[] = {
 static const lom_key_table entity_table = { sizeof(lom_entity), entity, COUNT(entity),
                                             "A mesh that stands in the scene. There may be 16384 of them." };
 
+static const lom_key reference[] = {
+    { "samples", LOM_KEY_INTEGER, AT(lom_reference_quality, samples), .minimum = 1, .maximum = 65536, .initial = { 16 },
+      .text = "Rays a pixel, spread over its area; 1 is its middle." },
+    { "depth", LOM_KEY_INTEGER, AT(lom_reference_quality, depth), .minimum = 0, .maximum = 64, .initial = { 6 },
+      .text = "How many times a ray may be divided or mirrored at water; after that water is not seen." },
+    { "sun", LOM_KEY_ANGLE, AT(lom_reference_quality, sun), .minimum = 0.01, .maximum = 10, .initial = { 1 },
+      .unit = "degrees",
+      .text = "Radius of the sun's disc as water shows it. The real one has 0.27; a larger one has the same light and "
+              "less noise." },
+};
+static const lom_key_table reference_table = { sizeof(lom_reference_quality), reference, COUNT(reference),
+                                               "How exact the reference is." };
+
 static const lom_key quality[] = {
-    { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar", "tinted" },
-      .text = "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`." },
+    { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar", "tinted", "reference" },
+      .text = "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`. "
+              "Reference: rays in double precision, for the whole frame; what the others are measured against." },
     { "clouds", LOM_KEY_CHOICE, AT(lom_quality, clouds),
       .choices = { "octaves", "forward", "single", "original", "billboard", "off" },
       .text = "Model of the clouds: marched with octaves of multiple scattering, with multiple forward scattering, or "
@@ -239,6 +253,7 @@ static const lom_key quality[] = {
       .initial = { 1 }, .text = "Size of the reflection's picture, in parts of the output's, along each axis." },
     { "refraction_scale", LOM_KEY_NUMBER, AT(lom_quality, refraction_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 1 }, .text = "The same of the refraction's picture." },
+    { "reference", LOM_KEY_TABLE, AT(lom_quality, reference), .table = &reference_table },
 };
 static const lom_key_table quality_table = { sizeof(lom_quality), quality, COUNT(quality),
                                              "The dials that trade accuracy for time." };

@@ -12,8 +12,8 @@ below() {
     water | cloud | sky) echo "$1 geometry pipeline march $(below image)" ;;
     scene) echo "scene water cloud sky geometry pipeline march $(below image)" ;;
     reference) echo "reference $(below scene)" ;;
-    render) echo "render $(below scene)" ;;
-    measure) echo "measure render reference $(below scene)" ;;
+    render) echo "render $(below reference)" ;;
+    measure) echo "measure $(below render)" ;;
     inspect) echo "inspect $(below render)" ;;
     cli) echo "cli measure inspect $(below measure)" ;;
     esac

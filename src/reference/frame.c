@@ -1,0 +1,124 @@
+/* A picture by rays. In: a loaded scene and a frame's description. Out: linear RGB32F. Each pixel is computed from its
+ * coordinates in the whole frame alone; threads take rows. */
+#include "base/threads.h"
+#include "reference/world.h"
+
+#include <stdatomic.h>
+
+struct frame {
+    const lom_reference *world;
+    lom_reference_frame desc;
+    lom_image *image;
+    lom_camera_view camera;
+    lom_mat4 view, projection;
+    atomic_int next_row;
+};
+
+/* The base-2 radical inverse: the bits of i behind the point, reversed (van der Corput). */
+static double radical_inverse(uint32_t i)
+{
+    uint32_t reversed = 0;
+    for (int bit = 0; bit < 32; bit++)
+        reversed |= (i >> bit & 1) << (31 - bit);
+    return reversed * 0x1p-32;
+}
+
+static double fraction(double x)
+{
+    return x - lom_double_floor(x);
+}
+
+/* Where sample i of a pixel lies in it: a Hammersley point, turned by the pixel's own two random numbers (R. Cranley,
+ * T. Patterson, SIAM J. Numer. Anal. 13, 1976). */
+static void place_sample(const struct frame *f, int x, int y, int i, double *u, double *v)
+{
+    *u = *v = 0.5;
+    if (f->desc.samples == 1)
+        return;
+    uint64_t pixel = (uint64_t)(uint32_t)y << 32 | (uint32_t)x;
+    *u = fraction((i + 0.5) / f->desc.samples + lom_random_uniform(pixel, 0));
+    *v = fraction(radical_inverse((uint32_t)i) + lom_random_uniform(pixel, 1));
+}
+
+/* The ray through a place of the picture in pixels; its view coordinates are (x / p00, y / p11, -1). */
+static lom_vec3 see(const struct frame *f, double x, double y)
+{
+    const double(*v)[4] = f->view.m;
+    double ray[3] = { (2 * x / f->desc.width - 1) / f->projection.m[0][0],
+                      (1 - 2 * y / f->desc.height) / f->projection.m[1][1], -1 };
+    lom_vec3 world = { v[0][0] * ray[0] + v[1][0] * ray[1] + v[2][0] * ray[2],
+                       v[0][1] * ray[0] + v[1][1] * ray[1] + v[2][1] * ray[2],
+                       v[0][2] * ray[0] + v[1][2] * ray[1] + v[2][2] * ray[2] };
+    double slant = length(world);
+    return lom_radiance_along(f->world, (struct lom_ray){ f->camera.position, world }, f->camera.near_plane * slant,
+                              f->desc.time, f->desc.depth);
+}
+
+static void trace_row(const struct frame *f, int row)
+{
+    const lom_rect *crop = &f->desc.crop;
+    for (int column = 0; column < crop->width; column++) {
+        int x = crop->x + column, y = crop->y + row;
+        lom_vec3 total = { 0, 0, 0 };
+        for (int i = 0; i < f->desc.samples; i++) {
+            double u, v;
+            place_sample(f, x, y, i, &u, &v);
+            total = sum(total, see(f, x + u, y + v));
+        }
+        total = scaled(total, 1.0 / f->desc.samples);
+        float *pixel = lom_image_pixel(f->image, column, row, 0);
+        pixel[0] = (float)total.x;
+        pixel[1] = (float)total.y;
+        pixel[2] = (float)total.z;
+    }
+}
+
+static void trace_rows(void *context, int worker)
+{
+    struct frame *f = context;
+    (void)worker;
+    for (int row = atomic_fetch_add(&f->next_row, 1); row < f->desc.crop.height;
+         row = atomic_fetch_add(&f->next_row, 1))
+        trace_row(f, row);
+}
+
+static bool check_frame(const lom_reference_frame *d, lom_error *error)
+{
+    const lom_rect *c = &d->crop;
+    if (d->width < 1 || d->height < 1 || d->width > LOM_MAX_SIZE || d->height > LOM_MAX_SIZE || c->x < 0 || c->y < 0 ||
+        c->width < 1 || c->height < 1 || c->x > d->width - c->width || c->y > d->height - c->height)
+        return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
+                        c->x, c->y, c->width, c->height, d->width, d->height);
+    if (d->samples < 1 || d->samples > 65536 || d->depth < 0 || d->depth > 64 || d->threads < 0 ||
+        !(d->time - d->time == 0))
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "The reference takes 1 to 65536 samples, a depth of 0 to 64 and a finite time, not %d, %d and "
+                        "%g.",
+                        d->samples, d->depth, d->time);
+    return true;
+}
+
+lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_frame *desc, lom_error *error)
+{
+    struct frame f = { .world = reference, .desc = *desc };
+    if (f.desc.crop.width == 0)
+        f.desc.crop = (lom_rect){ 0, 0, desc->width, desc->height };
+    if (!check_frame(&f.desc, error))
+        return NULL;
+    f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
+    lom_pool *pool =
+        f.image == NULL ? NULL : lom_create_pool(desc->threads > 0 ? desc->threads : lom_default_threads(), error);
+    if (pool == NULL) {
+        lom_free_image(f.image);
+        return NULL;
+    }
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    f.camera = lom_scene_camera_at(reference->scene, f.desc.time);
+    f.view = lom_look_at(f.camera.position, f.camera.target, f.camera.up);
+    f.projection = lom_perspective(f.camera.field_of_view, (double)f.desc.width / f.desc.height, f.camera.near_plane);
+    lom_run_pool(pool, trace_rows, &f);
+    lom_leave_float_state(&state);
+    lom_free_pool(pool);
+    return f.image;
+}

@@ -1,0 +1,157 @@
+/* What an opaque surface sends back along a ray. In: a hit. Out: radiance by Phong's reflection of the scene's
+ * directional light and ambient light (pipeline specification, lighting and materials), the terrain with its layers;
+ * the sky in a direction. */
+#include "reference/world.h"
+
+static lom_vec3 product(lom_vec3 a, lom_vec3 b)
+{
+    return (lom_vec3){ a.x * b.x, a.y * b.y, a.z * b.z };
+}
+
+static lom_vec3 mixed(lom_vec3 a, lom_vec3 b, double share)
+{
+    return along(a, difference(b, a), share);
+}
+
+/* ---- the surface at a hit ---- */
+
+struct surface {
+    lom_vec3 place, normal, color;
+    double u, v, slope;
+};
+
+static struct surface find_surface(const lom_reference *world, const struct lom_ray_hit *hit)
+{
+    const uint32_t *index = world->opaque.triangles[hit->triangle].corner;
+    const struct lom_ray_corner *c0 = &world->corners[index[0]], *c1 = &world->corners[index[1]],
+                                *c2 = &world->corners[index[2]];
+    const double *b = hit->weight;
+    return (struct surface){ .place =
+                                 blended(world->points[index[0]], world->points[index[1]], world->points[index[2]], b),
+                             .normal = unit(blended(c0->normal, c1->normal, c2->normal, b)),
+                             .color = blended(c0->color, c1->color, c2->color, b),
+                             .u = c0->u * b[0] + c1->u * b[1] + c2->u * b[2],
+                             .v = c0->v * b[0] + c1->v * b[1] + c2->v * b[2],
+                             .slope = c0->slope * b[0] + c1->slope * b[1] + c2->slope * b[2] };
+}
+
+/* ---- light ---- */
+
+struct incident {
+    lom_vec3 to_light, light, ambient;
+};
+
+/* Beer and Lambert: what is left behind a path of this length. */
+static lom_vec3 transmitted(const double absorption[3], double path)
+{
+    return (lom_vec3){ lom_double_exp(-absorption[0] * path), lom_double_exp(-absorption[1] * path),
+                       lom_double_exp(-absorption[2] * path) };
+}
+
+/* Light that has come through `depth` metres of water. The sun's beam is bent at the mean (level) surface; what enters
+ * a horizontal area is kept, so across the beam it is light (1 - R) cos / cos', over the path depth / cos'. The ambient
+ * light, from everywhere, loses 0.066 at the surface (C. Mobley, Light and Water, 1994, 4.2) and is followed straight
+ * down. */
+static struct incident find_light(const lom_reference *world, double depth)
+{
+    struct incident in = { world->to_light, world->light, world->ambient };
+    if (!(depth > 0))
+        return in;
+    const lom_reference_water *water = &world->water;
+    const lom_vec3 up = { 0, 1, 0 };
+    double cosine = in.to_light.y, beam = 0, beam_path = 0;
+    lom_vec3 down;
+    if (cosine > 0 && lom_reference_refract(scaled(in.to_light, -1), up, water->index, &down)) {
+        in.to_light = scaled(down, -1);
+        beam = (1 - lom_reference_fresnel(cosine, water->index)) * cosine / in.to_light.y;
+        beam_path = depth / in.to_light.y;
+    }
+    in.light = scaled(product(in.light, transmitted(water->absorption, beam_path)), beam);
+    in.ambient = scaled(product(in.ambient, transmitted(water->absorption, depth)), 1 - 0.066);
+    return in;
+}
+
+/* ambient m.ambient + light (m.diffuse N.L + m.specular (R.E)^s), the first two terms times albedo. */
+static lom_vec3 reflect_light(const struct incident *in, const struct lom_ray_material *m, lom_vec3 normal,
+                              lom_vec3 to_eye, lom_vec3 albedo)
+{
+    double facing = dot(normal, in->to_light);
+    lom_vec3 textured =
+        sum(product(in->ambient, m->ambient), scaled(product(in->light, m->diffuse), at_least(facing, 0)));
+    lom_vec3 color = product(textured, albedo);
+    double mirrored = dot(lom_reference_mirror(scaled(in->to_light, -1), normal), to_eye);
+    if (facing > 0 && mirrored > 0)
+        color = sum(color, scaled(product(in->light, m->specular), lom_double_pow(mirrored, m->shininess)));
+    return color;
+}
+
+/* ---- terrain ---- */
+
+static lom_vec3 sample_layer(const lom_reference *world, const struct lom_ray_layer *layer, lom_vec3 place)
+{
+    return lom_sample_picture(&world->pictures[layer->picture].picture, place.x * layer->scale[0],
+                              place.z * layer->scale[1]);
+}
+
+/* 1 inside [from, to], falling to 0 over `blend` outside it, linearly. */
+static double range_weight(double x, double from, double to, double blend)
+{
+    blend = at_least(blend, 1e-3);
+    return unit_interval(1 + (x - from) / blend) * unit_interval(1 + (to - x) / blend);
+}
+
+static lom_vec3 ground_color(const lom_reference *world, const struct surface *s)
+{
+    const lom_terrain *t = &world->scene->terrain;
+    lom_vec3 color = { 1, 1, 1 };
+    if (world->ground_texture.picture >= 0)
+        color = sample_layer(world, &world->ground_texture, s->place);
+    for (size_t i = 0; i < t->layer_count; i++) {
+        const lom_terrain_layer *layer = &t->layers[i];
+        double weight = range_weight(s->place.y, layer->from_height, layer->to_height, layer->blend) *
+                        range_weight(s->slope, layer->from_slope, layer->to_slope, layer->slope_blend);
+        if (weight > 0)
+            color = mixed(color, sample_layer(world, &world->layers[i], s->place), weight);
+    }
+    if (world->ground_detail.picture >= 0)
+        color = scaled(product(color, sample_layer(world, &world->ground_detail, s->place)), 2);
+    return color;
+}
+
+/* The normal map's z points up the surface, its x and y along the ground's x and z. */
+static lom_vec3 ground_normal(const lom_reference *world, const struct surface *s)
+{
+    if (world->ground_normals.picture < 0)
+        return s->normal;
+    lom_vec3 texel = sample_layer(world, &world->ground_normals, s->place);
+    lom_vec3 bump = { texel.x * 2 - 1, 0, texel.y * 2 - 1 };
+    return unit(along(bump, s->normal, texel.z * 2 - 1));
+}
+
+/* ---- all of it ---- */
+
+lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, const struct lom_ray_hit *hit,
+                       double time)
+{
+    struct surface s = find_surface(world, hit);
+    struct incident in = find_light(world, lom_water_above(world, s.place, time));
+    lom_vec3 to_eye = scaled(ray->direction, -1);
+    uint32_t material = world->opaque.triangles[hit->triangle].material;
+    if (material == LOM_TERRAIN_MATERIAL)
+        return reflect_light(&in, &world->ground, ground_normal(world, &s), to_eye, ground_color(world, &s));
+    const struct lom_ray_material *m = &world->materials[material];
+    lom_vec3 albedo = s.color;
+    if (m->picture >= 0)
+        albedo = product(albedo, lom_sample_picture(&world->pictures[m->picture].picture, s.u, s.v));
+    return reflect_light(&in, m, s.normal, to_eye, albedo);
+}
+
+lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 d)
+{
+    const lom_sky_params *sky = &world->scene->sky;
+    if (world->sky.image == NULL)
+        return scaled((lom_vec3){ sky->color[0], sky->color[1], sky->color[2] }, sky->intensity);
+    lom_vec3 turned = { world->sky_cosine * d.x + world->sky_sine * d.z, d.y,
+                        -world->sky_sine * d.x + world->sky_cosine * d.z };
+    return scaled(lom_sample_cube_picture(&world->sky, turned), sky->intensity);
+}

@@ -1,0 +1,192 @@
+/* Textures in double. In: pictures. Out: filtered colours in linear light. Bilinear at the finest level alone: areas
+ * are averaged by the samples of a pixel. */
+#include "reference/textures.h"
+
+#include <string.h>
+
+/* IEC 61966-2-1 */
+static double decode_srgb(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : lom_double_pow((x + 0.055) / 1.055, 2.4);
+}
+
+static void set_decoding(struct lom_picture *picture, bool srgb)
+{
+    for (int code = 0; code < 256; code++)
+        picture->decoded[code] = srgb ? decode_srgb(code / 255.0) : code / 255.0;
+}
+
+bool lom_make_picture(struct lom_picture *picture, const lom_image *image, bool srgb, lom_error *error)
+{
+    bool deep = lom_describe_format(image->format)->bits > 8;
+    picture->image = lom_convert_image(image, deep ? LOM_FORMAT_RGBA16 : LOM_FORMAT_RGBA8, error);
+    set_decoding(picture, srgb);
+    return picture->image != NULL;
+}
+
+bool lom_load_picture(struct lom_picture *picture, const char *path, bool srgb, lom_error *error)
+{
+    lom_image *file = lom_read_image(path, error);
+    bool done = file != NULL && lom_make_picture(picture, file, srgb, error);
+    lom_free_image(file);
+    return done;
+}
+
+/* Face `face` of the cube; the first decides the size. */
+static bool load_face(struct lom_picture *cube, const char *path, int face, lom_error *error)
+{
+    lom_image *file = lom_read_image(path, error);
+    lom_image *image = file == NULL ? NULL : lom_convert_image(file, LOM_FORMAT_RGBA8, error);
+    bool done = image != NULL;
+    lom_free_image(file);
+    if (done && face == 0)
+        cube->image = lom_create_image(image->width, image->height, 6, LOM_FORMAT_RGBA8, error);
+    done = done && cube->image != NULL;
+    if (done && (image->width != cube->image->width || image->height != image->width))
+        done = lom_fail(error, LOM_ERROR_INPUT,
+                        "%s: the faces of a sky box are squares of one size, and this one is %dx%d.", path,
+                        image->width, image->height);
+    if (done)
+        memcpy(lom_image_pixel(cube->image, 0, 0, face), image->pixels, lom_image_size(image));
+    lom_free_image(image);
+    return done;
+}
+
+bool lom_load_cube(struct lom_picture *cube, const char *const paths[6], bool srgb, lom_error *error)
+{
+    set_decoding(cube, srgb);
+    for (int face = 0; face < 6; face++)
+        if (!load_face(cube, paths[face], face, error))
+            return false;
+    return true;
+}
+
+void lom_free_picture(struct lom_picture *picture)
+{
+    lom_free_image(picture->image);
+    picture->image = NULL;
+}
+
+static lom_vec3 texel(const struct lom_picture *picture, int x, int y, int z)
+{
+    const void *pixel = lom_image_pixel(picture->image, x, y, z);
+    if (picture->image->format == LOM_FORMAT_RGBA16) {
+        uint16_t code[3];
+        memcpy(code, pixel, sizeof code);
+        return (lom_vec3){ code[0] / 65535.0, code[1] / 65535.0, code[2] / 65535.0 };
+    }
+    const uint8_t *code = pixel;
+    return (lom_vec3){ picture->decoded[code[0]], picture->decoded[code[1]], picture->decoded[code[2]] };
+}
+
+static lom_vec3 bilinear(const lom_vec3 corner[4], double u, double v)
+{
+    lom_vec3 upper = along(corner[0], difference(corner[1], corner[0]), u);
+    lom_vec3 lower = along(corner[2], difference(corner[3], corner[2]), u);
+    return along(upper, difference(lower, upper), v);
+}
+
+/* The texel below position s of a repeated axis, and the place between it and the next. */
+static int find_texel(double s, int size, double *fraction)
+{
+    double place = s - lom_double_floor(s);
+    place = (place < 1 ? place : 0) * size - 0.5;
+    double whole = lom_double_floor(place);
+    *fraction = place - whole;
+    return whole < 0 ? size - 1 : (int)whole;
+}
+
+lom_vec3 lom_sample_picture(const struct lom_picture *picture, double s, double t)
+{
+    double u, v;
+    int width = picture->image->width, height = picture->image->height;
+    int x = find_texel(s, width, &u), y = find_texel(t, height, &v);
+    int right = x + 1 < width ? x + 1 : 0, below = y + 1 < height ? y + 1 : 0;
+    const lom_vec3 corner[4] = { texel(picture, x, y, 0), texel(picture, right, y, 0), texel(picture, x, below, 0),
+                                 texel(picture, right, below, 0) };
+    return bilinear(corner, u, v);
+}
+
+/* ---- cubes ---- */
+
+/* Where a direction meets the cube: its face and s, t in -1..1 on it. */
+static int find_face(lom_vec3 d, double *s, double *t)
+{
+    double x = __builtin_fabs(d.x), y = __builtin_fabs(d.y), z = __builtin_fabs(d.z);
+    if (x >= y && x >= z) {
+        *s = (d.x < 0 ? d.z : -d.z) / x;
+        *t = -d.y / x;
+        return d.x < 0;
+    }
+    if (y >= z) {
+        *s = d.x / y;
+        *t = (d.y < 0 ? -d.z : d.z) / y;
+        return 2 + (d.y < 0);
+    }
+    *s = (d.z < 0 ? -d.x : d.x) / z;
+    *t = -d.y / z;
+    return 4 + (d.z < 0);
+}
+
+/* The direction of (s, t) of a face: the inverse. */
+static lom_vec3 direction_of(int face, double s, double t)
+{
+    switch (face) {
+    case 0:
+        return (lom_vec3){ 1, -t, -s };
+    case 1:
+        return (lom_vec3){ -1, -t, s };
+    case 2:
+        return (lom_vec3){ s, 1, t };
+    case 3:
+        return (lom_vec3){ s, -1, -t };
+    case 4:
+        return (lom_vec3){ s, -t, 1 };
+    default:
+        return (lom_vec3){ -s, -t, -1 };
+    }
+}
+
+static int nearest_texel(double s, int size)
+{
+    int i = (int)lom_double_floor((s + 1) / 2 * size);
+    return i < 0 ? 0 : i < size ? i : size - 1;
+}
+
+/* The texel (x, y) of a face, one of which may be one step outside: then the one across that edge, found by looking a
+ * little beyond it (less than a texel's width sideways at any size, since the step is far below a texel). */
+static lom_vec3 texel_over_edge(const struct lom_picture *cube, int face, int x, int y)
+{
+    int size = cube->image->width;
+    bool out_s = x < 0 || x >= size, out_t = y < 0 || y >= size;
+    if (!out_s && !out_t)
+        return texel(cube, x, y, face);
+    double beyond = 1 + 1e-7, s = (2 * x + 1.0) / size - 1, t = (2 * y + 1.0) / size - 1;
+    s = out_s ? (x < 0 ? -beyond : beyond) : s;
+    t = out_t ? (y < 0 ? -beyond : beyond) : t;
+    int other = find_face(direction_of(face, s, t), &s, &t);
+    return texel(cube, nearest_texel(s, size), nearest_texel(t, size), other);
+}
+
+static lom_vec3 texel_around(const struct lom_picture *cube, int face, int x, int y)
+{
+    int size = cube->image->width;
+    if ((x >= 0 && x < size) || (y >= 0 && y < size))
+        return texel_over_edge(cube, face, x, y);
+    int inner_x = x < 0 ? 0 : size - 1, inner_y = y < 0 ? 0 : size - 1;
+    lom_vec3 total = sum(texel_over_edge(cube, face, inner_x, inner_y),
+                         sum(texel_over_edge(cube, face, x, inner_y), texel_over_edge(cube, face, inner_x, y)));
+    return scaled(total, 1 / 3.0);
+}
+
+lom_vec3 lom_sample_cube_picture(const struct lom_picture *cube, lom_vec3 direction)
+{
+    double s, t;
+    int face = find_face(direction, &s, &t), size = cube->image->width;
+    double u = (s + 1) / 2 * size - 0.5, v = (t + 1) / 2 * size - 0.5;
+    double left = lom_double_floor(u), upper = lom_double_floor(v);
+    int x = (int)left, y = (int)upper;
+    const lom_vec3 corner[4] = { texel_around(cube, face, x, y), texel_around(cube, face, x + 1, y),
+                                 texel_around(cube, face, x, y + 1), texel_around(cube, face, x + 1, y + 1) };
+    return bilinear(corner, u - left, v - upper);
+}

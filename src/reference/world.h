@@ -1,0 +1,83 @@
+/* A scene as the reference sees it: every triangle in the world, materials, pictures, light and water, in double. */
+#ifndef LOM_REFERENCE_WORLD_H
+#define LOM_REFERENCE_WORLD_H
+
+#include "reference/textures.h"
+#include "reference/triangles.h"
+
+#include <lom/reference.h>
+
+enum { LOM_NO_PICTURE = -1 };
+#define LOM_TERRAIN_MATERIAL UINT32_MAX /* of the triangles of the ground */
+
+struct lom_ray_material {
+    lom_vec3 ambient, diffuse, specular;
+    double shininess;
+    int picture; /* multiplies ambient and diffuse */
+};
+
+/* What a corner of a triangle has besides its place, interpolated linearly. */
+struct lom_ray_corner {
+    lom_vec3 normal; /* not normalised */
+    lom_vec3 color;
+    double u, v;
+    double slope; /* of terrain: radians from flat */
+};
+
+struct lom_ray_picture {
+    struct lom_picture picture;
+    char *path; /* owned */
+    bool color;
+};
+
+struct lom_ray_layer {
+    int picture;
+    double scale[2]; /* repetitions a metre along x and z */
+};
+
+struct lom_reference {
+    const lom_scene *scene;
+    struct lom_ray_triangles opaque;
+    lom_vec3 *points;
+    struct lom_ray_corner *corners; /* of each point */
+    struct lom_ray_triangle *triangles;
+    size_t point_count, triangle_count;
+
+    struct lom_ray_material *materials;
+    size_t material_count;
+    struct lom_ray_picture *pictures;
+    size_t picture_count, picture_capacity;
+
+    struct lom_ray_material ground;
+    struct lom_ray_layer ground_texture, ground_detail, ground_normals, *layers;
+    struct lom_picture sky;      /* no image: one colour */
+    double sky_sine, sky_cosine; /* of the angle that turns directions back into the box */
+    lom_vec3 to_light, light, ambient;
+
+    lom_reference_water water; /* bounds empty (low > high): there is none */
+    int normal_map, flow_map;
+};
+
+/* Loading (load.c): everything that the scene names. */
+bool lom_load_world(lom_reference *world, lom_error *error);
+
+/* Shading (shade.c): the light that an opaque surface sends back along a ray. */
+lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, const struct lom_ray_hit *hit,
+                       double time);
+/* What lies behind everything. */
+lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 direction);
+
+/* Rays (trace.c): lom_trace_ray in the float state that the caller has set. */
+lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,
+                            int depth);
+
+/* Water (surface.c). */
+/* Where a ray first crosses the surface of the water at low < t < high; false when it does not. */
+bool lom_hit_water(const lom_reference *world, const struct lom_ray *ray, double time, double low, double high,
+                   double *t);
+/* The unit normal there, upwards. */
+lom_vec3 lom_water_normal(const lom_reference *world, lom_vec3 place, double time);
+/* Metres of water above a place; 0 where there is none. */
+double lom_water_above(const lom_reference *world, lom_vec3 place, double time);
+
+#endif
