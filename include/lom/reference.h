@@ -8,6 +8,7 @@
 #ifndef LOM_REFERENCE_H
 #define LOM_REFERENCE_H
 
+#include <lom/cloud.h>
 #include <lom/pipeline.h>
 #include <lom/scene.h>
 
@@ -86,6 +87,74 @@ typedef struct lom_reference_frame {
 /* The picture, linear RGB32F: every pixel the mean of its samples over its area. Rows are shared out to threads. NULL
  * on failure; freed with lom_free_image. */
 lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_frame *frame, lom_error *error);
+
+/* ---- a volume: Monte-Carlo path tracing ---- */
+
+/* How an encounter turns light, as a density over the sphere (1/sr). */
+typedef struct lom_reference_phase {
+    lom_cloud_phase kind;
+    double forward, backward,
+        blend; /* mean cosines of the lobes, cut to +-0.999; LOM_PHASE_DUAL: share of the second */
+} lom_reference_phase;
+
+/* The density for the cosine of the angle by which light is turned (1: it goes straight on). Its integral over the
+ * sphere is 1. Isotropic 1/4pi; Rayleigh 3/16pi (1 + c^2); L. Henyey, J. Greenstein, Astrophys. J. 93 (1941). */
+double lom_phase_density(const lom_reference_phase *phase, double cosine);
+/* A cosine drawn from it by two uniform numbers in [0, 1); the second chooses the lobe. */
+double lom_phase_cosine(const lom_reference_phase *phase, double uniform, double choice);
+
+typedef struct lom_reference_volume_desc {
+    const lom_image *density; /* R8, R16 or R32F with depth: unorm 0..1; x right, y up (row 0 is the lowest), z towards
+                                 +z. Floats below 0 and NaN are 0. A voxel is the density at its centre, trilinear
+                                 between, the edge's outside the first and last centre */
+    lom_vec3 low, high;       /* its box, metres */
+    double extinction;        /* 1/m where the density is 1 */
+    double albedo[3];         /* share of what meets it that is scattered, 0..1 */
+    lom_reference_phase phase;
+} lom_reference_volume_desc;
+
+typedef struct lom_reference_volume lom_reference_volume;
+/* Copies the density. NULL for a box without extent, a format that is none of these, negative or infinite extinction or
+ * an albedo outside 0..1. Freed with lom_free_reference_volume. */
+lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_desc *desc, lom_error *error);
+void lom_free_reference_volume(lom_reference_volume *volume); /* NULL is allowed */
+
+/* Integral of the extinction from origin + from d to origin + to d, d the unit vector along direction: exact but for
+ * rounding, since between two planes of voxels the density is a cubic of the distance. 0 for a direction without
+ * length.
+ */
+double lom_volume_optical_depth(const lom_reference_volume *volume, lom_vec3 origin, lom_vec3 direction, double from,
+                                double to);
+
+/* The light around a volume. */
+typedef struct lom_reference_light {
+    lom_vec3 to_sun; /* unit length */
+    double sun[3]; /* irradiance across the sun's beam, in units of radiance x sr: pi for a directional light that makes
+                      a white diffuse surface facing it 1 */
+    const void *context;
+    lom_vec3 (*surroundings)(const void *context, lom_vec3 direction); /* radiance from afar; NULL: black. Pure */
+} lom_reference_light;
+
+typedef struct lom_volume_rays {
+    lom_vec3 origin, direction; /* of any length but 0 */
+    double far;                 /* metres behind which nothing is seen; infinity is allowed */
+    int paths;                  /* 1..2^24 */
+    int events;                 /* scatterings of a path, 0..65536 */
+    uint64_t key;               /* of its random numbers: the same key, the same result */
+} lom_volume_rays;
+
+typedef struct lom_volume_light {
+    double scattered[3];  /* radiance that reaches the origin after at least one scattering, the mean of the paths */
+    double error[3];      /* its standard error */
+    double transmittance; /* of what lies behind: exact; what is seen is scattered + transmittance x background */
+    bool cut;             /* a path was ended by `events`, or got lost in rounding: scattered lacks what followed */
+} lom_volume_light;
+
+/* Delta tracking (E. Woodcock and others, ANL-7050, 1965) from encounter to encounter, with the sun's light added at
+ * each by its exact transmittance (next-event estimation), and Russian roulette for paths below a tenth. False for a
+ * direction without length, an origin that is not finite, or counts out of range. */
+bool lom_trace_volume(const lom_reference_volume *volume, const lom_reference_light *light, const lom_volume_rays *rays,
+                      lom_volume_light *out, lom_error *error);
 
 #ifdef __cplusplus
 }
