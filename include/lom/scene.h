@@ -129,13 +129,13 @@ typedef struct lom_entity {
 
 /* ---- [quality]: the dials ---- */
 
-typedef enum lom_water_model {                       /* from cheap to exact, but for the first and the third */
+typedef enum lom_water_model {                       /* from cheap to exact, but for the default, which comes first */
                                LOM_WATER_PLANAR,     /* a quad with pictures of the scene above and below */
                                LOM_WATER_TINTED,     /* a quad of one colour */
-                               LOM_WATER_REFERENCE,  /* rays in double precision through the whole frame */
                                LOM_WATER_NORMAL_MAP, /* waves as normals on two triangles */
                                LOM_WATER_DISPLACED,  /* waves as a mesh, light bent by Snell's law */
-                               LOM_WATER_MARCHED     /* waves met by a ray for each pixel */
+                               LOM_WATER_MARCHED,    /* waves met by a ray for each pixel */
+                               LOM_WATER_REFERENCE   /* rays in double precision through the whole frame */
 } lom_water_model;
 typedef enum lom_shading { LOM_SHADING_PHONG, LOM_SHADING_GOURAUD, LOM_SHADING_FLAT } lom_shading;
 typedef enum lom_texture_filter {
@@ -166,6 +166,7 @@ typedef struct lom_quality {
     double reflection_scale;  /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale;  /* the same of the refraction picture */
     lom_reference_quality reference;
+    bool scissor; /* pictures are drawn only where lookups can reach; changes no byte */
 } lom_quality;
 
 /* ---- the scene ---- */

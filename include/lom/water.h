@@ -31,6 +31,7 @@ typedef struct lom_water_waves {
     double height_scale;    /* sea: factor on the heights */
     double choppiness;      /* sea: factor on the horizontal displacement */
     int cascades, size;     /* sea: how many, and samples a side of each */
+    double cell;            /* displaced: pixels between the vertices of the mesh */
     double patch;           /* sea: metres of the largest cascade; 0: six peak wavelengths */
 } lom_water_waves;
 

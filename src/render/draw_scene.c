@@ -165,3 +165,16 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
     if (view->sky)
         lom_draw_sky(renderer->device, &scene->sky, renderer->sky, &view->projection, &view->view);
 }
+
+bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
+    struct culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
+    for (size_t i = 0; renderer->terrain != NULL && i < renderer->block_count; i++)
+        if (is_visible(&culler, &renderer->blocks[i].bounds))
+            return true;
+    for (size_t i = 0; i < renderer->entity_count; i++)
+        if (is_visible(&culler, &renderer->entities[i].bounds))
+            return true;
+    return false;
+}

@@ -32,5 +32,6 @@ lom_image *lom_draw_reference(struct frame *f, lom_error *error);
 
 /* The stages of other files. False: the error, or the device's, says why. */
 bool lom_draw_lake_stage(struct frame *f, lom_error *error);
+bool lom_draw_sea_stage(struct frame *f, lom_error *error);
 
 #endif

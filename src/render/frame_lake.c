@@ -3,7 +3,7 @@
  *   visibility (where is water?) -> reflection, refraction (only there) -> water over the scene
  *
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
-#include "render/frame.h"
+#include "render/frame_water.h"
 #include "water/lake.h"
 
 static lom_lake_view lake_view(const struct frame *f)
@@ -18,30 +18,6 @@ static lom_lake_view lake_view(const struct frame *f)
                             .light = lom_scene_light(f->scene),
                             .normal_map = r->normal_map,
                             .flow_map = r->flow_map };
-}
-
-/* The smallest rectangle of frame pixels with water in it. */
-static bool find_water(struct frame *f, lom_error *error)
-{
-    lom_image *mask = lom_read_texture(f->renderer->mask, 0, 0, error);
-    if (mask == NULL)
-        return false;
-    int x0 = mask->width, y0 = mask->height, x1 = -1, y1 = -1;
-    for (int y = 0; y < mask->height; y++) {
-        const uint8_t *row = lom_image_pixel(mask, 0, y, 0);
-        for (int x = 0; x < mask->width; x++) {
-            if (row[x] == 0)
-                continue;
-            x0 = x < x0 ? x : x0;
-            x1 = x > x1 ? x : x1;
-            y0 = y < y0 ? y : y0;
-            y1 = y;
-        }
-    }
-    lom_free_image(mask);
-    if (x1 >= 0)
-        f->water = (lom_rect){ f->crop.x + x0, f->crop.y + y0, x1 - x0 + 1, y1 - y0 + 1 };
-    return true;
 }
 
 static bool is_in_view(const struct frame *f)
@@ -65,42 +41,20 @@ static bool draw_visibility(struct frame *f, lom_error *error)
     pass.depth_load = LOM_LOAD_KEEP;
     lom_begin_pass(r->device, &pass);
     lom_draw_lake(r->device, &lom_lake_mask_shader, &f->scene->water, &v);
-    return lom_end_pass(r->device) && find_water(f, error);
+    return lom_end_pass(r->device) && lom_find_water(f, error);
 }
 
-/* The part of a picture of the scene (scaled to width x height) that lookups from the visible water can reach. */
-static lom_rect reach(const struct frame *f, int width, int height)
-{
-    const lom_rect *w = &f->water;
-    int rx = lom_lake_reach(&f->scene->water, width), ry = lom_lake_reach(&f->scene->water, height);
-    if (!f->scene->water.projection)
-        return (lom_rect){ 0, 0, width, height };
-    int x0 = (int)((int64_t)w->x * width / f->width) - rx, y0 = (int)((int64_t)w->y * height / f->height) - ry;
-    int x1 = (int)((int64_t)(w->x + w->width) * width / f->width) + 1 + rx;
-    int y1 = (int)((int64_t)(w->y + w->height) * height / f->height) + 1 + ry;
-    x0 = x0 < 0 ? 0 : x0;
-    y0 = y0 < 0 ? 0 : y0;
-    x1 = x1 > width ? width : x1;
-    y1 = y1 > height ? height : y1;
-    return (lom_rect){ x0, y0, x1 - x0, y1 - y0 };
-}
-
+/* A picture of the scene in the water's colour, where lookups from the visible water can reach. */
 static bool draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
                          const struct lom_scene_view *view)
 {
-    lom_renderer *r = f->renderer;
     const lom_water_params *water = &f->scene->water;
     int width = lom_texture_width(color), height = lom_texture_height(color);
-    lom_pass_desc pass = { .color = { color }, .depth = depth, .scissor = reach(f, width, height) };
-    for (int i = 0; i < 3; i++)
-        pass.clear_color[0][i] = (float)water->color[i];
-    pass.clear_color[0][3] = 1;
-    step->width = width;
-    step->height = height;
-    step->scissor = pass.scissor;
-    lom_begin_pass(r->device, &pass);
-    lom_draw_scene(r, view);
-    return lom_end_pass(r->device);
+    float clear[4] = { (float)water->color[0], (float)water->color[1], (float)water->color[2], 1 };
+    lom_rect all = { 0, 0, width, height };
+    double reach = water->flow ? water->flow_strength : 0;
+    return lom_draw_picture(f, step, color, depth, view, clear,
+                            water->projection ? lom_water_reach(f, reach, width, height) : all);
 }
 
 /* Step 1: the view times a mirror in the plane; nothing below the plane (less the offset). */
@@ -150,14 +104,7 @@ static bool draw_surface(struct frame *f)
     view.reflection = water->reflection ? r->reflection : NULL;
     view.refraction = below ? r->refraction : NULL;
     view.refraction_depth = below ? r->refraction_depth : NULL;
-    lom_step *step = lom_add_step(f, "water", true, "the surface over the scene, from the pictures above and below it");
-    step->width = f->crop.width;
-    step->height = f->crop.height;
-    step->scissor = f->water;
-    lom_pass_desc pass = lom_frame_pass(f, r->color);
-    pass.color_load[0] = pass.depth_load = LOM_LOAD_KEEP;
-    pass.scissor = f->water;
-    lom_begin_pass(r->device, &pass);
+    lom_begin_water(f, "the surface over the scene, from the pictures above and below it");
     lom_draw_lake(r->device, &lom_lake_shader, water, &view);
     return lom_end_pass(r->device);
 }
@@ -169,38 +116,27 @@ static bool draw_tinted(struct frame *f)
     lom_lake_view view = lake_view(f);
     lom_add_step(f, "reflection", false, "tinted water reflects nothing");
     lom_add_step(f, "refraction", false, "tinted water is blended over the scene");
-    lom_step *step = lom_add_step(f, "water", true, "a quad of one colour, blended over the scene");
-    step->width = f->crop.width;
-    step->height = f->crop.height;
-    lom_pass_desc pass = lom_frame_pass(f, r->color);
-    pass.color_load[0] = pass.depth_load = LOM_LOAD_KEEP;
-    lom_begin_pass(r->device, &pass);
+    lom_begin_water(f, "a quad of one colour, blended over the scene");
     lom_draw_lake(r->device, &lom_lake_tinted_shader, &f->scene->water, &view);
     return lom_end_pass(r->device);
-}
-
-static bool skip_water(struct frame *f, const char *reason)
-{
-    static const char *const passes[] = { "reflection", "refraction", "water" };
-    for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
-        lom_add_step(f, passes[i], false, "%s", reason);
-    return true;
 }
 
 bool lom_draw_lake_stage(struct frame *f, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
     if (water->given == 0)
-        return skip_water(f, "the scene has no water");
+        return lom_skip_water(f, "the scene has no water");
     if (!water->enabled)
-        return skip_water(f, "water.enabled is false");
+        return lom_skip_water(f, "water.enabled is false");
+    if (f->scene->quality.water >= LOM_WATER_NORMAL_MAP)
+        return true;
     if (!is_in_view(f))
-        return skip_water(f, "the water's quad is outside the view");
+        return lom_skip_water(f, "the water's quad is outside the view");
     if (f->scene->quality.water == LOM_WATER_TINTED)
         return draw_tinted(f);
     if (!draw_visibility(f, error))
         return false;
     if (f->water.width == 0)
-        return skip_water(f, "the scene hides all of the water");
+        return lom_skip_water(f, "the scene hides all of the water");
     return draw_reflection(f) && draw_refraction(f) && draw_surface(f);
 }

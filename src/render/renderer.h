@@ -3,6 +3,7 @@
 #define LOM_RENDER_RENDERER_H
 
 #include "render/surface.h"
+#include "water/surface.h"
 
 #include <lom/reference.h>
 #include <lom/render.h>
@@ -50,6 +51,9 @@ struct lom_renderer {
     struct lom_loaded_entity *entities;
     size_t entity_count;
 
+    lom_texture *foam;           /* its pattern, or NULL */
+    struct lom_polar_mesh polar; /* of displaced water */
+
     /* targets, remade when the size changes */
     int width, height, target_width, target_height;
     lom_texture *color, *depth, *mask, *reflection, *reflection_depth, *refraction, *refraction_depth;
@@ -62,6 +66,10 @@ lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool col
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error);
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
+/* What water with waves needs; its waves at a time, and their height over a point of the world, metres. */
+bool lom_load_waves(lom_renderer *renderer, lom_error *error);
+bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
+double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
 
 /* How a pass looks at the scene. */
 struct lom_scene_view {
@@ -75,6 +83,8 @@ struct lom_scene_view {
 /* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
  * nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
+/* Whether any of it but the sky would be drawn. */
+bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* Makes the targets for a frame of this size of which target_width x target_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int target_width, int target_height,

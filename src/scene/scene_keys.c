@@ -224,9 +224,12 @@ static const lom_key_table reference_table = { sizeof(lom_reference_quality), re
                                                "How exact the reference is." };
 
 static const lom_key quality[] = {
-    { "water", LOM_KEY_CHOICE, AT(lom_quality, water), .choices = { "planar", "tinted", "reference" },
-      .text = "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`. "
-              "Reference: rays in double precision, for the whole frame; what the others are measured against." },
+    { "water", LOM_KEY_CHOICE, AT(lom_quality, water),
+      .choices = { "planar", "tinted", "normal_map", "displaced", "marched", "reference" },
+      .text =
+          "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`. Then "
+          "the waves of `[water.waves]`: as normals on two triangles; as a mesh; met by a ray for each pixel. "
+          "Reference: rays in double precision, for the whole frame; what the others are measured against." },
     { "clouds", LOM_KEY_CHOICE, AT(lom_quality, clouds),
       .choices = { "octaves", "forward", "single", "original", "billboard", "off" },
       .text = "Model of the clouds: marched with octaves of multiple scattering, with multiple forward scattering, or "
@@ -253,6 +256,9 @@ static const lom_key quality[] = {
       .initial = { 1 }, .text = "Size of the reflection's picture, in parts of the output's, along each axis." },
     { "refraction_scale", LOM_KEY_NUMBER, AT(lom_quality, refraction_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 1 }, .text = "The same of the refraction's picture." },
+    { "scissor", LOM_KEY_BOOL, AT(lom_quality, scissor), .initial = { 1 },
+      .text =
+          "Draw these pictures only where the water can look them up. Changes time alone: off gives the same bytes." },
     { "reference", LOM_KEY_TABLE, AT(lom_quality, reference), .table = &reference_table },
 };
 static const lom_key_table quality_table = { sizeof(lom_quality), quality, COUNT(quality),

@@ -68,9 +68,3 @@ void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water
         draw.blend[0] = over;
     lom_draw(device, &draw);
 }
-
-int lom_lake_reach(const lom_water_params *water, int pixels)
-{
-    double displaced = water->flow ? water->flow_strength * pixels : 0;
-    return (int)displaced + 2;
-}

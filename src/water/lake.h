@@ -42,8 +42,4 @@ typedef struct lom_lake_view {
 void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water_params *water,
                    const lom_lake_view *view);
 
-/* The largest displacement of a lookup in pixels of a picture of this width or height, one texel of filtering included.
- */
-int lom_lake_reach(const lom_water_params *water, int pixels);
-
 #endif

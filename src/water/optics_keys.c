@@ -52,6 +52,8 @@ static const lom_key waves[] = {
       .text = "Sea: patches of different size whose sum is the surface." },
     { "size", LOM_KEY_INTEGER, AT(size), .minimum = 16, .maximum = 1024, .initial = { 256 },
       .text = "Sea: samples a side of a patch, a power of two." },
+    { "cell", LOM_KEY_NUMBER, AT(cell), .minimum = 1, .maximum = 256, .initial = { 5 }, .unit = "pixels",
+      .text = "Displaced: distance between the vertices of the mesh on the screen." },
     { "patch", LOM_KEY_NUMBER, AT(patch), .maximum = 1e6, .unit = "m", .initial_text = "six of the longest waves",
       .text = "Sea: side of the largest patch." },
 };

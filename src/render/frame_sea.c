@@ -1,0 +1,346 @@
+/* Water with waves in a frame: normals on two triangles, a displaced mesh, or a ray a pixel. In: the frame whose opaque
+ * scene is drawn. Out: the water over it, and for an eye below its surface the water in between.
+ *
+ *   visibility (where may it be?) -> reflection, refraction (only there) -> water -> underwater
+ *
+ * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
+#include "render/frame_water.h"
+#include "water/underwater.h"
+
+struct sea {
+    struct lom_surface_uniforms uniforms;
+    lom_mat4 clip_from_world;
+    bool below; /* the eye is */
+};
+
+static void set_matrix(struct lom_matrix_uniform *out, const lom_mat4 *m)
+{
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++)
+            out->m[row][column] = (float)m->m[row][column];
+}
+
+/* World directions of (ndc x, ndc y, 1): the view's rotation of (x / p00, y / p11, -1). */
+static void set_rays(float out[3][3], const struct lom_scene_view *view)
+{
+    double scale[3] = { 1 / view->projection.m[0][0], 1 / view->projection.m[1][1], -1 };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            out[i][k] = (float)(view->view.m[k][i] * scale[k]);
+}
+
+/* The light that the water sends back is `scatter` of what a white surface would, seen from straight above: there the
+ * way down and the way up are 1 + slant metres a metre. */
+static void set_medium(struct lom_medium_uniform *medium, const lom_scene *scene)
+{
+    const lom_water_optics *optics = &scene->water.optics;
+    double up = -scene->light.direction.y, flat = 1 - up * up;
+    double refracted = 1 - flat / (optics->index * optics->index);
+    double slant = up > 0 ? 1 / lom_double_sqrt(refracted) : 1;
+    medium->slant = (float)slant;
+    for (int i = 0; i < 3; i++) {
+        double sun = scene->light.color[i] * scene->light.intensity * (up > 0 ? up : 0);
+        medium->absorption[i] = (float)optics->absorption[i];
+        medium->source[i] = (float)(optics->scatter[i] * (sun + scene->light.ambient[i]) * (1 + slant));
+    }
+}
+
+static void set_sky(struct lom_sky_uniform *sky, const lom_renderer *renderer)
+{
+    const lom_sky_params *params = &renderer->scene->sky;
+    sky->box = renderer->sky;
+    sky->cosine = (float)lom_double_cos(-params->rotation);
+    sky->sine = (float)lom_double_sin(-params->rotation);
+    sky->size = renderer->sky != NULL ? (float)lom_texture_width(renderer->sky) : 0;
+    for (int i = 0; i < 3; i++)
+        sky->color[i] = (float)(params->intensity * (renderer->sky != NULL ? 1 : params->color[i]));
+}
+
+static void set_foam(struct lom_foam_uniform *foam, const struct frame *f)
+{
+    const lom_water_foam *params = &f->scene->water.foam;
+    double move = f->time / 4;
+    foam->pattern = f->renderer->foam;
+    foam->amount = (float)params->amount;
+    foam->shore_depth = (float)params->shore_depth;
+    foam->inverse_tile = (float)(1 / params->tile);
+    foam->move = (float)(move - lom_double_floor(move));
+}
+
+static void set_optics(struct lom_surface_uniforms *u, const lom_scene *scene)
+{
+    const lom_water_optics *optics = &scene->water.optics;
+    u->roughness = (float)optics->roughness;
+    u->glitter = (float)optics->glitter;
+    u->reach = (float)optics->reach;
+    u->fresnel = optics->fresnel;
+    u->steps = optics->steps;
+    u->surface_steps = 96;
+    u->bent = scene->quality.water != LOM_WATER_NORMAL_MAP;
+    u->marched = scene->quality.water == LOM_WATER_MARCHED;
+    u->light = lom_scene_light(scene);
+    set_medium(&u->medium, scene);
+}
+
+static void look_at_sea(struct sea *sea, struct frame *f)
+{
+    struct lom_surface_uniforms *u = &sea->uniforms;
+    const lom_water_params *water = &f->scene->water;
+    sea->clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
+    set_matrix(&u->clip_from_world, &sea->clip_from_world);
+    set_optics(u, f->scene);
+    set_sky(&u->sky, f->renderer);
+    set_foam(&u->foam, f);
+    set_rays(u->ray, &f->view);
+    u->eye[0] = (float)f->view.eye.x;
+    u->eye[1] = (float)f->view.eye.y;
+    u->eye[2] = (float)f->view.eye.z;
+    u->pixel[0] = 1.0f / (float)f->width;
+    u->pixel[1] = 1.0f / (float)f->height;
+    u->near_plane = (float)f->camera.near_plane;
+    u->pixel_angle = (float)(2 / f->view.projection.m[1][1] / f->height);
+    for (int i = 0; i < 2; i++) {
+        u->quad[i] = (float)(water->position[i] - water->size[i] / 2);
+        u->quad[2 + i] = (float)(water->position[i] + water->size[i] / 2);
+    }
+}
+
+/* The eye's side of the surface, where it is over or under the quad. */
+static void find_side(struct sea *sea, const struct frame *f)
+{
+    struct lom_surface_uniforms *u = &sea->uniforms;
+    const lom_vec3 *eye = &f->view.eye;
+    bool inside = eye->x >= (double)u->quad[0] && eye->x <= (double)u->quad[2] && eye->z >= (double)u->quad[1] &&
+                  eye->z <= (double)u->quad[3];
+    double level = f->scene->water.level;
+    if (f->scene->quality.water != LOM_WATER_NORMAL_MAP && inside)
+        level += lom_wave_height(f->renderer, &u->waves, eye->x, eye->z);
+    sea->below = inside && eye->y < level;
+    u->side = sea->below ? -1 : 1;
+    u->eta = (float)(sea->below ? f->scene->water.optics.index : 1 / f->scene->water.optics.index);
+}
+
+/* ---- where it may be seen ---- */
+
+static lom_box slab(const struct lom_surface_uniforms *u, bool flat)
+{
+    double low = (double)u->waves.level + (flat ? 0 : (double)u->waves.lowest);
+    double high = (double)u->waves.level + (flat ? 0 : (double)u->waves.highest);
+    double out = flat ? 0 : (double)u->waves.reach;
+    return (lom_box){ { (double)u->quad[0] - out, low, (double)u->quad[1] - out },
+                      { (double)u->quad[2] + out, high, (double)u->quad[3] + out } };
+}
+
+static void draw_bounds(struct sea *sea, lom_device *device, const lom_box *box)
+{
+    static const uint32_t faces[36] = { 0, 1, 2, 2, 1, 3, 4, 6, 5, 5, 6, 7, 0, 4, 1, 1, 4, 5,
+                                        2, 3, 6, 6, 3, 7, 0, 2, 4, 4, 2, 6, 1, 5, 3, 3, 5, 7 };
+    float corners[8][3];
+    for (int i = 0; i < 8; i++) {
+        corners[i][0] = (float)(i & 1 ? box->high.x : box->low.x);
+        corners[i][1] = (float)(i & 4 ? box->high.y : box->low.y);
+        corners[i][2] = (float)(i & 2 ? box->high.z : box->low.z);
+    }
+    /* The pass ends before the corners do. */
+    lom_draw(device, &(lom_draw_desc){ .shader = &lom_surface_bounds_shader,
+                                       .uniforms = &sea->uniforms,
+                                       .attribute = { { corners, sizeof corners, 12, LOM_ATTRIBUTE_FLOAT3 } },
+                                       .indices = faces,
+                                       .count = 36,
+                                       .depth_write_off = true });
+    lom_end_pass(device);
+}
+
+/* A point of the surface that is seen lies in the slab of its waves, whose faces are before it: where no face passes
+ * the depth test, no water is seen. An eye in the slab may see it anywhere. */
+static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_error *error)
+{
+    lom_renderer *r = f->renderer;
+    lom_box box = slab(&sea->uniforms, flat);
+    double margin = 2 * f->camera.near_plane + 0.01;
+    if (!flat && f->view.eye.y > box.low.y - margin && f->view.eye.y < box.high.y + margin) {
+        lom_add_step(f, "visibility", false, "the eye is among the waves: they may be anywhere");
+        f->water = f->crop;
+        return true;
+    }
+    lom_step *step = lom_add_step(f, "visibility", true, "which pixels may show the water's surface");
+    step->width = f->crop.width;
+    step->height = f->crop.height;
+    lom_pass_desc pass = lom_frame_pass(f, r->mask);
+    pass.depth_load = LOM_LOAD_KEEP;
+    lom_begin_pass(r->device, &pass);
+    draw_bounds(sea, r->device, &box);
+    return lom_device_error(r->device)->code == LOM_OK && lom_find_water(f, error);
+}
+
+/* ---- pictures of the scene ---- */
+
+static const float nothing[4] = { 0, 0, 0, 0 };
+
+static lom_rect lookups(const struct frame *f, const lom_texture *picture)
+{
+    return lom_water_reach(f, f->scene->water.optics.reach, lom_texture_width(picture), lom_texture_height(picture));
+}
+
+/* The scene on the eye's side (above: 1, below: -1), less the clip offset. */
+static void clip_at(struct lom_scene_view *view, const struct frame *f, double side, double over)
+{
+    view->plane[0] = view->plane[2] = 0;
+    view->plane[1] = side;
+    view->plane[3] = -side * f->scene->water.level + over + f->scene->water.clip_offset;
+    view->sky = false;
+}
+
+static bool draw_mirrored(struct sea *sea, struct frame *f)
+{
+    lom_renderer *r = f->renderer;
+    struct lom_scene_view view = f->view;
+    lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, f->scene->water.level);
+    view.view = lom_multiply(&f->view.view, &mirror);
+    view.eye.y = 2 * f->scene->water.level - f->view.eye.y;
+    view.mirrored = true;
+    clip_at(&view, f, sea->below ? -1 : 1, 0);
+    if (!lom_shows_scene(r, &view)) {
+        lom_add_step(f, "reflection", false, "nothing but %s is reflected", sea->below ? "water" : "the sky");
+        return true;
+    }
+    lom_step *step =
+        lom_add_step(f, "reflection", true, "terrain and entities on the eye's side, mirrored in the level");
+    lom_mat4 clip = lom_multiply(&sea->clip_from_world, &mirror);
+    set_matrix(&sea->uniforms.mirrored.clip_from_world, &clip);
+    sea->uniforms.mirrored.color = r->reflection;
+    sea->uniforms.mirrored.depth = r->reflection_depth;
+    return lom_draw_picture(f, step, r->reflection, r->reflection_depth, &view, nothing, lookups(f, r->reflection));
+}
+
+static bool draw_behind(struct sea *sea, struct frame *f)
+{
+    lom_renderer *r = f->renderer;
+    struct lom_scene_view view = f->view;
+    const struct lom_waves_uniform *waves = &sea->uniforms.waves;
+    clip_at(&view, f, sea->below ? 1 : -1, sea->below ? -(double)waves->lowest : (double)waves->highest);
+    if (!lom_shows_scene(r, &view)) {
+        lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", sea->below ? "the sky" : "water");
+        return true;
+    }
+    lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities behind the surface, with their depth");
+    set_matrix(&sea->uniforms.behind.clip_from_world, &sea->clip_from_world);
+    sea->uniforms.behind.color = r->refraction;
+    sea->uniforms.behind.depth = r->refraction_depth;
+    return lom_draw_picture(f, step, r->refraction, r->refraction_depth, &view, nothing, lookups(f, r->refraction));
+}
+
+/* ---- the surface ---- */
+
+static bool fill_mesh(struct sea *sea, struct frame *f, lom_error *error)
+{
+    struct lom_surface_uniforms *u = &sea->uniforms;
+    struct lom_polar_mesh *mesh = &f->renderer->polar;
+    struct lom_polar_mesh_desc desc = { .projection = f->view.projection,
+                                        .view = f->view.view,
+                                        .eye = f->view.eye,
+                                        .level = f->scene->water.level,
+                                        .lowest = (double)u->waves.lowest,
+                                        .highest = (double)u->waves.highest,
+                                        .reach = (double)u->waves.reach,
+                                        .quad = { (double)u->quad[0], (double)u->quad[1], (double)u->quad[2],
+                                                  (double)u->quad[3] },
+                                        .cell = f->scene->water.waves.cell,
+                                        .pixel_angle = (double)u->pixel_angle };
+    if (!lom_fill_polar_mesh(mesh, &desc, error))
+        return false;
+    u->mesh =
+        (struct lom_polar_mesh_uniform){ mesh->radius, mesh->spacing, mesh->cosine,
+                                         mesh->sine,   mesh->columns, { (float)mesh->apex[0], (float)mesh->apex[1] } };
+    return true;
+}
+
+static bool draw_surface(struct sea *sea, struct frame *f, lom_error *error)
+{
+    static const char *const texts[] = {
+        [LOM_WATER_NORMAL_MAP] = "waves as normals on two triangles, opaque: what is seen through them is part of it",
+        [LOM_WATER_DISPLACED] = "waves as a mesh, opaque: what is seen through them is part of it",
+        [LOM_WATER_MARCHED] = "waves met by a ray for each pixel, opaque: what is seen through them is part of it"
+    };
+    lom_renderer *r = f->renderer;
+    int model = f->scene->quality.water;
+    lom_draw_desc draw = { .shader = &lom_surface_flat_shader, .count = 4, .topology = LOM_TRIANGLE_STRIP };
+    if (model == LOM_WATER_DISPLACED) {
+        if (!fill_mesh(sea, f, error))
+            return false;
+        draw = (lom_draw_desc){ .shader = &lom_surface_displaced_shader,
+                                .indices = r->polar.indices,
+                                .count = r->polar.index_count,
+                                .vertex_count = (size_t)r->polar.rings * (size_t)r->polar.columns };
+    }
+    if (model == LOM_WATER_MARCHED)
+        draw = (lom_draw_desc){ .shader = &lom_surface_marched_shader, .count = 3 };
+    draw.uniforms = &sea->uniforms;
+    lom_begin_water(f, texts[model]);
+    lom_draw(r->device, &draw);
+    return lom_end_pass(r->device);
+}
+
+/* ---- the water between the eye and everything ---- */
+
+static bool draw_underwater(const struct sea *sea, struct frame *f)
+{
+    lom_renderer *r = f->renderer;
+    const struct lom_surface_uniforms *u = &sea->uniforms;
+    struct lom_underwater_uniforms under = { .medium = u->medium,
+                                             .pixel = { u->pixel[0], u->pixel[1] },
+                                             .near_plane = u->near_plane,
+                                             .depth = r->depth,
+                                             .origin = { (float)f->crop.x, (float)f->crop.y },
+                                             .crop_pixel = { 1.0f / (float)f->crop.width,
+                                                             1.0f / (float)f->crop.height },
+                                             .depth_of_eye = u->waves.level - u->eye[1],
+                                             .highest = u->waves.highest,
+                                             .multiplies = true };
+    memcpy(under.ray, u->ray, sizeof under.ray);
+    lom_step *step = lom_add_step(f, "underwater", true, "the water between the eye and all that is drawn");
+    step->width = f->crop.width;
+    step->height = f->crop.height;
+    lom_pass_desc pass = lom_frame_pass(f, r->color);
+    pass.depth = NULL;
+    pass.color_load[0] = LOM_LOAD_KEEP;
+    lom_draw_desc draw = { .shader = &lom_underwater_shader, .uniforms = &under, .count = 3 };
+    draw.blend[0] =
+        (lom_blend){ .enabled = true, .target_color = LOM_FACTOR_SOURCE_COLOR, .target_alpha = LOM_FACTOR_ONE };
+    lom_begin_pass(r->device, &pass);
+    lom_draw(r->device, &draw);
+    under.multiplies = false;
+    draw.blend[0].source_color = draw.blend[0].target_color = LOM_FACTOR_ONE;
+    lom_draw(r->device, &draw);
+    return lom_end_pass(r->device);
+}
+
+static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
+{
+    bool flat = f->scene->quality.water == LOM_WATER_NORMAL_MAP;
+    lom_box box = slab(&sea->uniforms, flat);
+    lom_frustum frustum = lom_view_frustum(&sea->clip_from_world, false);
+    if (lom_box_visibility(&frustum, box) == LOM_OUTSIDE)
+        return lom_skip_water(f, "the water is outside the view");
+    if (!draw_visibility(sea, f, flat, error))
+        return false;
+    if (f->water.width == 0)
+        return lom_skip_water(f, "the scene hides all of the water");
+    return draw_mirrored(sea, f) && draw_behind(sea, f) && draw_surface(sea, f, error);
+}
+
+bool lom_draw_sea_stage(struct frame *f, lom_error *error)
+{
+    const lom_water_params *water = &f->scene->water;
+    struct sea sea;
+    if (water->given == 0 || !water->enabled || f->scene->quality.water < LOM_WATER_NORMAL_MAP)
+        return true;
+    memset(&sea, 0, sizeof sea);
+    if (!lom_fill_waves(f->renderer, &sea.uniforms.waves, f->time, error))
+        return false;
+    look_at_sea(&sea, f);
+    find_side(&sea, f);
+    if (!draw_seen(&sea, f, error))
+        return false;
+    return !sea.below || draw_underwater(&sea, f);
+}

@@ -1,0 +1,22 @@
+/* What the water models of a frame share. */
+#ifndef LOM_RENDER_FRAME_WATER_H
+#define LOM_RENDER_FRAME_WATER_H
+
+#include "render/frame.h"
+
+/* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there is
+ * none.
+ */
+bool lom_find_water(struct frame *f, lom_error *error);
+/* The part of a picture of the scene (scaled to width x height) that lookups from the visible water can reach: `reach`
+ * parts of the picture away, and a texel of filtering. The whole picture when quality.scissor is off. */
+lom_rect lom_water_reach(const struct frame *f, double reach, int width, int height);
+/* Draws the scene into a picture of its own. */
+bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
+                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor);
+/* Adds "left out" to the plan for every pass of the water, for this reason. True. */
+bool lom_skip_water(struct frame *f, const char *reason);
+/* Begins the pass that draws the surface over the finished scene, where water is seen. */
+void lom_begin_water(struct frame *f, const char *text);
+
+#endif

@@ -1,0 +1,96 @@
+/* The surface of water with waves: what its shaders and draws need. Three geometries share one light (surface_light.h):
+ * two triangles, a mesh whose density follows the screen, and a ray for each pixel. */
+#ifndef LOM_WATER_SURFACE_H
+#define LOM_WATER_SURFACE_H
+
+#include "water/waves.h"
+
+#include <lom/geometry.h>
+
+/* A picture of the scene with its depth: where a point of the world is in it, and what stands there. */
+struct lom_picture_uniform {
+    struct lom_matrix_uniform clip_from_world;
+    const lom_texture *color, *depth; /* NULL: there is nothing in it */
+};
+
+/* Water as a medium: 1/m of red, green and blue; the light that it sends back per metre and absorption, at the surface;
+ * the length of the sun's refracted ray per metre of depth. */
+struct lom_medium_uniform {
+    float absorption[3], source[3], slant;
+};
+
+struct lom_sky_uniform {
+    const lom_texture *box; /* NULL: one colour */
+    float color[3];         /* factor on the box */
+    float cosine, sine;     /* of its turn about y */
+    float size;             /* texels a side */
+};
+
+struct lom_foam_uniform {
+    const lom_texture *pattern; /* NULL: none */
+    float amount, shore_depth, inverse_tile, move;
+};
+
+/* The mesh: vertex (ring, column) is at apex + radius[ring] (cosine[column], sine[column]), moved into the quad. */
+struct lom_polar_mesh_uniform {
+    const float *radius, *spacing, *cosine, *sine; /* spacing: metres between neighbours, for the filter */
+    int columns;                                   /* vertices a ring */
+    float apex[2];
+};
+
+struct lom_surface_uniforms {
+    struct lom_matrix_uniform clip_from_world;
+    struct lom_waves_uniform waves;
+    struct lom_light_uniform light;
+    struct lom_picture_uniform mirrored; /* what the surface reflects: the side of the eye, mirrored in the plane */
+    struct lom_picture_uniform behind;   /* the other side, as the eye sees it */
+    struct lom_medium_uniform medium;
+    struct lom_sky_uniform sky;
+    struct lom_foam_uniform foam;
+    struct lom_polar_mesh_uniform mesh;
+    float eye[3];
+    float side;     /* 1: the eye is above the surface, -1: below */
+    float pixel[2]; /* 1 / size of the whole frame */
+    float near_plane;
+    float ray[3][3]; /* world direction of (ndc x, ndc y, 1), its length along the view axis 1 */
+    float pixel_angle;
+    float eta; /* index of the eye's side over that of the other */
+    float roughness, glitter, reach;
+    float quad[4]; /* x and z of two corners */
+    int fresnel;   /* lom_fresnel */
+    int steps, surface_steps;
+    bool bent, marched; /* refracted rays are followed; reflected ones too */
+};
+
+extern const lom_shader lom_surface_flat_shader, lom_surface_displaced_shader, lom_surface_marched_shader;
+/* Attribute 0 is a point of the world, the colour 1: where the surface may be. */
+extern const lom_shader lom_surface_bounds_shader;
+
+/* What a polar mesh is made for. */
+struct lom_polar_mesh_desc {
+    lom_mat4 projection, view;
+    lom_vec3 eye;
+    double level, lowest, highest, reach; /* of the surface, metres */
+    double quad[4];
+    double cell, pixel_angle; /* pixels between vertices, and radians a pixel */
+};
+
+/* Rings about a point behind the eye, from below it to the far corner of the quad, in the sector that the view can see.
+ * Along a ring vertices are `cell` pixels apart; from ring to ring as well, until waves are lower than a pixel, from
+ * where rings may be further apart. One connected mesh: there is no seam to stitch. */
+struct lom_polar_mesh {
+    int rings, columns;
+    double apex[2];
+    float *radius, *spacing, *cosine, *sine; /* parts of one array */
+    uint32_t *indices;
+    size_t index_count;
+    float *memory;
+    size_t memory_capacity, index_capacity;
+    int indexed_rings, indexed_columns;
+};
+
+/* Fills a mesh (zeros at first); memory is kept from frame to frame. */
+bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error);
+void lom_free_polar_mesh(struct lom_polar_mesh *mesh);
+
+#endif

@@ -1,0 +1,318 @@
+/* The light that a surface of water sends to the eye, over lanes. In: a point of it with its slopes and their
+ * covariance; out: radiance = F reflected + (1 - F) transmitted + glitter, under foam.
+ *
+ * Rays are followed against pictures of the scene with depth; what they leave to is the sky above and bottomless water
+ * below. The same function serves an eye below the surface: side and eta tell.
+ *
+ * Rough water (Cox and Munk 1954): slopes too small to be seen are normally distributed about the mean slope with the
+ * covariance of waves.h. */
+#ifndef LOM_WATER_SURFACE_LIGHT_H
+#define LOM_WATER_SURFACE_LIGHT_H
+
+#include "water/optics.h"
+#include "water/surface.h"
+
+struct lom_surface_point {
+    lom_float x, y, w;  /* window position and clip w */
+    lom_float3 world;   /* on the surface */
+    lom_float3 to_eye;  /* unit length */
+    lom_float distance; /* to the eye */
+    lom_float3 normal;  /* mean, upwards */
+    lom_float3 facet;   /* mean of the facets that the eye sees, upwards */
+    struct lom_wave_slopes slopes;
+};
+
+/* ---- the sky ---- */
+
+LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_float3 d, lom_float variance)
+{
+    lom_float3 color = lom_uniform3(sky->color);
+    if (sky->box == NULL)
+        return color;
+    lom_float3 turned = { sky->cosine * d.x + sky->sine * d.z, d.y, sky->cosine * d.z - sky->sine * d.x };
+    /* A lobe of standard deviation 2 s on texels of about 1.3 / size; not wider than its height above the horizon. */
+    lom_float low = lom_abs(d.y) + 0.02f, bounded = lom_min(variance, low * low);
+    lom_float lod = 0.5f * lom_log2(lom_max(bounded * (sky->size * sky->size), lom_splat(1.0f)));
+    lom_float4 texel = lom_sample_cube(sky->box, turned, lod);
+    return lom_mul3(color, (lom_float3){ texel.x, texel.y, texel.z });
+}
+
+/* ---- pictures of the scene ---- */
+
+struct lom_lookup {
+    lom_float s, t, w;
+};
+
+LOM_INLINE struct lom_lookup lom_project_point(const struct lom_picture_uniform *picture, lom_float3 p)
+{
+    lom_float4 c = lom_transform4(&picture->clip_from_world, p);
+    lom_float w = lom_max(c.w, lom_splat(1e-6f)), half = lom_splat(0.5f) / w;
+    return (struct lom_lookup){ 0.5f + c.x * half, 0.5f - c.y * half, c.w };
+}
+
+/* The clip w of what a picture shows at (s, t): with reversed infinite depth near / z; huge where there is nothing. */
+LOM_INLINE lom_float lom_picture_w(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                   lom_float s, lom_float t)
+{
+    return u->near_plane / lom_max(lom_sample_depth(picture->depth, s, t), lom_splat(1e-12f));
+}
+
+LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
+                                     struct lom_lookup at)
+{
+    lom_mask near = (lom_abs(at.s - p->x * u->pixel[0]) < u->reach) & (lom_abs(at.t - p->y * u->pixel[1]) < u->reach);
+    return near & (at.s > 0.0f) & (at.s < 1.0f) & (at.t > 0.0f) & (at.t < 1.0f) & (at.w > 0.0f);
+}
+
+struct lom_hit {
+    lom_mask found;
+    lom_float length; /* of the ray */
+    lom_float s, t;
+};
+
+/* Follows the ray from p along d through the picture: `steps` points whose distances grow as the square of their
+ * number, then halving of the step in which the ray went behind what the picture shows. What
+ * stands further before the ray than a step is passed behind. A ray that leaves the picture, or its reach, finds
+ * nothing. */
+LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
+                                         const struct lom_picture_uniform *picture, const struct lom_surface_point *p,
+                                         lom_float3 d, lom_float range)
+{
+    struct lom_hit hit = { { 0 }, range, p->x * u->pixel[0], p->y * u->pixel[1] };
+    lom_mask going = range > 0.0f;
+    lom_float before = { 0 }, last = { 0 };
+    for (int i = 1; i <= u->steps && lom_any(going); i++) {
+        float share = (float)i / (float)u->steps;
+        lom_float length = range * (share * share * share);
+        struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
+        lom_float over = at.w - lom_picture_w(u, picture, at.s, at.t);
+        going = going & lom_within_reach(u, p, at);
+        lom_mask met = going & (over > 0.0f) & (over < 1.5f * (length - last));
+        hit.length = lom_select(met, length, hit.length);
+        before = lom_select(met, last, before);
+        hit.found = hit.found | met;
+        going = going & ~met;
+        last = length;
+    }
+    if (!lom_any(hit.found))
+        return hit;
+    lom_float low = before, high = hit.length;
+    for (int i = 0; i < 6; i++) {
+        lom_float middle = 0.5f * (low + high);
+        struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, middle)));
+        lom_mask behind = at.w > lom_picture_w(u, picture, at.s, at.t);
+        high = lom_select(behind, middle, high);
+        low = lom_select(behind, low, middle);
+    }
+    struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, high)));
+    hit.length = high;
+    hit.s = lom_clamp(at.s, hit.s - u->reach, hit.s + u->reach);
+    hit.t = lom_clamp(at.t, hit.t - u->reach, hit.t + u->reach);
+    return hit;
+}
+
+/* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
+ * one. */
+LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms *u,
+                                               const struct lom_picture_uniform *picture,
+                                               const struct lom_surface_point *p, lom_float3 d)
+{
+    lom_float s = p->x * u->pixel[0], t = p->y * u->pixel[1];
+    lom_float further = lom_picture_w(u, picture, s, t) / p->w - 1.0f;
+    lom_float length = lom_clamp(further, (lom_float){ 0 }, lom_splat(100.0f)) * p->distance;
+    struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
+    return (struct lom_hit){ at.w > 0.0f, length, lom_clamp(at.s, s - u->reach, s + u->reach),
+                             lom_clamp(at.t, t - u->reach, t + u->reach) };
+}
+
+/* ---- below the surface ---- */
+
+/* What comes out of `length` metres of water along d, from `depth` metres below the surface on, when `beyond` went in:
+ * each metre takes a share a, and adds source a e^(-a slant depth there), the sunlight that reaches it. */
+LOM_INLINE lom_float lom_through_water(float a, float source, float slant, lom_float beyond, lom_float length,
+                                       lom_float depth, lom_float down)
+{
+    lom_float sun = lom_exp(-a * slant * depth), rate = 1.0f + slant * down;
+    lom_float exponent = a * length * rate;
+    lom_float inner = lom_select(lom_abs(exponent) > 1e-4f, -lom_expm1(-exponent) / rate, a * length);
+    lom_float bed = lom_max(depth + down * length, (lom_float){ 0 });
+    return beyond * lom_exp(-a * (length + slant * bed)) + source * sun * inner;
+}
+
+LOM_INLINE lom_float3 lom_cross_water(const struct lom_medium_uniform *m, lom_float3 beyond, lom_float length,
+                                      lom_float depth, lom_float down)
+{
+    lom_float d = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(1e6f));
+    return (lom_float3){ lom_through_water(m->absorption[0], m->source[0], m->slant, beyond.x, l, d, down),
+                         lom_through_water(m->absorption[1], m->source[1], m->slant, beyond.y, l, d, down),
+                         lom_through_water(m->absorption[2], m->source[2], m->slant, beyond.z, l, d, down) };
+}
+
+/* The radiance that arrives from along d, on the side of the surface that `above` names, from a picture and what is
+ * beyond it. */
+LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                   const struct lom_surface_point *p, lom_float3 d, bool above, bool followed,
+                                   lom_float variance)
+{
+    lom_float3 color = { { 0 }, { 0 }, { 0 } };
+    lom_float length = lom_splat(1e6f), share = { 0 };
+    if (picture->color != NULL) {
+        /* Under water nothing is seen beyond 10 absorption lengths of the clearest colour. */
+        float clear = lom_max(lom_splat(u->medium.absorption[2]), lom_splat(0.01f))[0];
+        lom_float range = above ? 1.0f * p->distance + 300.0f : lom_min(lom_splat(10.0f / clear), lom_splat(400.0f));
+        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d);
+        if (followed) {
+            struct lom_hit met = lom_follow_ray(u, picture, p, d, range);
+            hit.length = lom_select(met.found, met.length, hit.length);
+            hit.s = lom_select(met.found, met.s, hit.s);
+            hit.t = lom_select(met.found, met.t, hit.t);
+            hit.found = hit.found | met.found;
+        }
+        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, (lom_float){ 0 });
+        share = lom_select(hit.found, texel.w, (lom_float){ 0 });
+        color = lom_scale3((lom_float3){ texel.x, texel.y, texel.z },
+                           lom_select(hit.found, lom_splat(1.0f), (lom_float){ 0 }));
+        length = lom_select(share > 0.5f, hit.length, length);
+    }
+    if (!above)
+        return lom_cross_water(&u->medium, color, length, (lom_float){ 0 }, -d.y);
+    lom_float3 sky = lom_sky_radiance(&u->sky, d, variance);
+    return lom_add3(color, lom_scale3(sky, 1.0f - share));
+}
+
+/* ---- rough surfaces ---- */
+
+/* Facets lean towards an eye that looks along the surface: those that lean away hide behind others. Weighting slopes by
+ * the cosine to the eye moves their mean by v tan(zenith), v their variance in that direction; a standard deviation at
+ * most. */
+LOM_INLINE lom_float3 lom_visible_facet(const struct lom_surface_point *p)
+{
+    const struct lom_wave_slopes *w = &p->slopes;
+    lom_float flat = lom_sqrt(p->to_eye.x * p->to_eye.x + p->to_eye.z * p->to_eye.z);
+    lom_float inverse = 1.0f / lom_max(flat, lom_splat(1e-6f));
+    lom_float c = p->to_eye.x * inverse, s = p->to_eye.z * inverse;
+    lom_float variance = lom_max(w->vxx * c * c + 2.0f * w->vxz * c * s + w->vzz * s * s, (lom_float){ 0 });
+    lom_float tangent = flat / lom_max(lom_abs(p->to_eye.y), lom_splat(1e-3f));
+    lom_float lean = lom_min(variance * tangent, lom_sqrt(variance));
+    lom_float up = 1.0f / p->normal.y;
+    return lom_normalize3((lom_float3){ p->normal.x * up + lean * c, lom_splat(1.0f), p->normal.z * up + lean * s });
+}
+
+/* Lambda of Smith's shadowing for normal slopes (Walter et al. 2007, equation 24, their rational fit). */
+LOM_INLINE lom_float lom_smith_lambda(lom_float cosine, lom_float variance)
+{
+    lom_float sine = lom_sqrt(lom_max(1.0f - cosine * cosine, (lom_float){ 0 }));
+    lom_float a = lom_max(cosine, lom_splat(1e-3f)) / lom_max(sine * lom_sqrt(2.0f * variance), lom_splat(1e-6f));
+    lom_float fit = (1.0f - 1.259f * a + 0.396f * a * a) / (3.535f * a + 2.181f * a * a);
+    return lom_select(a < 1.6f, fit, (lom_float){ 0 });
+}
+
+LOM_INLINE lom_float lom_surface_fresnel(const struct lom_surface_uniforms *u, lom_float cosine)
+{
+    lom_float c = lom_saturate(cosine);
+    if (u->fresnel == LOM_FRESNEL_DOT)
+        return lom_fresnel_dot(c);
+    if (u->fresnel == LOM_FRESNEL_SCHLICK && u->eta < 1)
+        return lom_fresnel_schlick(c, u->eta);
+    return lom_fresnel_exact(c, lom_splat(u->eta));
+}
+
+/* The sun in the facets: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the sun to the eye
+ * (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour. */
+LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    lom_float3 sun = lom_uniform3(u->light.to_light), none = { { 0 }, { 0 }, { 0 } };
+    if (!(u->light.to_light[1] > 0) || u->side < 0 || !(u->glitter > 0))
+        return none;
+    lom_float3 h = lom_normalize3(lom_add3(p->to_eye, sun));
+    lom_float hy = lom_max(h.y, lom_splat(0.02f)), up = 1.0f / p->normal.y;
+    lom_float dx = h.x / hy - p->normal.x * up, dz = h.z / hy - p->normal.z * up;
+    lom_float disc = lom_splat(5e-6f); /* the sun is no point: half its angle, squared */
+    lom_float vxx = p->slopes.vxx + disc, vzz = p->slopes.vzz + disc, vxz = p->slopes.vxz;
+    lom_float determinant = lom_max(vxx * vzz - vxz * vxz, lom_splat(2e-11f));
+    lom_float square = (vzz * dx * dx - 2.0f * vxz * dx * dz + vxx * dz * dz) / determinant;
+    lom_mask bright = square < 40.0f;
+    if (!lom_any(bright))
+        return none;
+    lom_float density = lom_exp(-0.5f * square) / (6.2831855f * lom_sqrt(determinant));
+    lom_float variance = 0.5f * (vxx + vzz);
+    lom_float seen = lom_max(lom_dot3(p->normal, p->to_eye), lom_splat(0.02f));
+    lom_float lit = lom_max(lom_dot3(p->normal, sun), lom_splat(1e-3f));
+    lom_float shadow = 1.0f / (1.0f + lom_smith_lambda(seen, variance) + lom_smith_lambda(lit, variance));
+    lom_float f = lom_surface_fresnel(u, lom_dot3(h, p->to_eye)), square_y = hy * hy;
+    lom_float radiance = 3.1415927f * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
+    radiance = lom_select(bright, lom_min(radiance, lom_splat(1e4f)), (lom_float){ 0 });
+    return lom_scale3(lom_uniform3(u->light.color), radiance);
+}
+
+/* ---- foam ---- */
+
+/* How much of the point foam covers: what broke, and the shore, through a pattern. */
+LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
+                                    const struct lom_footprint *f)
+{
+    const struct lom_foam_uniform *foam = &u->foam;
+    lom_float cover = p->slopes.foam * foam->amount;
+    if (foam->shore_depth > 0 && u->behind.depth != NULL && u->side > 0) {
+        lom_float further = lom_picture_w(u, &u->behind, p->x * u->pixel[0], p->y * u->pixel[1]) / p->w - 1.0f;
+        lom_float depth = lom_max(further, (lom_float){ 0 }) * (u->eye[1] - p->world.y);
+        lom_float band = lom_saturate(1.0f - lom_abs(depth) / foam->shore_depth);
+        lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - 6.2831855f * foam->move);
+        cover = cover + band * band * (0.55f + 0.45f * lines);
+    }
+    if (!lom_any(cover > 0.0f))
+        return (lom_float){ 0 };
+    lom_float s = (p->world.x) * foam->inverse_tile, t = p->world.z * foam->inverse_tile;
+    lom_float lod = lom_wave_lod(foam->pattern, f, foam->inverse_tile);
+    lom_float grain = lom_sample(foam->pattern, s, t, lod).x;
+    return lom_smoothstep(lom_splat(0.0f), lom_splat(0.45f), lom_min(cover, lom_splat(1.2f)) - 1.0f + grain);
+}
+
+LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    lom_float lambert = lom_lambert(&u->light, p->normal);
+    return lom_scale3(lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert)),
+                      lom_splat(0.8f));
+}
+
+/* ---- all of it ---- */
+
+/* Fills what follows from the point and its slopes. */
+LOM_INLINE void lom_finish_point(const struct lom_surface_uniforms *u, struct lom_surface_point *p)
+{
+    lom_float3 away = lom_sub3(lom_uniform3(u->eye), p->world);
+    p->distance = lom_sqrt(lom_dot3(away, away));
+    p->to_eye = lom_scale3(away, 1.0f / lom_max(p->distance, lom_splat(1e-6f)));
+    p->slopes.vxx = p->slopes.vxx + 0.5f * u->roughness;
+    p->slopes.vzz = p->slopes.vzz + 0.5f * u->roughness;
+    p->normal = lom_wave_normal(&p->slopes);
+    p->facet = u->side > 0 ? lom_visible_facet(p) : p->normal;
+}
+
+LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
+                                           const struct lom_footprint *f)
+{
+    bool above = u->side > 0;
+    lom_float variance = p->slopes.vxx + p->slopes.vzz;
+    lom_float3 n = lom_scale3(p->facet, lom_splat(u->side)), d = lom_scale3(p->to_eye, lom_splat(-1.0f));
+    lom_float cosine = lom_max(lom_dot3(n, p->to_eye), lom_splat(0.01f));
+    lom_float share = lom_surface_fresnel(u, cosine);
+
+    lom_float3 r = lom_reflect3(d, n);
+    r.y = u->side * lom_max(lom_abs(r.y), lom_splat(1e-3f));
+    lom_float3 reflected = lom_arriving(u, &u->mirrored, p, lom_normalize3(r), above, u->marched, variance);
+
+    lom_float3 bent = d;
+    if (u->bent || !above) {
+        lom_mask passes = lom_refract3(d, n, lom_splat(u->eta), &bent);
+        share = lom_select(passes, share, lom_splat(1.0f));
+    }
+    lom_float3 transmitted = lom_arriving(u, &u->behind, p, bent, !above, u->bent, 0.25f * variance);
+
+    lom_float3 color = lom_add3(lom_mix3(transmitted, reflected, share), lom_glitter(u, p));
+    if (u->foam.pattern == NULL)
+        return color;
+    return lom_mix3(color, lom_foam_radiance(u, p), lom_foam_cover(u, p, f));
+}
+
+#endif

@@ -1,0 +1,164 @@
+/* The mesh of a displaced surface. In: the whole frame's camera, the bounds of the waves, a quad. Out: radii,
+ * directions and triangles. A function of the whole frame alone, never of a crop.
+ *
+ * With h the eye's height and d the distance to a ring, vertices a cell apart on the screen are cell d apart on the
+ * ring. Between rings they are as far, times 1 + (d / flat)^2: at the distance `flat` waves are a pixel high, and
+ * beyond it only their shading shows. */
+#include "water/surface.h"
+
+enum { MAX_RINGS = 4096, MAX_COLUMNS = 8192, MAX_VERTICES = 3000000 };
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* The directions of the view's corners in the plane, as angles about the middle one; whether the view reaches straight
+ * up or down, where every direction is seen. */
+struct sector {
+    bool whole;
+    double middle, half;
+    double forward[2];
+};
+
+static struct sector find_sector(const struct lom_polar_mesh_desc *desc)
+{
+    static const double corners[4][2] = { { -1, -1 }, { 1, -1 }, { -1, 1 }, { 1, 1 } };
+    const double(*v)[4] = desc->view.m;
+    struct sector s = { .forward = { -v[2][0], -v[2][2] } };
+    double flat = lom_double_sqrt(s.forward[0] * s.forward[0] + s.forward[1] * s.forward[1]);
+    s.middle = lom_double_atan2(s.forward[1], s.forward[0]);
+    s.whole = flat < 0.2;
+    for (int i = 0; i < 4 && !s.whole; i++) {
+        double ray[3] = { corners[i][0] / desc->projection.m[0][0], corners[i][1] / desc->projection.m[1][1], -1 };
+        double x = v[0][0] * ray[0] + v[1][0] * ray[1] + v[2][0] * ray[2];
+        double z = v[0][2] * ray[0] + v[1][2] * ray[1] + v[2][2] * ray[2];
+        double along = (x * s.forward[0] + z * s.forward[1]) / flat;
+        double across = (z * s.forward[0] - x * s.forward[1]) / flat;
+        double angle = lom_double_atan2(across, along);
+        s.half = larger(s.half, angle < 0 ? -angle : angle);
+    }
+    s.half += 0.02;
+    s.whole |= s.half > 1.4;
+    s.forward[0] /= larger(flat, 1e-9);
+    s.forward[1] /= larger(flat, 1e-9);
+    return s;
+}
+
+struct spacing {
+    double cell, height, flat, back, far;
+};
+
+static double step_at(const struct spacing *s, double radius)
+{
+    double beyond = radius > s->back ? radius - s->back : 0;
+    double d = lom_double_sqrt(beyond * beyond + s->height * s->height);
+    double share = d / s->flat;
+    return s->cell * d * (1 + share * share);
+}
+
+static int count_rings(const struct spacing *s)
+{
+    double radius = 0;
+    int rings = 1;
+    while (radius < s->far && rings <= MAX_RINGS) {
+        radius += step_at(s, radius);
+        rings++;
+    }
+    return rings;
+}
+
+/* The distance from the apex to the far corner of the quad. */
+static double far_corner(const double apex[2], const double quad[4])
+{
+    double x = larger(quad[2] - apex[0], apex[0] - quad[0]), z = larger(quad[3] - apex[1], apex[1] - quad[1]);
+    return lom_double_sqrt(x * x + z * z);
+}
+
+static bool index_mesh(struct lom_polar_mesh *mesh, lom_error *error)
+{
+    size_t needed = (size_t)(mesh->rings - 1) * (size_t)(mesh->columns - 1) * 6, at = 0;
+    if (mesh->indexed_rings == mesh->rings && mesh->indexed_columns == mesh->columns)
+        return true;
+    if (needed > mesh->index_capacity) {
+        lom_release(mesh->indices);
+        mesh->index_capacity = 0;
+        mesh->indices = lom_allocate(needed, sizeof *mesh->indices, error);
+        if (mesh->indices == NULL)
+            return false;
+        mesh->index_capacity = needed;
+    }
+    for (int r = 0; r + 1 < mesh->rings; r++)
+        for (int c = 0; c + 1 < mesh->columns; c++) {
+            uint32_t a = (uint32_t)(r * mesh->columns + c), b = a + 1, d = a + (uint32_t)mesh->columns, e = d + 1;
+            const uint32_t quad[6] = { a, d, b, b, d, e };
+            for (int k = 0; k < 6; k++)
+                mesh->indices[at++] = quad[k];
+        }
+    mesh->index_count = needed;
+    mesh->indexed_rings = mesh->rings;
+    mesh->indexed_columns = mesh->columns;
+    return true;
+}
+
+static bool reserve(struct lom_polar_mesh *mesh, lom_error *error)
+{
+    size_t needed = 2 * ((size_t)mesh->rings + (size_t)mesh->columns);
+    if (needed > mesh->memory_capacity) {
+        lom_release(mesh->memory);
+        mesh->memory_capacity = 0;
+        mesh->memory = lom_allocate(needed, sizeof *mesh->memory, error);
+        if (mesh->memory == NULL)
+            return false;
+        mesh->memory_capacity = needed;
+    }
+    mesh->radius = mesh->memory;
+    mesh->spacing = mesh->radius + mesh->rings;
+    mesh->cosine = mesh->spacing + mesh->rings;
+    mesh->sine = mesh->cosine + mesh->columns;
+    return true;
+}
+
+bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error)
+{
+    struct sector s = find_sector(desc);
+    double wave = larger(desc->highest, -desc->lowest), height = desc->eye.y - desc->level;
+    struct spacing space = { .cell = desc->cell * desc->pixel_angle,
+                             .height = larger(larger(height < 0 ? -height : height, 0.3 * wave), 0.2),
+                             .flat = larger(wave, 1e-3) / desc->pixel_angle };
+    /* Behind the eye by so much, the sector holds everything that waves can move into the view. */
+    space.back = s.whole ? 0 : (desc->reach + wave + 0.5) / lom_double_sin(s.half);
+    mesh->apex[0] = desc->eye.x - space.back * s.forward[0];
+    mesh->apex[1] = desc->eye.z - space.back * s.forward[1];
+    space.far = far_corner(mesh->apex, desc->quad);
+    double sector = s.whole ? 6.283185307179586 : 2 * s.half;
+    for (;; space.cell *= 1.25) {
+        mesh->rings = count_rings(&space);
+        mesh->columns = 2 + (int)(sector / space.cell < MAX_COLUMNS ? sector / space.cell : MAX_COLUMNS);
+        if (mesh->rings <= MAX_RINGS && mesh->columns <= MAX_COLUMNS && mesh->rings * mesh->columns <= MAX_VERTICES)
+            break;
+    }
+    if (!reserve(mesh, error) || !index_mesh(mesh, error))
+        return false;
+    double radius = 0;
+    for (int r = 0; r < mesh->rings; r++) {
+        double step = step_at(&space, radius);
+        mesh->radius[r] = (float)radius;
+        mesh->spacing[r] = (float)step;
+        radius += step;
+    }
+    for (int c = 0; c < mesh->columns; c++) {
+        double angle = s.middle + sector * ((double)c / (mesh->columns - 1) - 0.5);
+        bool seam = s.whole && c == mesh->columns - 1; /* the last column of a full circle is the first */
+        mesh->cosine[c] = seam ? mesh->cosine[0] : (float)lom_double_cos(angle);
+        mesh->sine[c] = seam ? mesh->sine[0] : (float)lom_double_sin(angle);
+    }
+    return true;
+}
+
+void lom_free_polar_mesh(struct lom_polar_mesh *mesh)
+{
+    lom_release(mesh->memory);
+    lom_release(mesh->indices);
+    *mesh = (struct lom_polar_mesh){ .rings = 0 };
+}

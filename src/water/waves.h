@@ -1,0 +1,164 @@
+/* The waves of a surface, over lanes. In: a rest position (x, z) and the size of what is sampled there; out: where the
+ * surface is above it, how steep, and how rough below that size. A surface is the sum of trochoids (Gerstner) and of
+ * the cascades of a sea; either may be absent.
+ *
+ * A trochoid of wave vector k, amplitude a and phase f, with t = k.(x, z) + f: height a cos t; horizontal displacement
+ * -b k/|k| sin t with b <= a, which narrows the crests (Gerstner 1809; Fournier and Reeves 1986). Signs and names of
+ * derivatives are those of lom/sea.h.
+ *
+ * Invariant: what a filter takes from the slopes it adds to their covariance (Olano and Baker 2010, LEAN mapping: the
+ * mean square less the squared mean), so that a far surface is as rough as a near one. */
+#ifndef LOM_WATER_WAVES_H
+#define LOM_WATER_WAVES_H
+
+#include "pipeline/uniforms.h"
+
+#include <lom/water.h>
+
+enum { LOM_SURFACE_CASCADES = 4 };
+
+struct lom_trochoid_uniform {
+    float kx, kz;                        /* rad/m */
+    float phase;                         /* radians at this time */
+    float amplitude, across_x, across_z; /* metres: a, and b k/|k| */
+};
+
+struct lom_cascade_uniform {
+    const lom_texture *displacement; /* dx, h, dz, xz */
+    const lom_texture *derivatives;  /* sx, sz, xx, zz */
+    const lom_texture *moments;      /* sx^2, sz^2, sx sz, foam */
+    float inverse_length, shift;     /* s = x inverse_length + shift */
+};
+
+struct lom_waves_uniform {
+    int trochoid_count, cascade_count;
+    struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
+    struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
+    float level;           /* y at rest */
+    float lowest, highest; /* bounds of h, metres from the level */
+    float reach;           /* bound of |(dx, dz)| */
+};
+
+/* The trochoids of the water at a time in seconds, exact phases for |time| up to 1e9; and the bounds of their sum. The
+ * horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves keep the sum of b k at most 1, which is where the
+ * first loop would close: the Jacobian of the displacement never falls below 0. */
+void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_params *water, double time);
+/* The height over the point (x, z) itself, in double: the rest position is found by iteration. */
+double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z);
+
+struct lom_wave_shift {
+    lom_float dx, h, dz;
+};
+
+/* Two vectors of the rest plane: from a sample to its neighbours. */
+struct lom_footprint {
+    lom_float ax, az, bx, bz;
+};
+
+struct lom_wave_slopes {
+    lom_float sx, sz, xx, zz, xz;
+    lom_float vxx, vzz, vxz; /* covariance of the slopes that are too small to be seen */
+    lom_float foam;          /* 0 none .. 1 */
+};
+
+/* How much of a wave is left when its phase changes by so much from sample to sample: all up to a radian, nothing from
+ * pi on, where it could not be told from another. */
+LOM_INLINE lom_float lom_wave_weight(lom_float change)
+{
+    return 1.0f - lom_smoothstep(lom_splat(1.0f), lom_splat(3.1415927f), change);
+}
+
+LOM_INLINE lom_float lom_wave_lod(const lom_texture *texture, const struct lom_footprint *f, float scale)
+{
+    return lom_lod_of(texture, f->ax * scale, f->az * scale, f->bx * scale, f->bz * scale);
+}
+
+LOM_INLINE lom_float lom_phase_change(const struct lom_trochoid_uniform *t, const struct lom_footprint *f)
+{
+    return lom_max(lom_abs(t->kx * f->ax + t->kz * f->az), lom_abs(t->kx * f->bx + t->kz * f->bz));
+}
+
+LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                              const struct lom_footprint *f)
+{
+    struct lom_wave_shift p = { { 0 }, { 0 }, { 0 } };
+    for (int i = 0; i < waves->trochoid_count; i++) {
+        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
+        lom_float weight = lom_wave_weight(lom_phase_change(t, f));
+        if (!lom_any(weight > 0.0f))
+            continue;
+        lom_float angle = t->kx * x + t->kz * z + t->phase, s = lom_sin(angle) * weight;
+        p.h = p.h + t->amplitude * (lom_cos(angle) * weight);
+        p.dx = p.dx - t->across_x * s;
+        p.dz = p.dz - t->across_z * s;
+    }
+    for (int i = 0; i < waves->cascade_count; i++) {
+        const struct lom_cascade_uniform *c = &waves->cascade[i];
+        lom_float4 d = lom_sample(c->displacement, x * c->inverse_length + c->shift, z * c->inverse_length + c->shift,
+                                  lom_wave_lod(c->displacement, f, c->inverse_length));
+        p.dx = p.dx + d.x;
+        p.h = p.h + d.y;
+        p.dz = p.dz + d.z;
+    }
+    return p;
+}
+
+LOM_INLINE void lom_add_trochoid_slopes(const struct lom_trochoid_uniform *t, lom_float x, lom_float z,
+                                        const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float weight = lom_wave_weight(lom_phase_change(t, f));
+    float kxa = t->kx * t->amplitude, kza = t->kz * t->amplitude;
+    lom_float lost = 0.5f * (1.0f - weight * weight);
+    w->vxx = w->vxx + kxa * kxa * lost;
+    w->vzz = w->vzz + kza * kza * lost;
+    w->vxz = w->vxz + kxa * kza * lost;
+    if (!lom_any(weight > 0.0f))
+        return;
+    lom_float angle = t->kx * x + t->kz * z + t->phase;
+    lom_float s = lom_sin(angle) * weight, c = lom_cos(angle) * weight;
+    w->sx = w->sx - kxa * s;
+    w->sz = w->sz - kza * s;
+    w->xx = w->xx - t->across_x * t->kx * c;
+    w->zz = w->zz - t->across_z * t->kz * c;
+    w->xz = w->xz - t->across_x * t->kz * c;
+}
+
+LOM_INLINE void lom_add_cascade_slopes(const struct lom_cascade_uniform *c, lom_float x, lom_float z,
+                                       const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float s = x * c->inverse_length + c->shift, t = z * c->inverse_length + c->shift;
+    lom_float lod = lom_wave_lod(c->derivatives, f, c->inverse_length);
+    lom_float4 d = lom_sample(c->derivatives, s, t, lod), m = lom_sample(c->moments, s, t, lod);
+    w->sx = w->sx + d.x;
+    w->sz = w->sz + d.y;
+    w->xx = w->xx + d.z;
+    w->zz = w->zz + d.w;
+    w->xz = w->xz + lom_sample(c->displacement, s, t, lod).w;
+    w->vxx = w->vxx + lom_max(m.x - d.x * d.x, (lom_float){ 0 });
+    w->vzz = w->vzz + lom_max(m.y - d.y * d.y, (lom_float){ 0 });
+    w->vxz = w->vxz + (m.z - d.x * d.y);
+    w->foam = w->foam + m.w;
+}
+
+LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                                  const struct lom_footprint *f)
+{
+    struct lom_wave_slopes w;
+    memset(&w, 0, sizeof w);
+    for (int i = 0; i < waves->trochoid_count; i++)
+        lom_add_trochoid_slopes(&waves->trochoid[i], x, z, f, &w);
+    for (int i = 0; i < waves->cascade_count; i++)
+        lom_add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
+    return w;
+}
+
+/* The cross product of the tangents (1 + xx, sx, xz) and (xz, sz, 1 + zz), upwards; straight up where it vanishes. */
+LOM_INLINE lom_float3 lom_wave_normal(const struct lom_wave_slopes *w)
+{
+    lom_float a = 1.0f + w->xx, b = 1.0f + w->zz;
+    lom_float3 n = { w->xz * w->sz - w->sx * b, a * b - w->xz * w->xz, w->xz * w->sx - w->sz * a };
+    n.y = lom_max(n.y, lom_splat(0.02f)); /* a fold shows its upper side */
+    return lom_normalize3(n);
+}
+
+#endif

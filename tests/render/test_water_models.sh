@@ -1,0 +1,65 @@
+#!/bin/sh
+# Proves of each model of water, on a small pool among hills: one hash for every lane width and thread count; a
+# crop is the cut-out of the whole; a frame alone is the frame of a run; the scissor of the pictures that it looks up
+# changes no byte; and no pass runs that the picture cannot show. The models differ, from each other and from below.
+. "$(dirname "$0")/render.sh"
+scene=$folder/pool.toml
+awk 'BEGIN { print "P2 33 33 255"; for (j = 0; j < 33; j++) for (i = 0; i < 33; i++)
+    print int(255 * ((i - 16) ^ 2 + (j - 16) ^ 2 + 40 * (i * j % 5)) / 700) }' >"$folder/height.pgm"
+cat >"$scene" <<END
+[camera]
+position = [-3, 0.9, 14]
+yaw = 8
+pitch = -7
+[light]
+azimuth = 20
+elevation = 20
+[sky]
+color = [0.4, 0.6, 0.9]
+[terrain]
+height_map = "height.pgm"
+size = [80, 80]
+height = 14
+base = -3
+[water]
+clip_offset = 0.05
+waves.kind = "gerstner"
+waves.height = 0.3
+foam.amount = 1
+foam.shore_depth = 1
+[[entity]]
+mesh = "$PWD/assets/entities/boulder.obj"
+position = [-2, -0.2, 8]
+END
+draw() { "$lom" render "$scene" --size 160x90 --set quality.water=$model "$@"; }
+plan() { "$lom" plan "$scene" --size 160x90 --set quality.water=$model "$@"; }
+
+seen=
+for model in tinted planar normal_map displaced marched; do
+    one_hash one_hash_for_lanes_and_threads_$model
+    crops crop_is_the_cut_out_$model
+    case " $seen " in *" $whole "*) why="$model draws what another model draws" ;; *) why= ;; esac
+    verdict models_differ_$model "$why"
+    seen="$seen $whole"
+    [ "$(hash --set quality.scissor=false)" = "$whole" ] && why= || why='the scissor changes the picture'
+    verdict the_scissor_changes_no_byte_$model "$why"
+    why=$(plan --set camera.pitch=70 | grep -E '^\*  (reflection|refraction)')
+    verdict no_water_in_view_costs_no_pass_$model "$why"
+done
+
+for model in normal_map displaced marched; do
+    frame_alone a_frame_alone_is_the_frame_of_a_run_$model
+    below="--set camera.position=[-3,-1,14]"
+    [ "$(hash $below --lanes 4 --threads 2)" = "$(hash $below --lanes 16)" ] && why= || why='lanes change the picture'
+    case $(plan $below) in *'*  underwater'*) ;; *) why='no water between the eye and the scene' ;; esac
+    verdict seen_from_below_$model "$why"
+done
+
+model=displaced
+sed '/terrain/,/^base/d; /entity/,$d' "$scene" >"$folder/open.toml"
+case $("$lom" plan "$folder/open.toml" --set quality.water=displaced) in
+    *'*  reflection'* | *'*  refraction'*) why='a picture is drawn of nothing' ;;
+    *'*  water'*) why= ;;
+    *) why='no water is drawn' ;;
+esac
+verdict open_water_needs_no_picture_of_the_scene "$why"
