@@ -49,29 +49,41 @@ LOM_INLINE lom_float lom_volume_axis(lom_float position, int size, lom_int *cell
     return along - lom_to_float(*cell);
 }
 
-LOM_INLINE lom_volume_place lom_find_in_volume(const lom_volume *volume, lom_float3 position)
+LOM_INLINE lom_volume_place lom_find_in_cells(int width, int height, int depth, lom_float3 position)
 {
     lom_volume_place place;
     lom_int x, y, z;
-    place.x = lom_volume_axis(position.x, volume->width, &x);
-    place.y = lom_volume_axis(position.y, volume->height, &y);
-    place.z = lom_volume_axis(position.z, volume->depth, &z);
-    place.index = (z * (volume->height + 1) + y) * (volume->width + 1) + x;
+    place.x = lom_volume_axis(position.x, width, &x);
+    place.y = lom_volume_axis(position.y, height, &y);
+    place.z = lom_volume_axis(position.z, depth, &z);
+    place.index = (z * (height + 1) + y) * (width + 1) + x;
     return place;
 }
 
-/* Density in [0, 1]: along z, then y, then x, in units of 1/255, scaled at the end. Bytes are masked where they stand:
- * a factor of a power of two is exact, so it may be taken out after the first interpolation. */
-LOM_INLINE lom_float lom_sample_density(const lom_volume *volume, lom_volume_place place)
+LOM_INLINE lom_volume_place lom_find_in_volume(const lom_volume *volume, lom_float3 position)
 {
-    lom_int low, high;
-    lom_gather_pairs(volume->density, place.index + place.index, &low, &high);
+    return lom_find_in_cells(volume->width, volume->height, volume->depth, position);
+}
+
+/* The eight corners of a cell, a byte each in two words: along z, then y, then x, in units of 1/255, scaled at the end.
+ * Bytes are masked where they stand: a factor of a power of two is exact, so it may be taken out after the first
+ * interpolation. */
+LOM_INLINE lom_float lom_mix_corners(lom_int low, lom_int high, lom_volume_place place)
+{
     lom_float v00 = lom_mix(lom_to_float(low & 0xff), lom_to_float(high & 0xff), place.z);
     lom_float v10 = lom_mix(lom_to_float(low & 0xff00), lom_to_float(high & 0xff00), place.z) * 0x1p-8f;
     lom_float v01 = lom_mix(lom_to_float(low & 0xff0000), lom_to_float(high & 0xff0000), place.z) * 0x1p-16f;
     lom_float v11 =
         lom_mix(lom_to_float((lom_int)((lom_uint)low >> 24)), lom_to_float((lom_int)((lom_uint)high >> 24)), place.z);
     return lom_mix(lom_mix(v00, v01, place.y), lom_mix(v10, v11, place.y), place.x) * (1 / 255.0f);
+}
+
+/* Density in [0, 1]. */
+LOM_INLINE lom_float lom_sample_density(const lom_volume *volume, lom_volume_place place)
+{
+    lom_int low, high;
+    lom_gather_pairs(volume->density, place.index + place.index, &low, &high);
+    return lom_mix_corners(low, high, place);
 }
 
 /* One channel of the eight corners, c[4 z + 2 y + x], by mask; in units of the mask's lowest bit. */
@@ -122,6 +134,180 @@ typedef struct lom_march_count {
  * v c (1 - shade d), alpha += v (clouds.md 4's general form). count may be NULL and is added to. */
 void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
                                 lom_march_count *count);
+
+/* ---- media: densities of 16 bits, marched by optical depth ---- */
+
+/* A density, stored for marching like a volume (index as there): 2 words a cell, word y holding the corners (0, y) and
+ * (1, y) of the cell's lower z, 16 bits each. Made by lom_create_medium, read only. */
+typedef struct lom_medium {
+    int width, height, depth;
+    int32_t *density;
+    uint8_t *distance; /* as in lom_volume */
+    float bend;        /* largest second difference along an axis and twice the largest mixed one, in densities */
+} lom_medium;
+
+/* From one channel of 8 or 16 bits or floats (clamped to [0, 1]). NULL on failure; freed with lom_free_medium. */
+lom_medium *lom_create_medium(const lom_image *density, lom_error *error);
+void lom_free_medium(lom_medium *medium);
+
+/* Density in [0, 1]. */
+LOM_INLINE lom_float lom_sample_medium(const lom_medium *medium, lom_volume_place place)
+{
+    int slice = (medium->width + 1) * (medium->height + 1);
+    lom_int near0, near1, far0, far1;
+    lom_gather_pairs(medium->density, place.index + place.index, &near0, &near1);
+    lom_gather_pairs(medium->density + 2 * slice, place.index + place.index, &far0, &far1);
+    lom_float v00 = lom_mix(lom_to_float(near0 & 0xffff), lom_to_float(far0 & 0xffff), place.z);
+    lom_float v01 = lom_mix(lom_to_float(near1 & 0xffff), lom_to_float(far1 & 0xffff), place.z);
+    lom_float v10 =
+        lom_mix(lom_to_float((lom_int)((lom_uint)near0 >> 16)), lom_to_float((lom_int)((lom_uint)far0 >> 16)), place.z);
+    lom_float v11 =
+        lom_mix(lom_to_float((lom_int)((lom_uint)near1 >> 16)), lom_to_float((lom_int)((lom_uint)far1 >> 16)), place.z);
+    return lom_mix(lom_mix(v00, v01, place.y), lom_mix(v10, v11, place.y), place.x) * (1 / 65535.0f);
+}
+
+/* The step, in metres, at which the midpoint rule's error of the integral of the density along any line through the
+ * medium is at most `error` times the line's length: with f the density along the line, that error is at most step^2 /
+ * 8 times the total variation of f' (the composite midpoint rule). In a cell f'' is bounded by twice the largest mixed
+ * second difference, and where the line crosses from cell to cell f' jumps by at most the second difference there: so
+ * the variation is at most bend / voxel^2 a metre. size: of the box, metres. */
+float lom_medium_step(const lom_medium *medium, const float size[3], float error);
+
+/* Tiling noise of 2^n voxels a side, the eight corners of each cell in 8 bytes. */
+typedef struct lom_detail {
+    int size;
+    int32_t *corners;
+    float mean; /* of all voxels, in [0, 1] */
+} lom_detail;
+
+/* From an R8 cube whose side is a power of two, at most 256. NULL on failure; freed with lom_free_detail. */
+lom_detail *lom_create_detail(const lom_image *noise, lom_error *error);
+void lom_free_detail(lom_detail *detail);
+
+/* The noise at a place in repetitions of the tile, within +-2^20 of 0. */
+LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
+{
+    lom_float size = lom_splat((float)detail->size);
+    int mask = detail->size - 1;
+    lom_float3 p = { at.x * size, at.y * size, at.z * size };
+    lom_float3 below = { lom_floor(p.x), lom_floor(p.y), lom_floor(p.z) };
+    lom_volume_place place = { .x = p.x - below.x, .y = p.y - below.y, .z = p.z - below.z };
+    place.index = ((lom_to_int(below.z) & mask) * detail->size + (lom_to_int(below.y) & mask)) * detail->size +
+                  (lom_to_int(below.x) & mask);
+    lom_int low, high;
+    lom_gather_pairs(detail->corners, place.index + place.index, &low, &high);
+    return lom_mix_corners(low, high, place);
+}
+
+/* ---- light: how much of the sun, the sky and the ground each place sees ---- */
+
+/* A grid over the same box as a medium, of its own resolution. A word a voxel (the last of each axis repeated): in the
+ * low 16 bits exp(-optical depth towards the sun / 16), then 8 bits of the sky and 8 of the ground. */
+typedef struct lom_light_grid {
+    int width, height, depth;
+    uint16_t *density; /* plain, x first: what the light is swept through */
+    int32_t *light;
+} lom_light_grid;
+
+/* Averages a density (as lom_create_medium takes) into a grid of scale times its voxels along each axis (0 < scale <=
+ * 1); eroded[i] replaces the density i / 255 (what marching will make of it on average). The sky and the ground are
+ * those of lom_sweep_sky with no extinction: 1. NULL on failure. */
+lom_light_grid *lom_create_light_grid(const lom_image *density, double scale, const float eroded[256],
+                                      lom_error *error);
+void lom_free_light_grid(lom_light_grid *grid);
+
+typedef struct lom_light_desc {
+    float size[3];     /* of the box, metres */
+    float extinction;  /* 1/m at density 1 */
+    float to_light[3]; /* unit vector in the box's axes */
+    float forward; /* Harris's multiple forward scattering: share of a voxel's optical depth that stays in the beam */
+    /* optical depth between where a ray towards the light leaves the box, in parts of the box, and the light; NULL: 0
+     */
+    float (*beyond)(void *context, const float exit[3]);
+    void *context;
+} lom_light_desc;
+
+/* Fills the sun's share, in time proportional to the voxels: the volume is cut into slices across the axis the light is
+ * steepest to; rays are sheared so that each passes every slice at the same fraction of a voxel, and optical depth is
+ * carried along them from slice to slice. False when memory runs out. */
+bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error);
+/* Fills the shares of sky and ground: with t the optical depth straight up or down, what diffuse light a layer of
+ * droplets lets through that absorb nothing, 1 / (1 + 3/4 (1 - g) t) with g = 0.85 (two-stream, Bohren 1987). */
+void lom_sweep_sky(lom_light_grid *grid, const float size[3], float extinction);
+
+typedef struct lom_light_sample {
+    lom_float sun; /* exp(-optical depth / 16) */
+    lom_float sky, ground;
+} lom_light_sample;
+
+LOM_INLINE lom_light_sample lom_sample_light(const lom_light_grid *grid, lom_float3 position)
+{
+    lom_volume_place place = lom_find_in_cells(grid->width, grid->height, grid->depth, position);
+    lom_int corner[8];
+    int pitch = grid->width + 1, slice = pitch * (grid->height + 1);
+    for (int i = 0; i < 8; i += 2)
+        lom_gather_pairs(grid->light + (i >> 1 & 1) * pitch + (i >> 2) * slice, place.index, &corner[i],
+                         &corner[i + 1]);
+    lom_light_sample sample;
+    sample.sun = lom_volume_channel(corner, 0xffff, place) * (1 / 65535.0f);
+    sample.sky = lom_volume_channel(corner, 0xff0000, place) * (0x1p-16f / 255.0f);
+    for (int i = 0; i < 8; i++)
+        corner[i] = (lom_int)((lom_uint)corner[i] >> 24);
+    sample.ground = lom_volume_channel(corner, 0xff, place) * (1 / 255.0f);
+    return sample;
+}
+
+/* ---- marching a medium ---- */
+
+enum { LOM_MAX_OCTAVES = 8 };
+
+typedef struct lom_medium_desc {
+    const lom_medium *medium;
+    const lom_light_grid *light;   /* NULL: all places see all of the sun, the sky and the ground */
+    const lom_detail *detail;      /* NULL: none */
+    float detail_strength;         /* 0..1 */
+    float detail_scale[3];         /* repetitions along each axis of the box */
+    float detail_near, detail_far; /* metres: the noise fades into its mean between */
+    float extinction;              /* 1/m at density 1 */
+    float step;                    /* metres, above 0 */
+    float stop;                    /* a ray ends when its transmittance is below this */
+    int most_steps;                /* a ray longer than this many steps takes longer ones; 1..65536 */
+    int octaves;                   /* 1..LOM_MAX_OCTAVES */
+    float weight[LOM_MAX_OCTAVES];
+    bool walk; /* evaluate every step; skipping empty space gives the same bytes */
+} lom_medium_desc;
+
+typedef struct lom_medium_rays {
+    lom_float3 start, along;          /* in parts of the box, at distance 0 and a metre */
+    lom_float enter, leave;           /* metres, enter >= 0 */
+    lom_float shift;                  /* of the first step's end, in steps, ]0, 1] */
+    lom_float phase[LOM_MAX_OCTAVES]; /* of each octave */
+    lom_mask active;
+} lom_medium_rays;
+
+typedef struct lom_medium_result {
+    lom_float sun, sky, ground; /* times albedo and each light's radiance: what comes towards the eye */
+    lom_float transmittance;
+    lom_float distance; /* metres to what is seen, on average by its share; 0 where nothing is */
+} lom_medium_result;
+
+/* Radiance along rays through a medium, front to back. Step i covers [enter + (i - 1 + shift) step, enter + (i + shift)
+ * step], cut to [enter, leave]; its middle is sampled, and within it the medium counts as uniform: with t its optical
+ * depth, 1 - exp(-t) of what lies there is seen and exp(-t) of what lies behind (the exponential integrator; exact
+ * where the medium is uniform). The sun's share is sum over octaves k of weight_k phase_k exp(-T / 2^k), T the optical
+ * depth towards it (Wrenninge, Kulla, Lundqvist: Oz, 2013). What an ended ray leaves out is at most `stop` times the
+ * largest radiance of a place, since the shares of all that is behind sum up to the transmittance. count may be NULL.
+ */
+void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *rays, const lom_medium_desc *desc,
+                                lom_march_count *count);
+
+/* Optical depth of a medium between two distances along rays, by the midpoint rule with `steps` steps. */
+void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, const lom_medium_desc *desc, int steps);
+
+/* Where rays cross the unit box: the distances between which they are inside, enter >= 0; lanes that miss it are
+ * cleared in active. A component of `along` that is 0 divides nothing: such a ray is inside between the two faces or
+ * not (the upper face excluded, so that two boxes share a face without a gap or doubling). */
+void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays);
 
 #ifdef __cplusplus
 }

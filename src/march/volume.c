@@ -1,7 +1,7 @@
 /* Volumes for marching. In: an image of colour and density; out: cells with their eight corners side by side, and how
  * far each cell is from the nearest one that holds anything. Invariant: a distance is exact or capped at 255, so a
  * cell nearer than it to this one is empty. */
-#include <lom/march.h>
+#include "march/cells.h"
 
 #include <string.h>
 
@@ -17,13 +17,7 @@ void lom_free_volume(lom_volume *volume)
 
 static size_t place(const lom_volume *volume, int x, int y, int z)
 {
-    size_t row = (size_t)z * (size_t)(volume->height + 1) + (size_t)y;
-    return row * (size_t)(volume->width + 1) + (size_t)x;
-}
-
-static int at_most(int value, int limit)
-{
-    return value < limit ? value : limit;
+    return cell_index(volume->width, volume->height, x, y, z);
 }
 
 static uint32_t voxel(const lom_image *image, int x, int y, int z)
@@ -74,38 +68,6 @@ static void store_densities(lom_volume *volume)
             }
 }
 
-/* The 13 neighbours that come before a cell in storage order. */
-static const int8_t before[13][3] = { { -1, -1, -1 }, { 0, -1, -1 }, { 1, -1, -1 }, { -1, 0, -1 }, { 0, 0, -1 },
-                                      { 1, 0, -1 },   { -1, 1, -1 }, { 0, 1, -1 },  { 1, 1, -1 },  { -1, -1, 0 },
-                                      { 0, -1, 0 },   { 1, -1, 0 },  { -1, 0, 0 } };
-
-static void relax(lom_volume *volume, int x, int y, int z, int sign)
-{
-    uint8_t *distance = &volume->distance[place(volume, x, y, z)];
-    for (int i = 0; i < 13; i++) {
-        int nx = x + sign * before[i][0], ny = y + sign * before[i][1], nz = z + sign * before[i][2];
-        if (nx < 0 || ny < 0 || nz < 0 || nx > volume->width || ny > volume->height || nz > volume->depth)
-            continue;
-        int through = volume->distance[place(volume, nx, ny, nz)] + 1;
-        if (through < *distance)
-            *distance = (uint8_t)through;
-    }
-}
-
-/* Two sweeps with all neighbours of weight 1 give the Chebyshev distance exactly (Rosenfeld and Pfaltz 1968, in three
- * dimensions). */
-static void store_distances(lom_volume *volume)
-{
-    for (int z = 0; z <= volume->depth; z++)
-        for (int y = 0; y <= volume->height; y++)
-            for (int x = 0; x <= volume->width; x++)
-                relax(volume, x, y, z, 1);
-    for (int z = volume->depth; z >= 0; z--)
-        for (int y = volume->height; y >= 0; y--)
-            for (int x = volume->width; x >= 0; x--)
-                relax(volume, x, y, z, -1);
-}
-
 lom_volume *lom_create_volume(const lom_image *image, lom_error *error)
 {
     if (image == NULL || (image->format != LOM_FORMAT_RGBA8 && image->format != LOM_FORMAT_R8)) {
@@ -131,6 +93,6 @@ lom_volume *lom_create_volume(const lom_image *image, lom_error *error)
     }
     store_colors(volume, image);
     store_densities(volume);
-    store_distances(volume);
+    lom_spread_distances(volume->distance, volume->width, volume->height, volume->depth);
     return volume;
 }

@@ -33,5 +33,12 @@ lom_image *lom_draw_reference(struct frame *f, lom_error *error);
 /* The stages of other files. False: the error, or the device's, says why. */
 bool lom_draw_lake_stage(struct frame *f, lom_error *error);
 bool lom_draw_sea_stage(struct frame *f, lom_error *error);
+bool lom_prepare_clouds(struct frame *f, lom_error *error); /* makes their light before anything is drawn */
+bool lom_draw_cloud_stage(struct frame *f, lom_error *error);
+
+/* frame_cloud.c: draws the clouds that this view sees over a picture that is finished, in a pass like `pass`; depth is
+ * the picture's. The renderer has clouds. Returns how many are in view. */
+size_t lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
+                       lom_error *error);
 
 #endif

@@ -50,6 +50,7 @@ struct lom_renderer {
     size_t block_count;
     struct lom_loaded_entity *entities;
     size_t entity_count;
+    struct lom_cloud_set *clouds; /* NULL: none */
 
     lom_texture *foam;           /* its pattern, or NULL */
     struct lom_polar_mesh polar; /* of displaced water */
@@ -70,6 +71,9 @@ bool lom_load_water(lom_renderer *renderer, lom_error *error);
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
 bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
 double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
+/* load_clouds.c */
+bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error);
+void lom_free_scene_clouds(lom_renderer *renderer);
 
 /* How a pass looks at the scene. */
 struct lom_scene_view {

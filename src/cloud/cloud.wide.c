@@ -1,0 +1,85 @@
+/* The shader of a marched cloud. In: the back faces of its box, the depth of what is drawn. Out: the light it sends to
+ * the eye and, as alpha, the share of what lies behind that it takes. Invariant: a pixel's ray depends on the pixel
+ * alone; a ray that meets no density gives 0 and alpha 0, which leaves the picture as it is. */
+#include "cloud/cloud_uniforms.h"
+#include "cloud/phase.h"
+
+static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_cloud_uniforms *cloud = uniforms;
+    lom_float3 offset;
+    lom_int first = (in->vertex & 7) * 3;
+    offset.x = lom_gather(&cloud->corner[0][0], first);
+    offset.y = lom_gather(&cloud->corner[0][0], first + 1);
+    offset.z = lom_gather(&cloud->corner[0][0], first + 2);
+    out->position = lom_transform4(&cloud->clip_from_offset, offset);
+    out->varying[0] = offset.x;
+    out->varying[1] = offset.y;
+    out->varying[2] = offset.z;
+}
+
+/* Metres along the ray to what is drawn there: near / z is its distance along the view axis, w that of the fragment. */
+static lom_float scene_distance(const struct lom_cloud_uniforms *cloud, const lom_varyings *in, lom_float length)
+{
+    lom_int x = lom_to_int(in->x - cloud->origin[0]), y = lom_to_int(in->y - cloud->origin[1]);
+    lom_float depth = lom_fetch(cloud->depth, x, y, 0).x;
+    return lom_select(depth > 0.0f, length * (cloud->near_plane / lom_max(depth, lom_splat(1e-30f))) / in->w,
+                      lom_splat(3e38f));
+}
+
+static lom_float jitter_of(const struct lom_cloud_uniforms *cloud, const lom_varyings *in)
+{
+    if (cloud->jitter == NULL)
+        return lom_splat(1.0f);
+    lom_int x = lom_to_int(in->x) & 63, y = lom_to_int(in->y) & 63;
+    return lom_gather(cloud->jitter, y * 64 + x);
+}
+
+static void set_phases(const struct lom_cloud_uniforms *cloud, lom_medium_rays *rays, lom_float3 direction)
+{
+    lom_float mu = lom_dot3(direction, lom_uniform3(cloud->to_light));
+    for (int k = 0; k < cloud->march.octaves; k++)
+        rays->phase[k] = lom_phase_octave(cloud->phase, cloud->forward, cloud->backward, cloud->blend, mu, k);
+    if (cloud->silver > 0)
+        rays->phase[0] = lom_max(rays->phase[0], cloud->silver * lom_phase_henyey_greenstein(mu, cloud->silver_cosine));
+}
+
+/* Air between the eye and the cloud turns it to the haze's colour. */
+static lom_float3 add_haze(const struct lom_cloud_uniforms *cloud, lom_float3 color, lom_float alpha,
+                           lom_float distance)
+{
+    if (cloud->haze_rate == 0)
+        return color;
+    lom_float air = -lom_expm1(-(distance * cloud->haze_rate));
+    return lom_mix3(color, lom_scale3(lom_uniform3(cloud->haze_color), alpha), air);
+}
+
+static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_cloud_uniforms *cloud = uniforms;
+    lom_float3 offset = { in->varying[0], in->varying[1], in->varying[2] };
+    lom_float length = lom_sqrt(lom_dot3(offset, offset));
+    lom_float3 direction = lom_scale3(offset, 1.0f / lom_max(length, lom_splat(1e-20f)));
+    lom_medium_rays rays = { .start = lom_uniform3(cloud->eye_in_box),
+                             .along = { lom_dot3(direction, lom_uniform3(cloud->box_axis[0])),
+                                        lom_dot3(direction, lom_uniform3(cloud->box_axis[1])),
+                                        lom_dot3(direction, lom_uniform3(cloud->box_axis[2])) },
+                             .shift = jitter_of(cloud, in),
+                             .active = in->covered };
+    LOM_WIDE(lom_cross_box)(&rays);
+    if (cloud->depth != NULL)
+        rays.leave = lom_min(rays.leave, scene_distance(cloud, in, length));
+    rays.active &= rays.enter < rays.leave;
+    set_phases(cloud, &rays, direction);
+    lom_medium_result seen;
+    LOM_WIDE(lom_march_medium)(&seen, &rays, &cloud->march, NULL);
+    lom_float alpha = 1.0f - seen.transmittance;
+    lom_float3 color = lom_scale3(lom_uniform3(cloud->sun), seen.sun);
+    color = lom_add3(color, lom_scale3(lom_uniform3(cloud->sky), seen.sky));
+    color = lom_add3(color, lom_scale3(lom_uniform3(cloud->ground), seen.ground));
+    color = add_haze(cloud, color, alpha, seen.distance);
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
+}
+
+LOM_SHADER(lom_cloud_shader, vertex, fragment, .varyings = 3, .reads = 7, .reads_position = true, .colors = 1,
+           .uniforms_size = sizeof(struct lom_cloud_uniforms))

@@ -1,0 +1,151 @@
+/* Clouds as draws. In: a set whose light is made, and how a pass looks at it. Out: for each cloud in view the back
+ * faces of its box, the farthest cloud first. Invariant: the order is a function of the places alone; ties keep the
+ * file's order reversed, so that the first in the file is drawn last. */
+#include "cloud/cloud_draw.h"
+#include "cloud/cloud_uniforms.h"
+
+/* Radiance of a place that sees all of the sun, in parts of the sun's colour. A surface lit straight on sends its
+ * colour, so the sun's irradiance is pi times it and isotropic scattering would send 1/4; light that was scattered more
+ * than once makes up the rest in a thick cloud, and the octaves' geometric weights leave this factor free: it makes the
+ * lit side of a thick cumulus about as bright as fresh snow. */
+static const double sun_share = 0.7;
+static const int most_steps = 4096;
+
+lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud)
+{
+    const double *size = cloud->cloud->size;
+    double half[3];
+    for (int k = 0; k < 3; k++) {
+        half[k] = 0;
+        for (int i = 0; i < 3; i++)
+            half[k] += (cloud->axes[i][k] < 0 ? -cloud->axes[i][k] : cloud->axes[i][k]) * size[i] / 2;
+    }
+    lom_vec3 m = cloud->middle;
+    return (lom_box){ { m.x - half[0], m.y - half[1], m.z - half[2] },
+                      { m.x + half[0], m.y + half[1], m.z + half[2] } };
+}
+
+static double square_distance(const struct lom_placed_cloud *cloud, lom_vec3 eye)
+{
+    double x = cloud->middle.x - eye.x, y = cloud->middle.y - eye.y, z = cloud->middle.z - eye.z;
+    return x * x + y * y + z * z;
+}
+
+size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, size_t *order)
+{
+    lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
+    lom_frustum frustum = lom_view_frustum(&clip_from_world, false);
+    size_t count = 0;
+    for (size_t n = set->count; n-- > 0;) {
+        if (lom_box_visibility(&frustum, lom_cloud_bounds(&set->clouds[n])) == LOM_OUTSIDE)
+            continue;
+        double distance = square_distance(&set->clouds[n], view->eye);
+        size_t at = count++;
+        for (; at > 0 && square_distance(&set->clouds[order[at - 1]], view->eye) < distance; at--)
+            order[at] = order[at - 1];
+        order[at] = n;
+    }
+    return count;
+}
+
+static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, const struct lom_placed_cloud *placed,
+                      const struct lom_cloud_view *view)
+{
+    const lom_cloud *cloud = placed->cloud;
+    const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
+    const double grain = cloud->detail_size / set->detail->size;
+    *march = (lom_medium_desc){ .medium = placed->density->medium,
+                                .light = placed->light,
+                                .detail = cloud->detail > 0 ? set->detail : NULL,
+                                .detail_strength = (float)cloud->detail,
+                                .detail_near = (float)(0.6 * grain / view->pixel_angle),
+                                .detail_far = (float)(2.5 * grain / view->pixel_angle),
+                                .extinction = (float)(cloud->extinction * cloud->density),
+                                .step = lom_medium_step(placed->density->medium, size, (float)set->quality.error),
+                                .stop = (float)set->quality.stop,
+                                .most_steps = most_steps,
+                                .octaves = set->quality.model == LOM_CLOUDS_OCTAVES ? set->quality.octaves : 1 };
+    for (int i = 0; i < 3; i++)
+        march->detail_scale[i] = (float)(cloud->size[i] / cloud->detail_size);
+    double weight = set->params->albedo;
+    for (int k = 0; k < march->octaves; k++) {
+        march->weight[k] = (float)weight;
+        weight *= 0.5 * set->params->albedo;
+    }
+}
+
+static void set_light(struct lom_cloud_uniforms *u, const struct lom_cloud_set *set, const struct lom_cloud_view *view)
+{
+    const lom_clouds *p = set->params;
+    for (int i = 0; i < 3; i++) {
+        u->to_light[i] = view->light.to_light[i];
+        u->sun[i] = (float)(view->light.color[i] * p->brightness * sun_share);
+        u->sky[i] = (float)(p->sky[i] * p->albedo);
+        u->ground[i] = (float)(p->ground[i] * p->albedo);
+        u->haze_color[i] = (float)p->haze_color[i];
+    }
+    u->phase = p->phase;
+    u->forward = (float)p->forward;
+    u->backward = (float)p->backward;
+    u->blend = (float)p->blend;
+    u->silver = (float)p->silver;
+    u->silver_cosine = (float)(1 - p->silver_spread);
+    u->haze_rate = p->haze_distance > 0 ? (float)(1 / p->haze_distance) : 0;
+}
+
+static void set_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
+                      const struct lom_cloud_view *view)
+{
+    const lom_cloud *cloud = placed->cloud;
+    const double from_eye[3] = { placed->middle.x - view->eye.x, placed->middle.y - view->eye.y,
+                                 placed->middle.z - view->eye.z };
+    lom_mat4 move = lom_translation(view->eye), clip = lom_multiply(&view->projection, &view->view);
+    clip = lom_multiply(&clip, &move);
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++)
+            u->clip_from_offset.m[row][column] = (float)clip.m[row][column];
+    for (int c = 0; c < 8; c++)
+        for (int k = 0; k < 3; k++) {
+            double at = from_eye[k];
+            for (int i = 0; i < 3; i++)
+                at += placed->axes[i][k] * ((c >> i & 1) - 0.5) * cloud->size[i];
+            u->corner[c][k] = (float)at;
+        }
+    for (int i = 0; i < 3; i++) {
+        double sum = 0;
+        for (int k = 0; k < 3; k++) {
+            sum += placed->axes[i][k] * from_eye[k];
+            u->box_axis[i][k] = (float)(placed->axes[i][k] / cloud->size[i]);
+        }
+        u->eye_in_box[i] = (float)(0.5 - sum / cloud->size[i]);
+    }
+}
+
+void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
+                           const struct lom_cloud_view *view)
+{
+    /* corner c is at (c & 1, c >> 1 & 1, c >> 2); counter-clockwise from outside */
+    static const uint16_t faces[36] = { 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                                        2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6 };
+    struct lom_cloud_uniforms u = { .near_plane = (float)view->near_plane,
+                                    .origin = { (float)view->origin_x, (float)view->origin_y },
+                                    .depth = view->depth,
+                                    .jitter = set->jitter };
+    set_place(&u, cloud, view);
+    set_light(&u, set, view);
+    set_march(&u.march, set, cloud, view);
+    lom_draw(device, &(lom_draw_desc){ .shader = &lom_cloud_shader,
+                                       .uniforms = &u,
+                                       .indices = faces,
+                                       .index_bits = 16,
+                                       .count = 36,
+                                       .vertex_count = 8,
+                                       .cull = LOM_CULL_FRONT,
+                                       .front_clockwise = view->mirrored,
+                                       .depth_test_off = true,
+                                       .blend = { { .enabled = true,
+                                                    .source_color = LOM_FACTOR_ONE,
+                                                    .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+                                                    .source_alpha = LOM_FACTOR_ONE,
+                                                    .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA } } });
+}

@@ -1,0 +1,87 @@
+/* Clouds as the pipeline draws them: volumes loaded once, light that follows the sun, and a draw a cloud. */
+#ifndef LOM_CLOUD_DRAW_H
+#define LOM_CLOUD_DRAW_H
+
+#include "pipeline/uniforms.h"
+
+#include <lom/cloud.h>
+
+enum { LOM_BLUE_NOISE = 64 }; /* pixels a side of the table of jitter */
+
+/* The dials of the scene's [quality] table. */
+struct lom_cloud_quality {
+    int model; /* lom_cloud_model */
+    double error, stop, light_scale;
+    int octaves;
+    bool jitter;
+};
+
+/* A density that several clouds of a scene may share. */
+struct lom_cloud_density {
+    const lom_cloud *source; /* the first cloud that asked for it */
+    lom_image *image;
+    lom_medium *medium;
+};
+
+/* A cloud in its place. */
+struct lom_placed_cloud {
+    const lom_cloud *cloud;
+    const struct lom_cloud_density *density;
+    lom_light_grid *light;
+    lom_volume *original; /* density lit in advance, of the original model */
+    uint64_t lit_for;     /* what `light` or `original` was made for, hashed; 0: nothing yet */
+    lom_vec3 middle;      /* of the box, in the world; the cloud's position, until wind moves it */
+    double axes[3][3];    /* axes[i] is the box's axis i in the world, of unit length */
+};
+
+/* All clouds of a scene, and what they share. */
+struct lom_cloud_set {
+    const lom_clouds *params;
+    struct lom_cloud_quality quality;
+    struct lom_cloud_density *densities;
+    size_t density_count;
+    struct lom_placed_cloud *clouds; /* in the order of the file; those that are not visible are left out */
+    size_t count;
+    lom_detail *detail;
+    float *jitter; /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
+};
+
+/* Makes or reads the volumes of the visible clouds. NULL and no failure when there are none, or the model is off. */
+struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
+                                      const struct lom_cloud_quality *quality, lom_error *error);
+void lom_free_clouds(struct lom_cloud_set *set);
+
+/* cloud_light.c: makes every cloud's light that of a sun in this direction (towards it, unit length); what already is
+ * stays. *swept counts the grids that were made again. False when memory runs out. */
+bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error);
+/* Optical depth through all clouds but one (-1: none left out) from a place towards the light, by `steps` steps a
+ * cloud. */
+double lom_clouds_depth(const struct lom_cloud_set *set, const double from[3], const double to_light[3], long except,
+                        int steps);
+
+/* blue_noise.c: a table of size x size numbers (i + 1/2) / size^2, each once, whose neighbours differ: void and cluster
+ * (Ulichney 1993). NULL on failure; freed with lom_release. */
+float *lom_make_blue_noise(int size, uint64_t seed, lom_error *error);
+
+/* How a pass looks at clouds. */
+struct lom_cloud_view {
+    lom_mat4 projection, view;
+    lom_vec3 eye;
+    double near_plane;
+    bool mirrored;
+    const lom_texture *depth; /* of what is drawn; reversed, infinite */
+    int origin_x, origin_y;   /* the frame's pixel of the depth's pixel (0, 0) */
+    double pixel_angle;       /* radians a pixel covers in the middle of the picture */
+    struct lom_light_uniform light;
+};
+
+/* The box of a cloud in the world. */
+lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud);
+/* Indices of the clouds that are seen, the farthest first (by the middle's distance; of equals the later one in the
+ * file first); order has room for set->count. */
+size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, size_t *order);
+/* Draws one cloud into the pass that has begun (colour alone; it keeps what it holds). */
+void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
+                           const struct lom_cloud_view *view);
+
+#endif

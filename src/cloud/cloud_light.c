@@ -1,0 +1,150 @@
+/* The light of a scene's clouds as the sun moves. In: the way to the sun. Out: a grid of light for each cloud, which
+ * the other clouds shadow. Invariant: a cloud's light is a function of the sun and of the places of the clouds alone;
+ * it is made again when that changes. */
+#include "cloud/cloud_draw.h"
+
+#include <string.h>
+
+/* A place in parts of a cloud's box, and a way in parts a metre. */
+static void to_box(const struct lom_placed_cloud *cloud, const double world[3], bool is_place, double box[3])
+{
+    const double middle[3] = { cloud->middle.x, cloud->middle.y, cloud->middle.z };
+    for (int i = 0; i < 3; i++) {
+        double sum = 0;
+        for (int k = 0; k < 3; k++)
+            sum += cloud->axes[i][k] * (is_place ? world[k] - middle[k] : world[k]);
+        box[i] = sum / cloud->cloud->size[i] + (is_place ? 0.5 : 0);
+    }
+}
+
+/* Optical depth of a cloud along the way from a place on: the grid of light's density, the nearest voxel at the middles
+ * of equal steps. */
+static double depth_of(const struct lom_placed_cloud *cloud, const double from[3], const double way[3], int steps)
+{
+    const lom_light_grid *g = cloud->light;
+    const int size[3] = { g->width, g->height, g->depth };
+    double start[3], along[3], enter = 0, leave = 1e30, sum = 0;
+    to_box(cloud, from, true, start);
+    to_box(cloud, way, false, along);
+    for (int i = 0; i < 3; i++) {
+        if (along[i] == 0) {
+            if (start[i] < 0 || start[i] >= 1)
+                return 0;
+            continue;
+        }
+        double first = ((along[i] > 0 ? 0 : 1) - start[i]) / along[i],
+               last = ((along[i] > 0 ? 1 : 0) - start[i]) / along[i];
+        enter = first > enter ? first : enter;
+        leave = last < leave ? last : leave;
+    }
+    if (!(enter < leave))
+        return 0;
+    double step = (leave - enter) / steps;
+    for (int k = 0; k < steps; k++) {
+        int voxel[3];
+        for (int i = 0; i < 3; i++) {
+            double at = (start[i] + along[i] * (enter + (k + 0.5) * step)) * size[i];
+            voxel[i] = at > 0 ? at < size[i] - 1 ? (int)at : size[i] - 1 : 0;
+        }
+        sum += g->density[((size_t)voxel[2] * (size_t)size[1] + (size_t)voxel[1]) * (size_t)size[0] + (size_t)voxel[0]];
+    }
+    return sum / 65535 * step * cloud->cloud->extinction * cloud->cloud->density;
+}
+
+double lom_clouds_depth(const struct lom_cloud_set *set, const double from[3], const double to_light[3], long except,
+                        int steps)
+{
+    double sum = 0;
+    for (size_t i = 0; i < set->count; i++)
+        if ((long)i != except)
+            sum += depth_of(&set->clouds[i], from, to_light, steps);
+    return sum;
+}
+
+static double radius_of(const struct lom_placed_cloud *cloud)
+{
+    const double *size = cloud->cloud->size;
+    return lom_double_sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]) / 2;
+}
+
+/* Whether a may shadow b: spheres around them, swept along the light. */
+static bool may_shadow(const struct lom_placed_cloud *a, const struct lom_placed_cloud *b, const double to_light[3])
+{
+    const double d[3] = { a->middle.x - b->middle.x, a->middle.y - b->middle.y, a->middle.z - b->middle.z };
+    double along = d[0] * to_light[0] + d[1] * to_light[1] + d[2] * to_light[2];
+    double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - along * along, reach = radius_of(a) + radius_of(b);
+    return along > -reach && square < reach * reach;
+}
+
+static uint64_t hash_numbers(uint64_t hash, const double *numbers, size_t count)
+{
+    return lom_hash_bytes(hash, numbers, count * sizeof *numbers);
+}
+
+struct shadowing {
+    const struct lom_cloud_set *set;
+    const struct lom_placed_cloud *cloud;
+    const double *to_light;
+    const size_t *others;
+    size_t other_count;
+};
+
+enum { SHADOW_STEPS = 24 };
+
+static float depth_beyond(void *context, const float exit[3])
+{
+    const struct shadowing *s = context;
+    double world[3] = { s->cloud->middle.x, s->cloud->middle.y, s->cloud->middle.z }, sum = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            world[k] += s->cloud->axes[i][k] * ((double)exit[i] - 0.5) * s->cloud->cloud->size[i];
+    for (size_t i = 0; i < s->other_count; i++)
+        sum += depth_of(&s->set->clouds[s->others[i]], world, s->to_light, SHADOW_STEPS);
+    return (float)sum;
+}
+
+static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], size_t *others, int *swept,
+                        lom_error *error)
+{
+    struct lom_placed_cloud *cloud = &set->clouds[index];
+    struct shadowing s = { set, cloud, to_light, others, 0 };
+    uint64_t hash = hash_numbers(LOM_HASH_START, to_light, 3);
+    for (size_t i = 0; i < set->count && set->params->shadows; i++) {
+        const struct lom_placed_cloud *other = &set->clouds[i];
+        if (i == index || !may_shadow(other, cloud, to_light))
+            continue;
+        const double apart[3] = { other->middle.x - cloud->middle.x, other->middle.y - cloud->middle.y,
+                                  other->middle.z - cloud->middle.z };
+        others[s.other_count++] = i;
+        hash = hash_numbers(hash, apart, 3);
+    }
+    hash |= 1;
+    if (cloud->lit_for == hash)
+        return true;
+    lom_light_desc desc = { .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density),
+                            .beyond = s.other_count != 0 ? depth_beyond : NULL,
+                            .context = &s };
+    for (int i = 0; i < 3; i++) {
+        desc.size[i] = (float)cloud->cloud->size[i];
+        desc.to_light[i] = (float)(cloud->axes[i][0] * to_light[0] + cloud->axes[i][1] * to_light[1] +
+                                   cloud->axes[i][2] * to_light[2]);
+    }
+    if (set->quality.model == LOM_CLOUDS_FORWARD)
+        desc.forward = (float)(set->params->albedo * (set->params->forward > 0 ? set->params->forward : 0));
+    if (!lom_sweep_sun(cloud->light, &desc, error))
+        return false;
+    cloud->lit_for = hash;
+    ++*swept;
+    return true;
+}
+
+bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error)
+{
+    size_t *others = lom_allocate(set->count, sizeof *others, error);
+    bool done = others != NULL;
+    *swept = 0;
+    for (size_t i = 0; done && i < set->count; i++)
+        done = sweep_cloud(set, i, to_light, others, swept, error);
+    lom_release(others);
+    return done;
+}

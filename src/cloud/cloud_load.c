@@ -1,0 +1,123 @@
+/* The clouds of a scene, loaded. In: the [[cloud]] tables. Out: a medium for each different volume, a grid of light for
+ * each cloud, the noise and the jitter they share. Invariant: clouds of one kind, seed and size of volume share one
+ * density. */
+#include "cloud/cloud_draw.h"
+#include "cloud/detail_noise.h"
+
+#include <string.h>
+
+void lom_free_clouds(struct lom_cloud_set *set)
+{
+    if (set == NULL)
+        return;
+    for (size_t i = 0; i < set->density_count; i++) {
+        lom_free_image(set->densities[i].image);
+        lom_free_medium(set->densities[i].medium);
+    }
+    for (size_t i = 0; i < set->count; i++) {
+        lom_free_light_grid(set->clouds[i].light);
+        lom_free_volume(set->clouds[i].original);
+    }
+    lom_free_detail(set->detail);
+    lom_release(set->jitter);
+    lom_release(set->densities);
+    lom_release(set->clouds);
+    lom_release(set);
+}
+
+static bool is_same_density(const lom_cloud *a, const lom_cloud *b)
+{
+    if (memcmp(a->voxels, b->voxels, sizeof a->voxels) != 0)
+        return false;
+    if (a->file != NULL || b->file != NULL)
+        return a->file != NULL && b->file != NULL && strcmp(a->file, b->file) == 0;
+    return a->seed == b->seed && lom_find_cloud_kind(a->kind, NULL) == lom_find_cloud_kind(b->kind, NULL);
+}
+
+static lom_image *load_image(const lom_cloud *cloud, lom_error *error)
+{
+    const int size[3] = { (int)cloud->voxels[0], (int)cloud->voxels[1], (int)cloud->voxels[2] };
+    if (cloud->file != NULL)
+        return lom_read_volume(cloud->file, size, error);
+    return lom_make_cloud(&(lom_cloud_desc){ cloud->kind, size[0], size[1], size[2], (uint64_t)cloud->seed }, error);
+}
+
+static const struct lom_cloud_density *find_density(struct lom_cloud_set *set, const lom_cloud *cloud, lom_error *error)
+{
+    for (size_t i = 0; i < set->density_count; i++)
+        if (is_same_density(set->densities[i].source, cloud))
+            return &set->densities[i];
+    struct lom_cloud_density *density = &set->densities[set->density_count++];
+    density->source = cloud;
+    density->image = load_image(cloud, error);
+    if (density->image != NULL)
+        density->medium = lom_create_medium(density->image, error);
+    return density->medium != NULL ? density : NULL;
+}
+
+/* What marching makes of a density on average: the mean of the noise eats into it. */
+static void fill_erosion(const struct lom_cloud_set *set, const lom_cloud *cloud, float eroded[256])
+{
+    double eaten = set->detail->mean * cloud->detail;
+    for (int i = 0; i < 256; i++) {
+        double left = (i / 255.0 - eaten) / (1 - eaten);
+        eroded[i] = left > 0 ? (float)left : 0;
+    }
+}
+
+static bool place_cloud(struct lom_cloud_set *set, const lom_cloud *cloud, lom_error *error)
+{
+    struct lom_placed_cloud *placed = &set->clouds[set->count++];
+    double s = lom_double_sin(cloud->yaw), c = lom_double_cos(cloud->yaw);
+    *placed = (struct lom_placed_cloud){ .cloud = cloud,
+                                         .middle = cloud->position,
+                                         .axes = { { c, 0, -s }, { 0, 1, 0 }, { s, 0, c } } };
+    placed->middle.y += cloud->size[1] / 2;
+    placed->density = find_density(set, cloud, error);
+    if (placed->density == NULL)
+        return false;
+    float eroded[256];
+    fill_erosion(set, cloud, eroded);
+    placed->light = lom_create_light_grid(placed->density->image, set->quality.light_scale, eroded, error);
+    if (placed->light == NULL)
+        return false;
+    const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
+    lom_sweep_sky(placed->light, size, (float)(cloud->extinction * cloud->density));
+    return true;
+}
+
+static bool load_shared(struct lom_cloud_set *set, lom_error *error)
+{
+    lom_image *noise = lom_make_detail_noise(error);
+    set->detail = noise != NULL ? lom_create_detail(noise, error) : NULL;
+    lom_free_image(noise);
+    if (set->detail == NULL)
+        return false;
+    if (set->quality.jitter)
+        set->jitter = lom_make_blue_noise(LOM_BLUE_NOISE, 1, error);
+    return set->jitter != NULL || !set->quality.jitter;
+}
+
+struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
+                                      const struct lom_cloud_quality *quality, lom_error *error)
+{
+    size_t visible = 0;
+    for (size_t i = 0; i < count; i++)
+        visible += clouds[i].visible;
+    if (visible == 0 || quality->model == LOM_CLOUDS_OFF)
+        return NULL;
+    struct lom_cloud_set *set = lom_allocate(1, sizeof *set, error);
+    if (set == NULL)
+        return NULL;
+    *set = (struct lom_cloud_set){ .params = params, .quality = *quality };
+    set->densities = lom_allocate(visible, sizeof *set->densities, error);
+    set->clouds = lom_allocate(visible, sizeof *set->clouds, error);
+    bool done = set->densities != NULL && set->clouds != NULL && load_shared(set, error);
+    for (size_t i = 0; done && i < count; i++)
+        if (clouds[i].visible)
+            done = place_cloud(set, &clouds[i], error);
+    if (done)
+        return set;
+    lom_free_clouds(set);
+    return NULL;
+}

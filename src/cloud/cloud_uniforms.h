@@ -1,0 +1,29 @@
+/* What the shaders of a cloud get. */
+#ifndef LOM_CLOUD_UNIFORMS_H
+#define LOM_CLOUD_UNIFORMS_H
+
+#include "pipeline/uniforms.h"
+
+#include <lom/cloud.h>
+
+struct lom_cloud_uniforms {
+    struct lom_matrix_uniform clip_from_offset; /* of a place less the eye */
+    float corner[8][3];                         /* of the box, less the eye */
+    float eye_in_box[3];                        /* in parts of the box */
+    float box_axis[3][3];                       /* rows: parts of the box along axis i a metre */
+    float near_plane;
+    float origin[2];
+    const lom_texture *depth; /* NULL: nothing hides it */
+    const float *jitter;      /* NULL: none */
+    lom_medium_desc march;
+    /* light */
+    float to_light[3], sun[3], sky[3], ground[3]; /* radiance where a place sees all of it */
+    int phase;                                    /* lom_cloud_phase */
+    float forward, backward, blend;
+    float silver, silver_cosine;
+    float haze_color[3], haze_rate; /* 1/m; 0: none */
+};
+
+extern const lom_shader lom_cloud_shader;
+
+#endif

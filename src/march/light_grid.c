@@ -1,0 +1,285 @@
+/* The grid of light. In: a density, the sun's direction. Out: for each voxel how much of the sun, the sky and the
+ * ground it sees. Invariant: the sweep's arithmetic is the same at every width; sky and ground do not depend on the
+ * sun. */
+#include "march/light_grid.h"
+
+#include "march/cells.h"
+
+#include <string.h>
+
+typedef void sweep_slice(const struct lom_slice *slice);
+sweep_slice lom_sweep_slice_4, lom_sweep_slice_8, lom_sweep_slice_16;
+
+static sweep_slice *widest_sweep(void)
+{
+    lom_cpu cpu = lom_detect_cpu();
+    return cpu.avx512 ? lom_sweep_slice_16 : cpu.avx2 ? lom_sweep_slice_8 : lom_sweep_slice_4;
+}
+
+void lom_free_light_grid(lom_light_grid *grid)
+{
+    if (grid == NULL)
+        return;
+    lom_release(grid->density);
+    lom_release(grid->light);
+    lom_release(grid);
+}
+
+/* ---- making ---- */
+
+static double density_at(const lom_image *image, int x, int y, int z)
+{
+    const void *p = lom_image_pixel(image, x, y, z);
+    if (image->format == LOM_FORMAT_R8)
+        return *(const uint8_t *)p / 255.0;
+    if (image->format == LOM_FORMAT_R16)
+        return *(const uint16_t *)p / 65535.0;
+    float value = *(const float *)p;
+    return value > 0 ? value < 1 ? value : 1 : 0;
+}
+
+static double erode(const float eroded[256], double density)
+{
+    int below = (int)(density * 255);
+    below = below < 254 ? below : 254;
+    return eroded[below] + ((double)eroded[below + 1] - eroded[below]) * (density * 255 - below);
+}
+
+/* The voxels of the image that voxel i of n covers: at least one. */
+static void find_span(int i, int n, int size, int *first, int *last)
+{
+    *first = (int)((int64_t)i * size / n);
+    *last = (int)((int64_t)(i + 1) * size / n);
+    if (*last <= *first)
+        *last = *first + 1;
+}
+
+static void average_density(lom_light_grid *grid, const lom_image *image, const float eroded[256])
+{
+    uint16_t *to = grid->density;
+    int x0, x1, y0, y1, z0, z1;
+    for (int z = 0; z < grid->depth; z++) {
+        find_span(z, grid->depth, image->depth, &z0, &z1);
+        for (int y = 0; y < grid->height; y++) {
+            find_span(y, grid->height, image->height, &y0, &y1);
+            for (int x = 0; x < grid->width; x++) {
+                find_span(x, grid->width, image->width, &x0, &x1);
+                double sum = 0;
+                for (int k = z0; k < z1; k++)
+                    for (int j = y0; j < y1; j++)
+                        for (int i = x0; i < x1; i++)
+                            sum += erode(eroded, density_at(image, i, j, k));
+                double mean = sum / ((double)(x1 - x0) * (y1 - y0) * (z1 - z0));
+                *to++ = (uint16_t)(mean * 65535 + 0.5);
+            }
+        }
+    }
+}
+
+static int scaled(int size, double scale)
+{
+    int result = (int)(size * scale + 0.5);
+    return result < 1 ? 1 : result;
+}
+
+lom_light_grid *lom_create_light_grid(const lom_image *density, double scale, const float eroded[256], lom_error *error)
+{
+    if (density == NULL || !(scale > 0 && scale <= 1) || density->width > LOM_MAX_VOLUME ||
+        density->height > LOM_MAX_VOLUME || density->depth > LOM_MAX_VOLUME) {
+        lom_fail(error, LOM_ERROR_USAGE, "A grid of light is made from a volume of at most %d voxels a side.",
+                 LOM_MAX_VOLUME);
+        return NULL;
+    }
+    lom_light_grid *grid = lom_allocate(1, sizeof *grid, error);
+    if (grid == NULL)
+        return NULL;
+    *grid = (lom_light_grid){ .width = scaled(density->width, scale),
+                              .height = scaled(density->height, scale),
+                              .depth = scaled(density->depth, scale) };
+    size_t cells = cell_index(grid->width, grid->height, 0, 0, grid->depth + 1);
+    grid->density = lom_allocate((size_t)grid->width * (size_t)grid->height, (size_t)grid->depth * 2, error);
+    grid->light = lom_allocate(cells, sizeof *grid->light, error);
+    if (grid->density == NULL || grid->light == NULL) {
+        lom_free_light_grid(grid);
+        return NULL;
+    }
+    average_density(grid, density, eroded);
+    memset(grid->light, 0xff, cells * sizeof *grid->light);
+    return grid;
+}
+
+/* The last voxel of each axis once more, for the corners of the last cells. */
+static void repeat_borders(lom_light_grid *g)
+{
+    for (int z = 0; z <= g->depth; z++)
+        for (int y = 0; y <= g->height; y++) {
+            int from_z = at_most(z, g->depth - 1), from_y = at_most(y, g->height - 1);
+            int32_t *row = g->light + cell_index(g->width, g->height, 0, y, z);
+            if (from_z != z || from_y != y)
+                memcpy(row, g->light + cell_index(g->width, g->height, 0, from_y, from_z),
+                       (size_t)g->width * sizeof *row);
+            row[g->width] = row[g->width - 1];
+        }
+}
+
+/* ---- the sun ---- */
+
+/* The sweep: slices across `axis`, of which x and y of a slice are the axes across[0] and across[1]; per slice away
+ * from the light a ray moves by shear[] voxels. */
+struct sweep {
+    int size[3], axis, across[2];
+    bool from_high;
+    double shear[2], thickness;
+    size_t stride[3], light_stride[3];
+    int rays[2];
+};
+
+static double magnitude(double x)
+{
+    return x < 0 ? -x : x;
+}
+
+static void plan_sweep(const lom_light_grid *g, const lom_light_desc *desc, struct sweep *s)
+{
+    *s = (struct sweep){ .size = { g->width, g->height, g->depth } };
+    double along[3]; /* voxels a metre towards the light */
+    for (int i = 0; i < 3; i++)
+        along[i] = (double)desc->to_light[i] * s->size[i] / (double)desc->size[i];
+    for (int i = 1; i < 3; i++)
+        if (magnitude(along[i]) > magnitude(along[s->axis]))
+            s->axis = i;
+    s->across[0] = s->axis == 0 ? 1 : 0;
+    s->across[1] = s->axis == 2 ? 1 : 2;
+    s->from_high = along[s->axis] > 0;
+    s->thickness = 1 / magnitude(along[s->axis]);
+    s->stride[0] = s->light_stride[0] = 1;
+    s->stride[1] = (size_t)g->width;
+    s->stride[2] = (size_t)g->width * (size_t)g->height;
+    s->light_stride[1] = (size_t)g->width + 1;
+    s->light_stride[2] = cell_index(g->width, g->height, 0, 0, 1);
+    for (int i = 0; i < 2; i++) {
+        s->shear[i] = -along[s->across[i]] * s->thickness;
+        s->rays[i] = s->size[s->across[i]] + (int)(magnitude(s->shear[i]) * (s->size[s->axis] - 1)) + 3;
+    }
+}
+
+/* Ray u lies at voxel u - offset in slice k, counted from the light. */
+static double offset_of(const struct sweep *s, int i, int k)
+{
+    return s->shear[i] >= 0 ? 1 + s->shear[i] * (s->size[s->axis] - 1 - k) : 1 - s->shear[i] * k;
+}
+
+/* Where ray (u, v) enters the box; false when it passes it by. */
+static bool find_entry(const struct sweep *s, int u, int v, float entry[3])
+{
+    double at[3], step[3], from = 0, to = 1e30;
+    const int ray[2] = { u, v };
+    int n = s->size[s->axis];
+    at[s->axis] = s->from_high ? 1 : 0;
+    step[s->axis] = (s->from_high ? -1.0 : 1.0) / n;
+    for (int i = 0; i < 2; i++) {
+        int axis = s->across[i], size = s->size[axis];
+        at[axis] = (ray[i] - offset_of(s, i, 0) + 0.5 - 0.5 * s->shear[i]) / size; /* half a slice before the first */
+        step[axis] = s->shear[i] / size;
+    }
+    for (int i = 0; i < 3; i++) {
+        if (step[i] == 0) {
+            if (at[i] < 0 || at[i] > 1)
+                return false;
+            continue;
+        }
+        double first = ((step[i] > 0 ? 0 : 1) - at[i]) / step[i], last = ((step[i] > 0 ? 1 : 0) - at[i]) / step[i];
+        from = first > from ? first : from;
+        to = last < to ? last : to;
+    }
+    for (int i = 0; i < 3; i++)
+        entry[i] = (float)(at[i] + step[i] * from);
+    return from < to;
+}
+
+static void start_rays(const struct sweep *s, const lom_light_desc *desc, float *carried)
+{
+    size_t pitch = lom_ray_pitch(s->rays[0]);
+    for (int v = 0; v < s->rays[1] && desc->beyond != NULL; v++)
+        for (int u = 0; u < s->rays[0]; u++) {
+            float entry[3];
+            if (find_entry(s, u, v, entry))
+                carried[(size_t)v * pitch + (size_t)u] = desc->beyond(desc->context, entry);
+        }
+}
+
+static void split_offset(double offset, int *whole, float *part)
+{
+    *whole = -(int)lom_double_floor(-offset);
+    *part = (float)(*whole - offset);
+}
+
+bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error)
+{
+    struct sweep s;
+    plan_sweep(grid, desc, &s);
+    sweep_slice *sweep = widest_sweep();
+    struct lom_slice slice = { .width = s.size[s.across[0]],
+                               .height = s.size[s.across[1]],
+                               .rays_across = s.rays[0],
+                               .rays_down = s.rays[1],
+                               .scale = (float)((double)desc->extinction * s.thickness / 65535),
+                               .forward = desc->forward,
+                               .voxel_stride = s.stride[s.across[0]],
+                               .row_stride = s.stride[s.across[1]],
+                               .light_voxel_stride = s.light_stride[s.across[0]],
+                               .light_row_stride = s.light_stride[s.across[1]] };
+    size_t rays = lom_ray_pitch(s.rays[0]) * (size_t)(s.rays[1] + 1);
+    slice.rows = lom_allocate(lom_slice_pitch(&slice), ((size_t)slice.height + 2) * sizeof(float), error);
+    slice.carried = lom_allocate(rays, sizeof(float), error);
+    slice.middle = lom_allocate(rays, sizeof(float), error);
+    bool done = slice.rows != NULL && slice.carried != NULL && slice.middle != NULL;
+    if (done)
+        start_rays(&s, desc, slice.carried);
+    for (int k = 0; done && k < s.size[s.axis]; k++) {
+        int at = s.from_high ? s.size[s.axis] - 1 - k : k;
+        split_offset(offset_of(&s, 0, k), &slice.whole_x, &slice.part_x);
+        split_offset(offset_of(&s, 1, k), &slice.whole_y, &slice.part_y);
+        slice.voxels = grid->density + (size_t)at * s.stride[s.axis];
+        slice.light = grid->light + (size_t)at * s.light_stride[s.axis];
+        sweep(&slice);
+    }
+    lom_release(slice.rows);
+    lom_release(slice.carried);
+    lom_release(slice.middle);
+    if (done)
+        repeat_borders(grid);
+    return done;
+}
+
+/* ---- sky and ground ---- */
+
+/* 3/4 (1 - 0.85) */
+static const double diffuse_share = 0.1125;
+
+static uint32_t diffuse_byte(double depth)
+{
+    return (uint32_t)(255 / (1 + diffuse_share * depth) + 0.5);
+}
+
+void lom_sweep_sky(lom_light_grid *g, const float size[3], float extinction)
+{
+    double scale = (double)extinction * (double)size[1] / g->height / 65535;
+    size_t row = (size_t)g->width;
+    for (int z = 0; z < g->depth; z++)
+        for (int x = 0; x < g->width; x++) {
+            const uint16_t *column = g->density + (size_t)z * row * (size_t)g->height + (size_t)x;
+            double total = 0, below = 0;
+            for (int y = 0; y < g->height; y++)
+                total += column[(size_t)y * row] * scale;
+            for (int y = 0; y < g->height; y++) {
+                double here = column[(size_t)y * row] * scale;
+                int32_t *light = &g->light[cell_index(g->width, g->height, x, y, z)];
+                uint32_t word = ((uint32_t)*light & 0xffff) | diffuse_byte(total - below - 0.5 * here) << 16 |
+                                diffuse_byte(below + 0.5 * here) << 24;
+                memcpy(light, &word, sizeof word);
+                below += here;
+            }
+        }
+    repeat_borders(g);
+}

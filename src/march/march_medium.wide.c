@@ -1,0 +1,158 @@
+/* Rays through a medium, LOM_LANES at a time. In: rays between two distances, a density, a grid of light. Out: how much
+ * of each light they bring, and what comes through from behind. Invariant: a step at which the density is 0 for a ray
+ * changes no bit of its result, so that leaving such steps out changes none either. */
+#include <lom/lanes_mathematics.h>
+#include <lom/march.h>
+
+void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
+{
+    lom_float *enter = &rays->enter, *leave = &rays->leave;
+    const lom_float start[3] = { rays->start.x, rays->start.y, rays->start.z };
+    const lom_float along[3] = { rays->along.x, rays->along.y, rays->along.z };
+    *enter = (lom_float){ 0 };
+    *leave = lom_splat(3e38f);
+    for (int i = 0; i < 3; i++) {
+        lom_mask parallel = along[i] == 0.0f;
+        lom_float inverse = 1.0f / lom_select(parallel, lom_splat(1.0f), along[i]);
+        lom_float first = -start[i] * inverse, second = (1.0f - start[i]) * inverse;
+        lom_mask outside = parallel & ((start[i] < 0.0f) | (start[i] >= 1.0f));
+        *enter = lom_select(parallel, *enter, lom_max(*enter, lom_min(first, second)));
+        *leave = lom_select(parallel, *leave, lom_min(*leave, lom_max(first, second)));
+        rays->active &= ~outside;
+    }
+    rays->active &= *enter < *leave;
+}
+
+/* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below
+ * 0 (Schneider and Vos 2015). Far away the noise is its mean. */
+static lom_float find_density(const lom_medium_desc *desc, lom_float3 p, lom_float distance)
+{
+    lom_float density = lom_sample_medium(
+        desc->medium, lom_find_in_cells(desc->medium->width, desc->medium->height, desc->medium->depth, p));
+    if (desc->detail == NULL || !lom_any((density > 0.0f) & (density < 1.0f)))
+        return density;
+    lom_float noise = lom_splat(desc->detail->mean);
+    lom_float fading = 1.0f - lom_smoothstep(lom_splat(desc->detail_near), lom_splat(desc->detail_far), distance);
+    if (lom_any(fading > 0.0f)) {
+        lom_float3 q = { p.x * desc->detail_scale[0], p.y * desc->detail_scale[1], p.z * desc->detail_scale[2] };
+        noise = lom_mix(noise, lom_sample_detail(desc->detail, q), fading);
+    }
+    lom_float eaten = noise * desc->detail_strength;
+    return lom_saturate((density - eaten) / (1.0f - eaten));
+}
+
+/* sum over k of weight_k phase_k exp(-T / 2^k), from s = exp(-T / 16): the powers 16, 8, 4, 2, 1, then roots. */
+static lom_float sun_share(const lom_medium_desc *desc, const lom_medium_rays *rays, lom_float s)
+{
+    lom_float power[LOM_MAX_OCTAVES];
+    power[4] = s;
+    for (int k = 3; k >= 0; k--)
+        power[k] = power[k + 1] * power[k + 1];
+    for (int k = 5; k < desc->octaves; k++)
+        power[k] = lom_sqrt(power[k - 1]);
+    lom_float sum = power[0] * (rays->phase[0] * desc->weight[0]);
+    for (int k = 1; k < desc->octaves; k++)
+        sum += power[k] * (rays->phase[k] * desc->weight[k]);
+    return sum;
+}
+
+/* Whole steps that are empty for every ray from the places p on: cells nearer than the distance are, and a ray crosses
+ * at most `speed` cells a step along any axis. 1.01 covers the place within its cell and the rounding of positions. */
+static int empty_steps(const lom_medium *m, lom_float3 p, lom_mask alive, lom_float speed)
+{
+    lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
+    int32_t index[LOM_LANES];
+    float per_step[LOM_LANES];
+    lom_store_int(index, place.index);
+    lom_store(per_step, speed);
+    uint32_t lanes = lom_bits(alive);
+    int least = 65536;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        int i = __builtin_ctz(lanes);
+        float room = (float)m->distance[index[i]] - 1.01f;
+        int steps = room >= 0 ? 1 + (int)(room / per_step[i]) : 0;
+        least = steps < least ? steps : least;
+        if (least == 0)
+            return 0;
+    }
+    return least;
+}
+
+LOM_INLINE lom_float largest3(lom_float a, lom_float b, lom_float c)
+{
+    return lom_max(lom_max(lom_abs(a), lom_abs(b)), lom_abs(c));
+}
+
+/* The step of each ray in metres: the asked one, or longer where the ray would take too many. */
+static lom_float step_of(const lom_medium_desc *desc, const lom_medium_rays *rays)
+{
+    lom_float length = lom_max(rays->leave - rays->enter, (lom_float){ 0 });
+    return lom_max(lom_splat(desc->step), length * (1.0f / (float)desc->most_steps));
+}
+
+void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *rays, const lom_medium_desc *desc,
+                                lom_march_count *count)
+{
+    const lom_medium *m = desc->medium;
+    lom_medium_result sum = { .transmittance = lom_splat(1.0f) };
+    lom_float step = step_of(desc, rays);
+    lom_float speed = step * largest3(rays->along.x * (float)m->width, rays->along.y * (float)m->height,
+                                      rays->along.z * (float)m->depth) +
+                      1e-6f;
+    lom_mask alive = rays->active;
+    lom_float first = rays->enter + (rays->shift - 1.0f) * step;
+    lom_float seen = { 0 };
+    uint64_t sampled = 0;
+    bool was_empty = true;
+    int i = 0;
+    for (; lom_any(alive); i++) {
+        lom_float low = lom_max(first + step * (float)i, rays->enter), high = first + step * (float)(i + 1);
+        high = lom_min(high, rays->leave);
+        alive &= low < rays->leave;
+        if (!lom_any(alive))
+            break;
+        lom_float length = lom_max(high - low, (lom_float){ 0 }), middle = (low + high) * 0.5f;
+        lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, middle));
+        if (was_empty && !desc->walk) {
+            int empty = empty_steps(m, p, alive, speed);
+            if (empty != 0) {
+                i += empty - 1;
+                continue;
+            }
+        }
+        sampled++;
+        lom_float density = find_density(desc, p, middle);
+        was_empty = !lom_any((density > 0.0f) & alive);
+        if (was_empty)
+            continue;
+        lom_float opacity = -lom_expm1(-(density * length) * desc->extinction);
+        lom_float share = lom_as_float(lom_as_int(opacity * sum.transmittance) & alive);
+        lom_light_sample light = { lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
+        if (desc->light != NULL)
+            light = lom_sample_light(desc->light, p);
+        sum.sun += share * sun_share(desc, rays, light.sun);
+        sum.sky += share * light.sky;
+        sum.ground += share * light.ground;
+        sum.distance += share * middle;
+        seen += share;
+        sum.transmittance -= share;
+        alive &= sum.transmittance >= desc->stop;
+    }
+    sum.distance = lom_select(seen > 0.0f, sum.distance / lom_max(seen, lom_splat(1e-30f)), (lom_float){ 0 });
+    *out = sum;
+    if (count != NULL) {
+        count->walked += (uint64_t)i;
+        count->sampled += sampled;
+    }
+}
+
+void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, const lom_medium_desc *desc, int steps)
+{
+    lom_float sum = { 0 };
+    lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
+    for (int i = 0; i < steps; i++) {
+        lom_float at = rays->enter + step * ((float)i + 0.5f);
+        sum += find_density(desc, lom_add3(rays->start, lom_scale3(rays->along, at)), lom_splat(3e38f));
+    }
+    *depth = lom_as_float(lom_as_int(sum * (step * desc->extinction)) & rays->active);
+}

@@ -1,0 +1,25 @@
+/* The scene's clouds as the pipeline draws them. In: the scene's tables and dials. Out: the renderer's set of clouds.
+ */
+#include "render/renderer.h"
+
+#include "cloud/cloud_draw.h"
+
+bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    const lom_quality *q = &scene->quality;
+    struct lom_cloud_quality quality = { .model = q->clouds,
+                                         .error = q->cloud_error,
+                                         .stop = q->cloud_stop,
+                                         .light_scale = q->cloud_light_scale,
+                                         .octaves = q->cloud_octaves,
+                                         .jitter = q->cloud_jitter };
+    lom_error failed = { 0 };
+    renderer->clouds = lom_load_clouds(scene->cloud, scene->cloud_count, &scene->clouds, &quality, &failed);
+    return failed.code == LOM_OK || lom_fail(error, failed.code, "%s", failed.text);
+}
+
+void lom_free_scene_clouds(lom_renderer *renderer)
+{
+    lom_free_clouds(renderer->clouds);
+}
