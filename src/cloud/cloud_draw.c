@@ -8,7 +8,7 @@
  * colour, so the sun's irradiance is pi times it and isotropic scattering would send 1/4; light that was scattered more
  * than once makes up the rest in a thick cloud, and the octaves' geometric weights leave this factor free: it makes the
  * lit side of a thick cumulus about as bright as fresh snow. */
-static const double sun_share = 0.7;
+static const double sun_share = 0.62;
 static const int most_steps = 4096;
 
 lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud)

@@ -39,7 +39,7 @@ static lom_float body_density(const struct lom_cloud_shape *shape, lom_float3 p)
     if (lom_any(depth < reach)) {
         lom_float3 moved = lom_add3(p, lom_scale3(slow_noise(p, body->warp_size, shape->seed), lom_splat(body->warp)));
         lom_float3 q = lom_scale3(moved, lom_splat(1 / body->billow_size));
-        lom_float billow = lom_billow_octaves(q, 4, -1, shape->seed + 7);
+        lom_float billow = lom_billow_octaves(q, 5, -1, shape->seed + 7);
         depth = depth_inside(body, moved) + body->billow * (2.2f * (billow - 0.45f));
     }
     lom_float density = lom_smoothstep((lom_float){ 0 }, lom_splat(body->softness), depth);
