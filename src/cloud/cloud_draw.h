@@ -84,4 +84,12 @@ size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_
 void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
                            const struct lom_cloud_view *view);
 
+/* cloud_shadow.c: draws what a cloud lets through of the light to a horizontal plane, multiplied into a map of it: (s,
+ * t) of the map is the place x = plane[0] + s plane[2], z = plane[1] + t plane[3] at the height y. Nothing where its
+ * shadow misses the map. */
+void lom_draw_cloud_shadow(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
+                           const double plane[4], double y, const double to_light[3]);
+/* Where a box's shadow on a plane lies: low and high x, low and high z. The light comes from above. */
+void lom_shadow_extent(lom_box box, double y, const double to_light[3], double extent[4]);
+
 #endif

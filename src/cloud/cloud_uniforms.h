@@ -24,6 +24,16 @@ struct lom_cloud_uniforms {
     float haze_color[3], haze_rate; /* 1/m; 0: none */
 };
 
-extern const lom_shader lom_cloud_shader;
+/* A cloud's shadow on the plane of the ground's shadow map. */
+struct lom_cloud_shadow_uniforms {
+    float plane[4];                   /* x, z of the map's corner and its extent, metres */
+    float quad[4];                    /* the part of the map that the cloud can shadow: s, t of its corner and extent */
+    float start[3], by_x[3], by_z[3]; /* in the box: of the corner, and a metre along x and z of the plane */
+    float along[3];                   /* in the box, a metre towards the light */
+    int steps;
+    lom_medium_desc march;
+};
+
+extern const lom_shader lom_cloud_shader, lom_cloud_shadow_shader;
 
 #endif

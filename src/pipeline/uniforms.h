@@ -14,6 +14,10 @@ struct lom_light_uniform {
     float to_light[3]; /* unit length */
     float color[3];
     float ambient[3];
+    /* what clouds let through, by where the light that passes a place meets a plane; NULL: all of it */
+    const lom_texture *shadow;
+    float shadow_s[4], shadow_t[4]; /* rows: texture coordinates of a place (x, y, z, 1) */
+    float shadow_strength;
 };
 
 LOM_INLINE lom_float3 lom_uniform3(const float v[3])
@@ -31,6 +35,17 @@ LOM_INLINE lom_float4 lom_transform4(const struct lom_matrix_uniform *m, lom_flo
 {
     return (lom_float4){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p),
                          lom_transform_row(m->m[3], p) };
+}
+
+/* The share of the light that clouds let through to a place. */
+LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_float3 world)
+{
+    if (light->shadow == NULL)
+        return lom_splat(1.0f);
+    lom_float through = lom_sample(light->shadow, lom_transform_row(light->shadow_s, world),
+                                   lom_transform_row(light->shadow_t, world), (lom_float){ 0 })
+                            .x;
+    return 1.0f - light->shadow_strength * (1.0f - through);
 }
 
 /* The upper three rows of m (p, 1). */

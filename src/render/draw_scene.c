@@ -15,6 +15,21 @@ struct lom_light_uniform lom_scene_light(const lom_scene *scene)
     return u;
 }
 
+struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer)
+{
+    struct lom_light_uniform u = lom_scene_light(renderer->scene);
+    const struct lom_ground_shadow *shadow = &renderer->ground_shadow;
+    if (!shadow->falls)
+        return u;
+    u.shadow = shadow->texture;
+    u.shadow_strength = (float)renderer->scene->clouds.shadow_strength;
+    for (int i = 0; i < 4; i++) {
+        u.shadow_s[i] = shadow->s[i];
+        u.shadow_t[i] = shadow->t[i];
+    }
+    return u;
+}
+
 static struct lom_matrix_uniform to_uniform(const lom_mat4 *m)
 {
     struct lom_matrix_uniform u;
@@ -153,7 +168,7 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
     const lom_scene *scene = renderer->scene;
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     struct lom_view_uniform uniform = { .clip_from_world = to_uniform(&clip_from_world),
-                                        .light = lom_scene_light(scene),
+                                        .light = lom_renderer_light(renderer),
                                         .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z } };
     struct culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
     for (int i = 0; i < 4; i++)

@@ -15,7 +15,7 @@ static lom_lake_view lake_view(const struct frame *f)
                             .time = f->time,
                             .frame_width = f->width,
                             .frame_height = f->height,
-                            .light = lom_scene_light(f->scene),
+                            .light = lom_renderer_light(r),
                             .normal_map = r->normal_map,
                             .flow_map = r->flow_map };
 }

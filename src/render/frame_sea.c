@@ -78,7 +78,6 @@ static void set_optics(struct lom_surface_uniforms *u, const lom_scene *scene)
     u->surface_steps = 96;
     u->bent = scene->quality.water != LOM_WATER_NORMAL_MAP;
     u->marched = scene->quality.water == LOM_WATER_MARCHED;
-    u->light = lom_scene_light(scene);
     set_medium(&u->medium, scene);
 }
 
@@ -89,6 +88,7 @@ static void look_at_sea(struct sea *sea, struct frame *f)
     sea->clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
     set_matrix(&u->clip_from_world, &sea->clip_from_world);
     set_optics(u, f->scene);
+    u->light = lom_renderer_light(f->renderer);
     set_sky(&u->sky, f->renderer);
     set_foam(&u->foam, f);
     set_rays(u->ray, &f->view);

@@ -54,7 +54,13 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->scissor = scissor;
     lom_begin_pass(r->device, &pass);
     lom_draw_scene(r, view);
-    return lom_end_pass(r->device);
+    bool done = lom_end_pass(r->device);
+    if (done && r->clouds != NULL && view->mirrored && view->sky) {
+        lom_error error = { 0 };
+        lom_draw_clouds(f, view, pass, depth, &error);
+        done = error.code == LOM_OK && lom_device_error(r->device)->code == LOM_OK;
+    }
+    return done;
 }
 
 bool lom_skip_water(struct frame *f, const char *reason)

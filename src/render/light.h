@@ -13,14 +13,14 @@ LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view,
                                             lom_float3 world, lom_float3 normal)
 {
     const struct lom_light_uniform *light = &view->light;
-    lom_float lambert = lom_lambert(light, normal);
+    lom_float share = lom_light_share(light, world), lambert = lom_lambert(light, normal) * share;
     struct lom_lit lit;
     lit.textured = lom_add3(lom_mul3(lom_uniform3(light->ambient), lom_uniform3(m->ambient)),
                             lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert));
     lit.highlight = lom_splat3(0, 0, 0);
     if (m->specular[0] != 0 || m->specular[1] != 0 || m->specular[2] != 0) {
         lom_float3 to_eye = lom_normalize3(lom_sub3(lom_uniform3(view->eye), world));
-        lom_float specular = lom_phong_specular(light, normal, to_eye, m->shininess);
+        lom_float specular = lom_phong_specular(light, normal, to_eye, m->shininess) * share;
         lit.highlight = lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->specular)), specular);
     }
     return lit;

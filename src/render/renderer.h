@@ -34,6 +34,14 @@ struct lom_terrain_block {
     lom_box bounds;
 };
 
+/* What clouds let through of the sun, over a plane: the shadows that fall on the ground and the water. */
+struct lom_ground_shadow {
+    lom_texture *texture;
+    bool falls;       /* on something, in this frame */
+    float s[4], t[4]; /* texture coordinates of a place (x, y, z, 1) */
+    uint64_t made_for;
+};
+
 struct lom_renderer {
     const lom_scene *scene;
     lom_device *device;
@@ -51,6 +59,7 @@ struct lom_renderer {
     struct lom_loaded_entity *entities;
     size_t entity_count;
     struct lom_cloud_set *clouds; /* NULL: none */
+    struct lom_ground_shadow ground_shadow;
 
     lom_texture *foam;           /* its pattern, or NULL */
     struct lom_polar_mesh polar; /* of displaced water */
@@ -90,6 +99,8 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
 /* Whether any of it but the sky would be drawn. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
+/* The same with the shadows of clouds that the frame has made. */
+struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer);
 /* Makes the targets for a frame of this size of which target_width x target_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int target_width, int target_height,
                       lom_error *error);

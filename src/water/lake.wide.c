@@ -106,7 +106,8 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     if (lake->has_tint)
         color = lom_mix3(color, lom_uniform3(lake->tint_color), lom_splat(lake->tint_amount));
     if (lake->has_specular) {
-        lom_float highlight = lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess);
+        lom_float highlight =
+            lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess) * lom_light_share(&lake->light, world);
         highlight = highlight * lake->specular_strength * lom_saturate(w.depth * 0.5f);
         color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
     }

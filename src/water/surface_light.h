@@ -242,7 +242,7 @@ LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const st
     lom_float f = lom_surface_fresnel(u, lom_dot3(h, p->to_eye)), square_y = hy * hy;
     lom_float radiance = 3.1415927f * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
     radiance = lom_select(bright, lom_min(radiance, lom_splat(1e4f)), (lom_float){ 0 });
-    return lom_scale3(lom_uniform3(u->light.color), radiance);
+    return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->world));
 }
 
 /* ---- foam ---- */
@@ -270,7 +270,7 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
 
 LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
-    lom_float lambert = lom_lambert(&u->light, p->normal);
+    lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->world);
     return lom_scale3(lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert)),
                       lom_splat(0.8f));
 }
