@@ -109,6 +109,10 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
+# The calls that tests/faults lets fail in turn.
+FAULTS = aligned_alloc lom_release pthread_create read write open fsync close rename
+$(BUILD)/tests/faults/%: LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
+
 # A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.
 $(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)

@@ -152,6 +152,10 @@ typedef lom_bytes (*lom_read_material)(void *context, const char *name, lom_erro
 /* The same with material files from read_material; NULL passes them over. */
 lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, lom_read_material read_material,
                               void *context, lom_error *error);
+/* What a change of may change the mesh or its look: the paths of the MTL files that the OBJ file names, whether they
+ * exist or not, and of the maps in them; one after the other, each ended by a zero byte (size 0: none). As far as the
+ * files are well formed. Freed with lom_release. */
+lom_bytes lom_list_obj_files(const char *path, lom_error *error);
 /* Writes positions, uv, normals and usemtl groups, numbers as lom_print_float; material_file (may be NULL) goes to
  * mtllib. Colours are written when any is not 1, 1, 1 (alpha never). Reading it back gives the same mesh when its
  * vertices are numbered by first use, but for uv below 2^-30. Fails for numbers that are not finite. */

@@ -51,6 +51,8 @@ typedef struct lom_frame {
 /* Draws one frame; any frame alone gives the bytes that it has in a run. False on failure (image is then NULL). */
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *frame, lom_error *error);
 
+/* Empty, or one sentence about what was passed over while loading, such as a material file that is not there. */
+const char *lom_renderer_warning(const lom_renderer *renderer);
 /* The device that draws, for its descriptor and counters. */
 const lom_device *lom_renderer_device(const lom_renderer *renderer);
 

@@ -273,6 +273,8 @@ static bool render_once(struct run *run, const char *path, lom_error *error)
     if (run->scene == NULL)
         return false;
     run->renderer = lom_create_renderer(run->scene, &device, error);
+    if (run->renderer != NULL && lom_renderer_warning(run->renderer)[0] != 0 && !v->quiet)
+        fprintf(stderr, "lom: warning: %s\n", lom_renderer_warning(run->renderer));
     bool done = run->renderer != NULL && open_stats(run, error) && draw_frames(run, error);
     return close_stats(run, error) && done;
 }
@@ -286,7 +288,7 @@ static void close_run(struct run *run)
 
 /* ---- watching ---- */
 
-enum { MAX_WATCHED = 512 };
+enum { MAX_WATCHED = 4096 };
 
 struct watched {
     size_t count;
@@ -326,6 +328,23 @@ static uint64_t fingerprint(const struct watched *w)
     return hash;
 }
 
+/* The files that an OBJ names: its materials and their pictures. */
+static void watch_mesh(struct watched *w, const char *path)
+{
+    lom_bytes paths = lom_list_obj_files(path, NULL);
+    for (size_t at = 0; at < paths.size; at += strlen((const char *)paths.data + at) + 1)
+        watch_file(w, (const char *)paths.data + at);
+    lom_release(paths.data);
+}
+
+static bool is_mesh(const lom_scene *scene, const char *path)
+{
+    for (size_t i = 0; i < scene->entity_count; i++)
+        if (scene->entities[i].mesh != NULL && strcmp(scene->entities[i].mesh, path) == 0)
+            return true;
+    return false;
+}
+
 /* After an error the files of the last good scene are watched as well, since the new ones are not known. */
 static void watch_scene(struct watched *w, const struct run *run, const char *path)
 {
@@ -337,8 +356,11 @@ static void watch_scene(struct watched *w, const struct run *run, const char *pa
         return;
     }
     forget(w);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         watch_file(w, files[i]);
+        if (is_mesh(run->scene, files[i]))
+            watch_mesh(w, files[i]);
+    }
 }
 
 static void watch(struct run *run, const char *path)

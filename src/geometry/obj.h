@@ -41,4 +41,9 @@ struct lom_obj {
 /* The mesh of what was read; checks that every index is in range. NULL on failure. */
 lom_mesh *lom_build_obj(struct lom_obj *obj);
 
+/* The path of a file that the file at `path` names: relative to its folder. Freed with lom_release. */
+char *lom_path_beside(const char *path, const char *name, lom_error *error);
+/* A lom_read_material; context points at the path of the OBJ file. */
+lom_bytes lom_read_beside(void *context, const char *name, lom_error *error);
+
 #endif

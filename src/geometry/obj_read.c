@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     CORNER_LIMIT = 1 << 28, /* of all faces: their indices fit 32 bits after triangulation */
@@ -304,14 +305,13 @@ lom_mesh *lom_decode_obj(const char *text, size_t size, const char *name, lom_er
     return lom_decode_obj_with(text, size, name, NULL, NULL, error);
 }
 
-/* context points at the path of the OBJ file. A name is never the standard input: "./" goes before it. */
-static lom_bytes read_beside(void *context, const char *name, lom_error *error)
+/* A name is never the standard input: "./" goes before it. */
+char *lom_path_beside(const char *path, const char *name, lom_error *error)
 {
-    const char *path = *(const char **)context;
     size_t folder = folder_length(path, strlen(path)), length = strlen(name);
     char *joined = lom_allocate(folder + length + 3, 1, error);
     if (joined == NULL)
-        return (lom_bytes){ 0 };
+        return NULL;
     if (folder == 0) {
         path = "./";
         folder = 2;
@@ -320,8 +320,19 @@ static lom_bytes read_beside(void *context, const char *name, lom_error *error)
         folder = 0;
     memcpy(joined, path, folder);
     memcpy(joined + folder, name, length + 1);
-    lom_bytes file = lom_read_file(joined, MATERIAL_FILE_LIMIT, error);
-    lom_release(joined);
+    return joined;
+}
+
+/* A file that is there and cannot be read is no missing one. */
+lom_bytes lom_read_beside(void *context, const char *name, lom_error *error)
+{
+    char *path = lom_path_beside(*(const char **)context, name, error);
+    if (path == NULL)
+        return (lom_bytes){ 0 };
+    lom_bytes file = lom_read_file(path, MATERIAL_FILE_LIMIT, error);
+    if (file.data == NULL && error->code == LOM_ERROR_FILE && access(path, F_OK) == 0)
+        error->code = LOM_ERROR_INPUT;
+    lom_release(path);
     return file;
 }
 
@@ -330,7 +341,7 @@ lom_mesh *lom_read_obj(const char *path, lom_error *error)
     lom_bytes file = lom_read_file(path, FILE_LIMIT, error);
     if (file.data == NULL)
         return NULL;
-    lom_mesh *mesh = lom_decode_obj_with((const char *)file.data, file.size, path, read_beside, &path, error);
+    lom_mesh *mesh = lom_decode_obj_with((const char *)file.data, file.size, path, lom_read_beside, &path, error);
     lom_release(file.data);
     return mesh;
 }

@@ -58,13 +58,22 @@ lom_image *lom_create_declared(const char *name, uint64_t width, uint64_t height
     return lom_create_image((int)width, (int)height, 1, format, error);
 }
 
-lom_image *lom_decode_image(const uint8_t *data, size_t size, const char *name, lom_error *error)
+static lom_image *decode(const uint8_t *data, size_t size, const char *name, lom_error *error)
 {
     for (size_t i = 0; i < sizeof decoders / sizeof *decoders; i++)
         if (size >= decoders[i].length && memcmp(data, decoders[i].signature, decoders[i].length) == 0)
             return decoders[i].decode(data, size, name, error);
     lom_fail(error, LOM_ERROR_INPUT, "%s: byte 0: this is no picture (PNG, PBM, PGM, PPM, PAM, PFM or NRRD).", name);
     return NULL;
+}
+
+lom_image *lom_decode_image(const uint8_t *data, size_t size, const char *name, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_image *image = decode(data, size, name, error);
+    lom_leave_float_state(&state);
+    return image;
 }
 
 lom_image *lom_read_image(const char *path, lom_error *error)
@@ -86,7 +95,7 @@ static bool is_kind(const char *text, const char *kind)
     return *text == 0;
 }
 
-lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *error)
+static lom_bytes encode(const char *kind, const lom_image *image, lom_error *error)
 {
     for (size_t i = 0; kind != NULL && i < sizeof encoders / sizeof *encoders; i++) {
         if (!is_kind(kind, encoders[i].kind))
@@ -99,6 +108,15 @@ lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *
     lom_fail(error, LOM_ERROR_USAGE, "There is no picture kind \"%s\" to write; it is png, ppm, pgm, pam, pfm or nrrd.",
              kind != NULL ? kind : "");
     return (lom_bytes){ 0 };
+}
+
+lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_bytes bytes = encode(kind, image, error);
+    lom_leave_float_state(&state);
+    return bytes;
 }
 
 bool lom_write_image(const char *path, const char *kind, const lom_image *image, lom_error *error)

@@ -14,7 +14,7 @@ static void match_channels(int from, int to, double (*rgba)[4], size_t count)
             rgba[i][0] = 0.2126 * rgba[i][0] + 0.7152 * rgba[i][1] + 0.0722 * rgba[i][2];
 }
 
-lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_error *error)
+static lom_image *convert(const lom_image *image, lom_format format, lom_error *error)
 {
     const lom_format_info *from = lom_describe_format(image->format), *to = lom_describe_format(format);
     if (from == NULL || to == NULL) {
@@ -43,4 +43,13 @@ lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_erro
     }
     lom_release(rgba);
     return out;
+}
+
+lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_image *converted = convert(image, format, error);
+    lom_leave_float_state(&state);
+    return converted;
 }

@@ -233,7 +233,7 @@ static void fill_decoded(lom_texture *texture)
 
 /* ---- public ---- */
 
-lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
+static lom_texture *create(const lom_texture_desc *desc, lom_error *error)
 {
     if (!check_desc(desc, error))
         return NULL;
@@ -257,6 +257,15 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
     }
     prepare_decoded(texture, desc);
     lom_finish_texture(texture);
+    return texture;
+}
+
+lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_texture *texture = create(desc, error);
+    lom_leave_float_state(&state);
     return texture;
 }
 
@@ -308,7 +317,7 @@ static void read_row(const lom_texture *texture, const void *row, int width, dou
     lom_encode_row(texture->format, (const double(*)[4])rgba, (size_t)width, to);
 }
 
-lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lom_error *error)
+static lom_image *read_level(const lom_texture *texture, int level, int layer, lom_error *error)
 {
     if (level < 0 || level >= texture->level_count || layer < -1 || layer >= lom_level_layers(texture, level)) {
         lom_fail(error, LOM_ERROR_USAGE, "The texture has no level %d with a layer %d.", level, layer);
@@ -327,6 +336,15 @@ lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lo
             read_row(texture, lom_texel(texture, level, 0, y, first + z), l->width, rgba,
                      lom_image_pixel(image, 0, y, z));
     lom_release(rgba);
+    return image;
+}
+
+lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_image *image = read_level(texture, level, layer, error);
+    lom_leave_float_state(&state);
     return image;
 }
 

@@ -112,7 +112,7 @@ static struct lom_selftest_uniforms make_uniforms(lom_device *device)
     lom_mat4 projection = lom_perspective(1.2, (double)WIDTH / HEIGHT, 0.4);
     lom_mat4 view = lom_look_at((lom_vec3){ 0.9, 0.7, 1.1 }, (lom_vec3){ 0.3, 0, 0 }, (lom_vec3){ 0.1, 1, 0 });
     lom_mat4 clip_from_world = lom_multiply(&projection, &view);
-    struct lom_selftest_uniforms u = { .light = { { 0.6f, 0.64f, 0.48f }, { 1, 1, 1 }, { 0, 0, 0 } },
+    struct lom_selftest_uniforms u = { .light = { .to_light = { 0.6f, 0.64f, 0.48f }, .color = { 1, 1, 1 } },
                                        .plane = { { 0.3f, 1, 0.2f, 0.25f }, { -1, 0.1f, 0.5f, 0.8f } },
                                        .depth = 0.375f };
     set_matrix(&u.clip_from_world, &clip_from_world);

@@ -165,8 +165,11 @@ void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
         lom_fail(&device->error, LOM_ERROR_USAGE, "A pass was begun inside another one.");
         return;
     }
+    lom_float_state state;
+    lom_enter_float_state(&state);
     device->uniforms_size = 0;
     device->in_pass = prepare_pass(device, desc);
+    lom_leave_float_state(&state);
     device->counters.passes += device->in_pass;
 }
 

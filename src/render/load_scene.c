@@ -191,6 +191,8 @@ static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const 
     renderer->entity_count++;
     if (loaded->drawn == NULL)
         return false;
+    if (renderer->warning[0] == 0)
+        memcpy(renderer->warning, loaded->drawn->warning, sizeof renderer->warning);
     loaded->world_from_model = place(renderer, entity, ground);
     if (!lom_normal_matrix(&loaded->world_from_model, &loaded->normal_from_model))
         return lom_fail(error, LOM_ERROR_INPUT, "%s: an entity's scale makes its matrix singular.", entity->mesh);

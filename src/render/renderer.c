@@ -25,13 +25,12 @@ lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc 
     lom_enter_float_state(&state);
     renderer->scene = scene;
     renderer->device = lom_open_device(desc);
-    bool done = renderer->device != NULL;
-    if (!done)
+    if (renderer->device == NULL)
         lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for a device.");
-    if (done && lom_device_error(renderer->device)->code != LOM_OK)
-        done =
-            lom_fail(error, lom_device_error(renderer->device)->code, "%s", lom_device_error(renderer->device)->text);
-    done = done && load(renderer, error);
+    const lom_error *failed = renderer->device != NULL ? lom_device_error(renderer->device) : error;
+    bool done = renderer->device != NULL && failed->code == LOM_OK && load(renderer, error);
+    if (renderer->device != NULL && failed->code != LOM_OK)
+        done = lom_fail(error, failed->code, "%s", failed->text);
     lom_leave_float_state(&state);
     if (done)
         return renderer;
@@ -59,6 +58,11 @@ void lom_free_renderer(lom_renderer *renderer)
     lom_release(renderer->textures);
     lom_close_device(renderer->device);
     lom_release(renderer);
+}
+
+const char *lom_renderer_warning(const lom_renderer *renderer)
+{
+    return renderer->warning;
 }
 
 const lom_device *lom_renderer_device(const lom_renderer *renderer)

@@ -45,6 +45,7 @@ struct lom_ground_shadow {
 struct lom_renderer {
     const lom_scene *scene;
     lom_device *device;
+    char warning[256];        /* of the first mesh that has one */
     lom_reference *reference; /* instead of all that follows, where the water's model is the reference */
 
     struct lom_cached_texture *textures;

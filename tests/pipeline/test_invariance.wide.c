@@ -2,9 +2,9 @@
  * device in another thread, and the float state the caller left behind; and that all widths give one picture: the
  * hashes of the float colours and depths are compared with one constant. The other tests hold the stages to oracles;
  * the constant only holds builds to one another, and a change of it is a change of LOM_PICTURE_VERSION. */
+#include "hostile.h"
 #include "stage.h"
 
-#include <fenv.h>
 #include <pthread.h>
 
 enum { WIDTH = 200, HEIGHT = 150, TRIANGLES = 1500 };
@@ -204,51 +204,16 @@ static void two_devices_in_two_threads(void)
     }
 }
 
-#if defined __x86_64__
-enum { FLUSH = 0x8040 }; /* FTZ and DAZ */
-static unsigned control(void)
-{
-    return __builtin_ia32_stmxcsr();
-}
-static void set_control(unsigned state)
-{
-    __builtin_ia32_ldmxcsr(state);
-}
-#else
-enum { FLUSH = 0 };
-static unsigned control(void)
-{
-    return 0;
-}
-static void set_control(unsigned state)
-{
-    (void)state;
-}
-#endif
-
 /* Rounding upward, denormals flushed, every exception a trap: the same bytes, and the caller's state is back. */
 static void the_callers_float_state_is_left_alone(void)
 {
-    static const int modes[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
     make_scene();
     hashes first = render((lom_device_desc){ .threads = 2 }, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < HOSTILE_MODES; i++) {
         stage s = open_stage((lom_device_desc){ .threads = 2 }, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
-        fenv_t environment;
-        feholdexcept(&environment);
-        unsigned before = control();
-        fesetround(modes[i]);
-        set_control(control() | FLUSH);
-#if defined __GLIBC__
-        feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT);
-#endif
-        unsigned set = control() & 0xffc0; /* all but the sticky flags */
+        hostile_state state = enter_hostile_state(hostile_modes[i]);
         draw_scene(&s);
-        unsigned left = control() & 0xffc0;
-        int mode = fegetround();
-        set_control(before);
-        fesetenv(&environment);
-        CHECK(left == set && mode == modes[i], "mode %d: state %x became %x", i, set, left);
+        CHECK(leave_hostile_state(&state), "mode %d: the caller's state is another", i);
         check_hashes((hashes){ lom_hash_image(s.image), lom_hash_image(s.depths) }, first, "mode", i);
         close_stage(&s);
     }

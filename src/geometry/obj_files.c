@@ -1,0 +1,60 @@
+/* The files that an OBJ file names. In: its path. Out: the paths of its material files and of their maps, as far as
+ * they can be read. Invariant: an OBJ or MTL file that is malformed still gives what it named before its mistake. */
+#include "obj.h"
+
+#include <string.h>
+
+struct list {
+    const char *obj;
+    lom_bytes paths; /* one after the other, each with its zero byte */
+    size_t capacity;
+};
+
+static bool add(struct list *list, const char *name, lom_error *error)
+{
+    char *path = lom_path_beside(list->obj, name, error);
+    if (path == NULL)
+        return false;
+    size_t size = strlen(path) + 1;
+    if (list->paths.size + size > list->capacity) {
+        uint8_t *larger = lom_allocate(2 * (list->capacity + size), 1, error);
+        if (larger == NULL) {
+            lom_release(path);
+            return false;
+        }
+        if (list->paths.size > 0)
+            memcpy(larger, list->paths.data, list->paths.size);
+        lom_release(list->paths.data);
+        list->paths.data = larger;
+        list->capacity = 2 * (list->capacity + size);
+    }
+    memcpy(list->paths.data + list->paths.size, path, size);
+    list->paths.size += size;
+    lom_release(path);
+    return true;
+}
+
+static lom_bytes list_and_read(void *context, const char *name, lom_error *error)
+{
+    struct list *list = context;
+    if (!add(list, name, error))
+        return (lom_bytes){ 0 };
+    return lom_read_beside(&list->obj, name, error);
+}
+
+lom_bytes lom_list_obj_files(const char *path, lom_error *error)
+{
+    struct list list = { .obj = path };
+    lom_error malformed = { .code = LOM_OK };
+    lom_bytes file = lom_read_file(path, SIZE_MAX, error);
+    if (file.data == NULL)
+        return (lom_bytes){ 0 };
+    lom_mesh *mesh = lom_decode_obj_with((const char *)file.data, file.size, path, list_and_read, &list, &malformed);
+    bool done = true;
+    for (size_t i = 0; mesh != NULL && done && i < mesh->material_count; i++)
+        if (mesh->materials[i].diffuse_map[0] != 0)
+            done = add(&list, mesh->materials[i].diffuse_map, error);
+    lom_free_mesh(mesh);
+    lom_release(file.data);
+    return list.paths;
+}

@@ -1,0 +1,128 @@
+#!/bin/sh
+# Proves what `lom render` and its kin make of bad scenes, files and arguments: status 2, one sentence on stderr that names
+# the file and the place, no output and no file, whatever is wrong.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/cli/cli.sh
+. tests/cli/scene.sh
+cd "$folder/scene" || exit 1
+
+# refuses TEXT ARGUMENTS...: status 2, one line that begins with "lom: " and has TEXT, nothing written.
+refuses() {
+    refuses_text=$1
+    shift
+    rm -f out.png
+    exits 2 "$lom" "$@" && complains "$refuses_text" && [ ! -s "$folder/out" ] && [ ! -e out.png ] || return 1
+    if [ "$(wc -l <"$folder/err")" -ne 1 ] || ! grep -q '^lom: ' "$folder/err"; then
+        echo "not one sentence:" && cat "$folder/err"
+        return 1
+    fi
+    [ -z "$(find . -name '.lom-*')" ]
+}
+
+good_scene() {
+    exits 0 "$lom" render scene.toml -o out.png && [ -s out.png ] && [ ! -s "$folder/err" ]
+}
+
+# Each line: the place and what is said | what goes where line 4 of the scene is.
+wrong_scenes() {
+    while IFS='|' read -r text line; do
+        sed "4s/.*/$line/; /^position/d" scene.toml >bad.toml
+        refuses "bad.toml:$text" render bad.toml -o out.png || return 1
+    done <<LINES
+4:2: unknown key "camrea" (did you mean "camera"?)|[camrea]
+4:9: unknown key "extra"|[camera.extra]
+4:8: "]" must close this header.|[camera
+4:7: "=" must follow the key "camera".|camera]
+5:12: |[camera]\\nposition = [0, 2]
+5:12: |[camera]\\nposition = "here"
+5:17: "field_of_view" is 180 but must be from 0.01 to 179|[camera]\\nfield_of_view = 180
+5:17: "field_of_view" is nan but must be|[camera]\\nfield_of_view = nan
+5:1: unknown key "positoin" (did you mean "position"?)|[camera]\\npositoin = [0, 2, 5]
+6:1: the key "near" stands in this table already (line 5).|[camera]\\nnear = 0.1\\nnear = 0.2
+5:8: "near" must be a number, not a date.|[camera]\\nnear = 1979-05-27
+5:8: "0x" is not a value of TOML.|[camera]\\nnear = 0x
+5:8: "near" must be a number, not a string.|[camera]\\nnear = "q"
+LINES
+}
+
+damaged_scenes() {
+    : >empty.toml
+    head -c 40 /dev/zero >nul.toml
+    printf 'title = "\377"\n' >utf8.toml
+    refuses "nul.toml:1:1: " render nul.toml -o out.png && refuses "utf8.toml:1:1" render utf8.toml -o out.png &&
+        exits 0 "$lom" render empty.toml --hash && refuses "absent.toml" render absent.toml -o out.png &&
+        refuses "." render . -o out.png
+}
+
+# A file that the scene names and that is absent, empty or no such file: the file's name and the place in it.
+wrong_files() {
+    for what in absent empty garbage cut; do
+        for file in box.obj skin.ppm box.mtl; do
+            cp $file kept
+            case $what in
+            absent) rm $file ;;
+            empty) : >$file ;;
+            garbage) printf 'f 1 2 \001\000\377\n' >$file ;;
+            cut) head -c 14 kept >$file ;;
+            esac
+            case $what$file in
+            absentbox.mtl | emptybox.mtl) # lenient: the material is the default one, and a warning says so
+                exits 0 "$lom" render scene.toml -o out.png && complains "warning: " && rm out.png || return 1 ;;
+            garbagebox.mtl) ;; # statements that are not known are passed over, but not a zero byte
+            cutbox.mtl) ;;
+            *) refuses "$file" render scene.toml -o out.png || { mv kept $file; return 1; } ;;
+            esac
+            mv kept $file
+        done
+    done
+    printf 'newmtl skin\nKd x\n' >kept && cp box.mtl good && mv kept box.mtl
+    refuses "box.mtl:2: " render scene.toml -o out.png || return 1
+    mv good box.mtl
+    sed 's/box.obj/bax.obj/' scene.toml >bad.toml
+    refuses 'bad.toml:11:8: ' render bad.toml -o out.png
+}
+
+# Each line: what is said | arguments behind `lom`.
+wrong_arguments() {
+    while IFS='|' read -r text arguments; do
+        # shellcheck disable=SC2086
+        refuses "$text" $arguments || return 1
+    done <<LINES
+render needs -o OUT|render scene.toml
+exclude one another|render scene.toml -o out.png --frame 1 --frames 1:2
+--size 0x5: whole numbers must be from 1 to 32768|render scene.toml -o out.png --size 0x5
+--size 99999x5: whole numbers must be|render scene.toml -o out.png --size 99999x5
+--size takes WxH|render scene.toml -o out.png --size 5
+crop 0,0,49,32 does not lie inside the frame of 48x32|render scene.toml -o out.png --crop 0,0,49,32
+--crop takes X,Y,W,H|render scene.toml -o out.png --crop 1,2,3
+--lanes takes auto|render scene.toml -o out.png --lanes 5
+--threads 0: whole numbers|render scene.toml -o out.png --threads 0
+--format takes png|render scene.toml -o out.png --format gif
+no picture kind "gif"|render scene.toml -o out.gif
+--set watre.level=1: unknown key "watre" (did you mean|render scene.toml -o out.png --set watre.level=1
+an override has the form KEY=VALUE|render scene.toml -o out.png --set water.level
+--set water.level=nan: "level" is nan|render scene.toml -o out.png --set water.level=nan
+nothing here is named "bax" (did you mean "box"?)|render scene.toml -o out.png --set entity.bax.visible=false
+absent/out.png: could not create|render scene.toml -o absent/out.png
+too few arguments|render -o out.png
+too many arguments|render scene.toml scene.toml -o out.png
+too few arguments|plan
+absent.toml: could not open|plan absent.toml
+no workload "clod" (did you mean "cloud"?)|bench clod -o out.png
+LINES
+}
+
+# What is hidden by a NaN or a single colour is refused with status 1, when asked.
+checks() {
+    printf '[sky]\ncolor = [0.5, 0.5, 0.5]\n' >flat.toml
+    exits 1 "$lom" render flat.toml --size 8x8 --check -o out.png && complains "one single colour" || return 1
+    exits 0 "$lom" render scene.toml --check -o out.png
+}
+
+check good_scene good_scene
+check wrong_scenes wrong_scenes
+check damaged_scenes damaged_scenes
+check wrong_files wrong_files
+check wrong_arguments wrong_arguments
+check check_refuses_one_colour checks
+exit $failures

@@ -1,0 +1,62 @@
+#!/bin/sh
+# Proves that `lom render --watch` draws again when the scene, a mesh, its material file or its picture changes, and goes on
+# after an error in each of them.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/cli/cli.sh
+. tests/cli/scene.sh
+cd "$folder/scene" || exit 1
+: >"$folder/err"
+"$lom" render scene.toml -o out.ppm --watch --quiet >"$folder/watch" 2>>"$folder/err" &
+watcher=$!
+trap 'kill $watcher 2>/dev/null; rm -rf "$folder"' EXIT
+
+drawn=0 # how many times so far
+errors=0
+
+# Waits until COUNT lines of stderr have TEXT.
+waits() {
+    tries=0
+    while [ "$(grep -c "$1" "$folder/err")" -lt "$2" ]; do
+        tries=$((tries + 1))
+        [ $tries -lt 200 ] || { echo "no \"$1\" number $2:"; cat "$folder/err"; return 1; }
+        sleep 0.05
+    done
+}
+
+# draws_after COMMAND...: the command changes a file; the picture is drawn again and is another one.
+draws_after() {
+    cp out.ppm before.ppm
+    sleep 0.06 # so that the change falls into a look of its own
+    "$@"
+    drawn=$((drawn + 1))
+    waits 'lom: drawn' $drawn && ! cmp -s out.ppm before.ppm
+}
+
+fails_after() {
+    cp out.ppm before.ppm
+    sleep 0.06
+    "$@"
+    errors=$((errors + 1))
+    waits "lom: [a-z]*[.][a-z]*:" $errors && cmp out.ppm before.ppm
+}
+
+put() { printf "$2" >"$1.new" && mv "$1.new" "$1"; }
+change() { sed "$2" "$1" >"$1.new" && mv "$1.new" "$1"; }
+
+first_picture() {
+    drawn=1
+    waits 'lom: drawn' 1 && [ -s out.ppm ]
+}
+
+# FILE, a sed command that changes the picture, and what makes the file a bad one.
+changes_and_mistakes() {
+    cp "$1" good
+    draws_after change "$1" "$2" && fails_after put "$1" "$3" && draws_after cp good "$1"
+}
+
+check first_picture first_picture
+check the_scene_and_its_mistakes changes_and_mistakes scene.toml 's/0, 2, 5/1, 2, 5/' '[camera\n'
+check the_mesh_and_its_mistakes changes_and_mistakes box.obj 's/v 0 2 0/v 0 3 0/' 'mtllib box.mtl\nf 1 2 3\n'
+check the_materials_and_their_mistakes changes_and_mistakes box.mtl 's/Kd 1 1 1/Kd 0.2 1 0.2/' 'newmtl skin\nKd x\n'
+check the_picture_and_its_mistakes changes_and_mistakes skin.ppm 's/^P6 2 2/P6 1 4/' 'P6 1 1\n'
+exit $failures

@@ -1,0 +1,180 @@
+/* Proves that no byte depends on the float state that the caller left behind (rounding in any direction, denormals
+ * flushed, every exception a trap), and that the caller finds it again: for pictures, textures, files, meshes, and a
+ * whole scene read, loaded and drawn, on one thread and on several. */
+#include "check.h"
+#include "hostile.h"
+#include "small_scene.h"
+
+#include <lom/texture.h>
+
+/* A task gives a hash of what it made; 0 on failure. */
+typedef uint64_t task(lom_error *error);
+
+static uint64_t draw_alone(lom_error *error)
+{
+    uint64_t hash;
+    draw_small_scene(&(lom_device_desc){ .threads = 1 }, &hash, error);
+    return hash;
+}
+
+static uint64_t draw_with_workers(lom_error *error)
+{
+    uint64_t hash;
+    draw_small_scene(&(lom_device_desc){ .threads = 3, .tile = 16 }, &hash, error);
+    return hash;
+}
+
+/* Floats of all sizes, denormals among them; no arithmetic of floats here, which would trap. */
+static lom_image *make_floats(lom_error *error)
+{
+    lom_image *image = lom_create_image(9, 7, 1, LOM_FORMAT_RGBA32F, error);
+    for (size_t i = 0; image != NULL && i < 9 * 7 * 4; i++) {
+        uint32_t exponent = (uint32_t)(i % 3 == 0 ? 120 + i % 9 : i % 140),
+                 bits = exponent << 23 | (uint32_t)(i * 78901);
+        memcpy(image->pixels + 4 * i, &bits, 4);
+    }
+    return image;
+}
+
+static uint64_t hash_and_free(lom_image *image, uint64_t hash)
+{
+    if (image != NULL) {
+        uint64_t own = lom_hash_image(image);
+        hash = lom_hash_bytes(hash, &own, sizeof own);
+    }
+    lom_free_image(image);
+    return hash;
+}
+
+static uint64_t convert(lom_error *error)
+{
+    static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGB8_SRGB, LOM_FORMAT_R16, LOM_FORMAT_RGBA16F,
+                                          LOM_FORMAT_R32F };
+    lom_image *image = make_floats(error);
+    uint64_t hash = LOM_HASH_START;
+    for (int i = 0; image != NULL && i < 5; i++)
+        hash = hash_and_free(lom_convert_image(image, formats[i], error), hash);
+    lom_free_image(image);
+    return hash;
+}
+
+static uint64_t make_levels(lom_error *error)
+{
+    static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_RGBA16,
+                                          LOM_FORMAT_RGBA16F, LOM_FORMAT_RGBA32F };
+    lom_image *image = make_floats(error);
+    uint64_t hash = LOM_HASH_START;
+    for (int i = 0; image != NULL && i < 5; i++) {
+        lom_image *same = lom_convert_image(image, formats[i], error);
+        lom_texture *texture = lom_create_texture(&(lom_texture_desc){ .width = 9,
+                                                                       .height = 7,
+                                                                       .format = formats[i],
+                                                                       .pixels = same == NULL ? NULL : same->pixels,
+                                                                       .mips = LOM_MIPS_ALL },
+                                                  error);
+        for (int level = 0; texture != NULL && level < lom_texture_levels(texture); level++)
+            hash = hash_and_free(lom_read_texture(texture, level, 0, error), hash);
+        lom_free_texture(texture);
+        lom_free_image(same);
+    }
+    lom_free_image(image);
+    return hash;
+}
+
+static uint64_t code_pictures(lom_error *error)
+{
+    static const char *const kinds[] = { "png", "ppm", "pam", "pfm" };
+    static const lom_format formats[] = { LOM_FORMAT_RGB8, LOM_FORMAT_RGB16, LOM_FORMAT_RGBA8, LOM_FORMAT_RGB32F };
+    lom_image *image = make_floats(error);
+    uint64_t hash = LOM_HASH_START;
+    for (int i = 0; image != NULL && i < 4; i++) {
+        lom_image *same = lom_convert_image(image, formats[i], error);
+        lom_bytes bytes = same == NULL ? (lom_bytes){ 0 } : lom_encode_image(kinds[i], same, error);
+        if (bytes.data != NULL) {
+            hash = lom_hash_bytes(hash, bytes.data, bytes.size);
+            hash = hash_and_free(lom_decode_image(bytes.data, bytes.size, "picture", error), hash);
+        }
+        lom_release(bytes.data);
+        lom_free_image(same);
+    }
+    static const char scaled[] = "Pf 2 1 3.7\n\x3f\x80\x00\x00\x00\x00\x00\x07";
+    hash = hash_and_free(lom_decode_image((const uint8_t *)scaled, sizeof scaled - 1, "scaled", error), hash);
+    lom_free_image(image);
+    return hash;
+}
+
+static uint64_t read_mesh(lom_error *error)
+{
+    lom_mesh *mesh = lom_read_obj(small_path("box.obj"), error);
+    if (mesh == NULL)
+        return 0;
+    uint64_t hash = lom_hash_bytes(LOM_HASH_START, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    lom_free_mesh(mesh);
+    return hash;
+}
+
+static uint64_t compare(lom_error *error)
+{
+    lom_image *a = lom_read_image(small_path("color.png"), error), *b = lom_read_image(small_path("normal.png"), error);
+    lom_comparison result;
+    double ssim = 0, flip = 0;
+    uint64_t hash = 0;
+    memset(&result, 0, sizeof result);
+    if (a != NULL && b != NULL && lom_compare_images(a, b, &result, error) && lom_compare_ssim(a, b, &ssim, error) &&
+        lom_compare_flip(a, b, &flip, error)) {
+        double found[] = { result.rmse, result.psnr, ssim, flip };
+        hash = lom_hash_bytes(LOM_HASH_START, found, sizeof found);
+    }
+    lom_free_image(a);
+    lom_free_image(b);
+    return hash;
+}
+
+static void check_task(task *run, const char *name)
+{
+    lom_error error = { 0 };
+    uint64_t first = run(&error);
+    CHECK(error.code == LOM_OK && first != 0, "%s: %s", name, error.text);
+    for (int i = 0; i < HOSTILE_MODES; i++) {
+        hostile_state state = enter_hostile_state(hostile_modes[i]);
+        uint64_t hash = run(&error);
+        CHECK(leave_hostile_state(&state), "%s, mode %d: the caller's state is another", name, i);
+        CHECK(hash == first, "%s, mode %d: %016llx, not %016llx; %s", name, i, (unsigned long long)hash,
+              (unsigned long long)first, error.text);
+    }
+}
+
+static void pictures_do_not_see_it(void)
+{
+    check_task(convert, "conversions");
+    check_task(code_pictures, "files");
+    check_task(compare, "comparison");
+}
+
+static void textures_do_not_see_it(void)
+{
+    check_task(make_levels, "levels");
+}
+
+static void meshes_do_not_see_it(void)
+{
+    check_task(read_mesh, "a mesh");
+}
+
+static void scenes_do_not_see_it(void)
+{
+    check_task(draw_alone, "a scene");
+    check_task(draw_with_workers, "a scene with workers");
+}
+
+int main(int argc, char **argv)
+{
+    if (!make_small_scene())
+        return 1;
+    RUN(pictures_do_not_see_it);
+    RUN(textures_do_not_see_it);
+    RUN(meshes_do_not_see_it);
+    RUN(scenes_do_not_see_it);
+    remove_small_scene();
+    return check_result();
+}
