@@ -245,6 +245,13 @@ typedef struct lom_height_map_desc {
  * deepest bed, white the highest summit; the high range lies at the top (-z). */
 lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error);
 
+/* The height map of a coast, 16-bit gray, size (2..4096) pixels a side, for a terrain of 400 x 400 m and 64 m height
+ * with its base at -20: "lagoon" (a bay behind a reef), "cove" (a beach between headlands), "river". The sea, or the
+ * river's water, stands at 0. Freed with lom_free_image. */
+lom_image *lom_make_coast(const char *name, int size, uint64_t seed, lom_error *error);
+/* The names of the coasts, from 0; NULL behind the last. */
+const char *lom_coast_name(size_t index);
+
 typedef struct lom_albedo_desc {
     const char *name; /* one that lom_albedo_name gives */
     int size;         /* pixels a side, 64..4096; 0: what suits the name */

@@ -51,6 +51,11 @@ static bool make_height_map(const recipe *r, const parameters *p, const char *pa
     return write_and_free(path, lom_make_height_map(&(lom_height_map_desc){ p->size, p->seed }, error), error);
 }
 
+static bool make_coast(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    return write_and_free(path, lom_make_coast(r->name, p->size, p->seed, error), error);
+}
+
 static bool make_normal_map(const recipe *r, const parameters *p, const char *path, lom_error *error)
 {
     (void)r;
@@ -166,6 +171,9 @@ static bool make_entity(const recipe *r, const parameters *p, const char *path, 
 
 static const recipe recipes[] = {
     { "height-map", NULL, "terrain/height.png", make_height_map, { .size = 1024, .seed = 3 } },
+    { "coast", "lagoon", "terrain/lagoon.png", make_coast, { .size = 512, .seed = 1 } },
+    { "coast", "cove", "terrain/cove.png", make_coast, { .size = 512, .seed = 1 } },
+    { "coast", "river", "terrain/river.png", make_coast, { .size = 512, .seed = 1 } },
     { "albedo", "grass", "terrain/grass.png", make_albedo, { .seed = 1 } },
     { "albedo", "forest", "terrain/forest.png", make_albedo, { .seed = 1 } },
     { "albedo", "rock", "terrain/rock.png", make_albedo, { .seed = 1 } },
@@ -178,6 +186,21 @@ static const recipe recipes[] = {
       "sky/%s.png",
       make_sky_box,
       { .size = 1024, .seed = 2, .azimuth = 62, .elevation = 26, .haziness = 0.8, .cloudiness = 0.7 } },
+    { "sky-box",
+      "sunset",
+      "sky/sunset/%s.png",
+      make_sky_box,
+      { .size = 512, .seed = 5, .azimuth = 20, .elevation = 5, .haziness = 1.6, .cloudiness = 0.6 } },
+    { "sky-box",
+      "noon",
+      "sky/noon/%s.png",
+      make_sky_box,
+      { .size = 512, .seed = 4, .azimuth = 150, .elevation = 60, .haziness = 0.7, .cloudiness = 0.35 } },
+    { "sky-box",
+      "gale",
+      "sky/gale/%s.png",
+      make_sky_box,
+      { .size = 512, .seed = 9, .azimuth = 300, .elevation = 30, .haziness = 3, .cloudiness = 1 } },
     { "entity", "boat", "entities/boat.obj", make_entity, { .seed = 1 } },
     { "entity", "jetty", "entities/jetty.obj", make_entity, { .seed = 1 } },
     { "entity", "cabin", "entities/cabin.obj", make_entity, { .seed = 1 } },
@@ -216,9 +239,9 @@ static const lom_option options[] = {
 static const lom_command_line line = {
     .name = "make",
     .arguments = "KIND [NAME]",
-    .summary =
-        "Makes a picture, a mesh or a volume: height-map, normal-map, flow-map, sky-box, albedo NAME, entity NAME, "
-        "cloud NAME; or all",
+    .summary = "Makes a picture, a mesh or a volume: height-map, coast NAME, normal-map, flow-map, sky-box, albedo "
+               "NAME, entity NAME, "
+               "cloud NAME; or all",
     .details = "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
                "options a\n"
                "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"

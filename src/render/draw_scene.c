@@ -169,7 +169,8 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     struct lom_view_uniform uniform = { .clip_from_world = to_uniform(&clip_from_world),
                                         .light = lom_renderer_light(renderer),
-                                        .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z } };
+                                        .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
+                                        .caustics = view->caustics };
     struct culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
     for (int i = 0; i < 4; i++)
         uniform.plane[i] = (float)view->plane[i];

@@ -10,11 +10,12 @@
 static bool draw_opaque(struct frame *f, lom_error *error);
 
 static bool (*const stages[])(struct frame *f, lom_error *error) = {
-    lom_prepare_clouds,   /* their light */
-    draw_opaque,          /* terrain, entities and sky */
-    lom_draw_lake_stage,  /* tinted or planar water over them */
-    lom_draw_sea_stage,   /* or water with waves */
-    lom_draw_cloud_stage, /* clouds over all */
+    lom_prepare_clouds,    /* their light */
+    lom_prepare_sea_stage, /* the waves, and what they do to the light on what follows */
+    draw_opaque,           /* terrain, entities and sky */
+    lom_draw_lake_stage,   /* tinted or planar water over them */
+    lom_draw_sea_stage,    /* or water with waves */
+    lom_draw_cloud_stage,  /* clouds over all */
 };
 
 lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)

@@ -13,8 +13,10 @@ struct frame {
     lom_rect crop;     /* the part of it that is drawn: what the targets color, depth and mask hold */
     double time;       /* seconds */
     lom_camera_view camera;
-    struct lom_scene_view view; /* the camera's, with the sky and no clip plane */
-    lom_rect water;             /* where a surface of water is seen, in frame pixels; width 0: nowhere */
+    struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
+    lom_rect water;                 /* where a surface of water is seen, in frame pixels; width 0: nowhere */
+    struct lom_waves_uniform waves; /* of water with waves, at this time */
+    bool below;                     /* the eye is under water with waves */
     lom_plan *plan;
 };
 
@@ -32,6 +34,7 @@ lom_image *lom_draw_reference(struct frame *f, lom_error *error);
 
 /* The stages of other files. False: the error, or the device's, says why. */
 bool lom_draw_lake_stage(struct frame *f, lom_error *error);
+bool lom_prepare_sea_stage(struct frame *f, lom_error *error);
 bool lom_draw_sea_stage(struct frame *f, lom_error *error);
 bool lom_prepare_clouds(struct frame *f, lom_error *error); /* makes their light before anything is drawn */
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error);

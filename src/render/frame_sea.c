@@ -10,7 +10,6 @@
 struct sea {
     struct lom_surface_uniforms uniforms;
     lom_mat4 clip_from_world;
-    bool below; /* the eye is */
 };
 
 static void set_matrix(struct lom_matrix_uniform *out, const lom_mat4 *m)
@@ -92,6 +91,9 @@ static void look_at_sea(struct sea *sea, struct frame *f)
     set_sky(&u->sky, f->renderer);
     set_foam(&u->foam, f);
     set_rays(u->ray, &f->view);
+    u->waves = f->waves;
+    u->side = f->below ? -1 : 1;
+    u->eta = (float)(f->below ? f->scene->water.optics.index : 1 / f->scene->water.optics.index);
     u->eye[0] = (float)f->view.eye.x;
     u->eye[1] = (float)f->view.eye.y;
     u->eye[2] = (float)f->view.eye.z;
@@ -105,19 +107,35 @@ static void look_at_sea(struct sea *sea, struct frame *f)
     }
 }
 
-/* The eye's side of the surface, where it is over or under the quad. */
-static void find_side(struct sea *sea, const struct frame *f)
+/* ---- before the scene is drawn ---- */
+
+static bool has_waves(const struct frame *f)
 {
-    struct lom_surface_uniforms *u = &sea->uniforms;
+    const lom_water_params *water = &f->scene->water;
+    return water->given != 0 && water->enabled && f->scene->quality.water >= LOM_WATER_NORMAL_MAP;
+}
+
+/* Whether the eye is below the surface, where it is over or under the quad. */
+static bool is_below(const struct frame *f)
+{
+    const lom_water_params *water = &f->scene->water;
     const lom_vec3 *eye = &f->view.eye;
-    bool inside = eye->x >= (double)u->quad[0] && eye->x <= (double)u->quad[2] && eye->z >= (double)u->quad[1] &&
-                  eye->z <= (double)u->quad[3];
-    double level = f->scene->water.level;
-    if (f->scene->quality.water != LOM_WATER_NORMAL_MAP && inside)
-        level += lom_wave_height(f->renderer, &u->waves, eye->x, eye->z);
-    sea->below = inside && eye->y < level;
-    u->side = sea->below ? -1 : 1;
-    u->eta = (float)(sea->below ? f->scene->water.optics.index : 1 / f->scene->water.optics.index);
+    double x = eye->x - water->position[0], z = eye->z - water->position[1], level = water->level;
+    if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
+        return false;
+    if (f->scene->quality.water != LOM_WATER_NORMAL_MAP)
+        level += lom_wave_height(f->renderer, &f->waves, eye->x, eye->z);
+    return eye->y < level;
+}
+
+bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
+{
+    if (!has_waves(f))
+        return true;
+    if (!lom_fill_waves(f->renderer, &f->waves, f->time, error))
+        return false;
+    f->below = is_below(f);
+    return !f->below || lom_draw_caustics(f, error);
 }
 
 /* ---- where it may be seen ---- */
@@ -177,9 +195,89 @@ static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_err
 
 static const float nothing[4] = { 0, 0, 0, 0 };
 
-static lom_rect lookups(const struct frame *f, const lom_texture *picture)
+static lom_rect lookups(const struct frame *f, const struct lom_window *window, const lom_texture *picture)
 {
-    return lom_water_reach(f, f->scene->water.optics.reach, lom_texture_width(picture), lom_texture_height(picture));
+    lom_rect r = lom_water_reach(f, window, f->scene->water.optics.reach, lom_texture_width(picture),
+                                 lom_texture_height(picture));
+    /* Levels of detail: a lookup reads texels up to two of the coarsest level away. */
+    int more = 3 << LOM_BLUR_LEVELS, x1 = r.x + r.width + more, y1 = r.y + r.height + more;
+    r.x = r.x > more ? r.x - more : 0;
+    r.y = r.y > more ? r.y - more : 0;
+    r.width = (x1 < lom_texture_width(picture) ? x1 : lom_texture_width(picture)) - r.x;
+    r.height = (y1 < lom_texture_height(picture) ? y1 : lom_texture_height(picture)) - r.y;
+    return r;
+}
+
+/* The picture's matrix, and where it has the frame's pixels. */
+static void set_picture(struct lom_picture_uniform *out, const struct frame *f, const struct lom_window *window,
+                        const lom_mat4 *clip_from_world, lom_texture *color, lom_texture *depth)
+{
+    double width = window->high[0] - window->low[0], height = window->high[1] - window->low[1];
+    set_matrix(&out->clip_from_world, clip_from_world);
+    out->color = color;
+    out->depth = depth;
+    out->scale[0] = (float)(2 / (width * f->width));
+    out->scale[1] = (float)(2 / (height * f->height));
+    out->offset[0] = (float)((-1 - window->low[0]) / width);
+    out->offset[1] = (float)((window->high[1] - 1) / height);
+}
+
+/* Clip coordinates in which the window is what -1..1 was. */
+static lom_mat4 zoom_to(const struct lom_window *window, const lom_mat4 *projection)
+{
+    lom_mat4 zoom = lom_identity();
+    for (int i = 0; i < 2; i++) {
+        zoom.m[i][i] = 2 / (window->high[i] - window->low[i]);
+        zoom.m[i][3] = -(window->high[i] + window->low[i]) / (window->high[i] - window->low[i]);
+    }
+    return lom_multiply(&zoom, projection);
+}
+
+/* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it.
+ * False where it does not meet the surface, or does not pass. */
+static bool bend_ray(const struct sea *sea, const struct frame *f, double x, double y, double out[2])
+{
+    const float(*r)[3] = sea->uniforms.ray;
+    double d[3], side = f->below ? -1 : 1, eta = (double)sea->uniforms.eta;
+    for (int i = 0; i < 3; i++)
+        d[i] = (double)r[i][0] * x + (double)r[i][1] * y + (double)r[i][2];
+    double size = lom_double_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = -side * d[1] / size;
+    double square = 1 - eta * eta * (1 - c * c);
+    if (c <= 0 || square <= 0)
+        return false;
+    double bent[3] = { eta * d[0] / size, -side * lom_double_sqrt(square), eta * d[2] / size }, view[3] = { 0, 0, 0 };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            view[i] += f->view.view.m[i][k] * bent[k];
+    double w = -view[2] > 0.1 ? -view[2] : 0.1;
+    out[0] = view[0] / w * f->view.projection.m[0][0];
+    out[1] = view[1] / w * f->view.projection.m[1][1];
+    return true;
+}
+
+/* What the picture behind the surface has to show: all that rays of the view, bent at still water, can see, and a
+ * margin for waves; of the view itself what is not above the horizon. A function of the whole frame's camera. */
+static struct lom_window bent_window(const struct sea *sea, const struct frame *f)
+{
+    struct lom_window window = lom_whole_view;
+    double top = -1, bent[2];
+    if (!sea->uniforms.bent && !f->below)
+        return window;
+    for (int i = 0; i <= 64; i++) {
+        double x = i % 8 / 3.5 - 1, y = i / 8 / 4.0 - 1;
+        if (!bend_ray(sea, f, x, y, bent))
+            continue;
+        top = y > top ? y : top;
+        for (int k = 0; k < 2; k++) {
+            double margin = 0.12 * (bent[k] < 0 ? -1 : 1), at = bent[k] + margin;
+            at = at < -3 ? -3 : at > 3 ? 3 : at;
+            window.low[k] = at < window.low[k] ? at : window.low[k];
+            window.high[k] = at > window.high[k] ? at : window.high[k];
+        }
+    }
+    if (!f->below && window.high[1] <= 1 && top + 0.5 < 1) /* rows of rays are a quarter apart */
+        window.high[1] = top + 0.5;
+    return window;
 }
 
 /* The scene on the eye's side (above: 1, below: -1), less the clip offset. */
@@ -199,18 +297,17 @@ static bool draw_mirrored(struct sea *sea, struct frame *f)
     view.view = lom_multiply(&f->view.view, &mirror);
     view.eye.y = 2 * f->scene->water.level - f->view.eye.y;
     view.mirrored = true;
-    clip_at(&view, f, sea->below ? -1 : 1, 0);
+    clip_at(&view, f, f->below ? -1 : 1, 0);
     if (!lom_shows_scene(r, &view)) {
-        lom_add_step(f, "reflection", false, "nothing but %s is reflected", sea->below ? "water" : "the sky");
+        lom_add_step(f, "reflection", false, "nothing but %s is reflected", f->below ? "water" : "the sky");
         return true;
     }
     lom_step *step =
         lom_add_step(f, "reflection", true, "terrain and entities on the eye's side, mirrored in the level");
     lom_mat4 clip = lom_multiply(&sea->clip_from_world, &mirror);
-    set_matrix(&sea->uniforms.mirrored.clip_from_world, &clip);
-    sea->uniforms.mirrored.color = r->reflection;
-    sea->uniforms.mirrored.depth = r->reflection_depth;
-    return lom_draw_picture(f, step, r->reflection, r->reflection_depth, &view, nothing, lookups(f, r->reflection));
+    set_picture(&sea->uniforms.mirrored, f, &lom_whole_view, &clip, r->reflection, r->reflection_depth);
+    return lom_draw_picture(f, step, r->reflection, r->reflection_depth, &view, nothing,
+                            lookups(f, &lom_whole_view, r->reflection));
 }
 
 static bool draw_behind(struct sea *sea, struct frame *f)
@@ -218,16 +315,18 @@ static bool draw_behind(struct sea *sea, struct frame *f)
     lom_renderer *r = f->renderer;
     struct lom_scene_view view = f->view;
     const struct lom_waves_uniform *waves = &sea->uniforms.waves;
-    clip_at(&view, f, sea->below ? 1 : -1, sea->below ? -(double)waves->lowest : (double)waves->highest);
+    struct lom_window window = bent_window(sea, f);
+    view.projection = zoom_to(&window, &f->view.projection);
+    clip_at(&view, f, f->below ? 1 : -1, f->below ? -(double)waves->lowest : (double)waves->highest);
     if (!lom_shows_scene(r, &view)) {
-        lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", sea->below ? "the sky" : "water");
+        lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", f->below ? "the sky" : "water");
         return true;
     }
     lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities behind the surface, with their depth");
-    set_matrix(&sea->uniforms.behind.clip_from_world, &sea->clip_from_world);
-    sea->uniforms.behind.color = r->refraction;
-    sea->uniforms.behind.depth = r->refraction_depth;
-    return lom_draw_picture(f, step, r->refraction, r->refraction_depth, &view, nothing, lookups(f, r->refraction));
+    lom_mat4 clip = lom_multiply(&view.projection, &view.view);
+    set_picture(&sea->uniforms.behind, f, &window, &clip, r->refraction, r->refraction_depth);
+    return lom_draw_picture(f, step, r->refraction, r->refraction_depth, &view, nothing,
+                            lookups(f, &window, r->refraction));
 }
 
 /* ---- the surface ---- */
@@ -326,21 +425,19 @@ static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
         return false;
     if (f->water.width == 0)
         return lom_skip_water(f, "the scene hides all of the water");
+    if (!f->below && !lom_draw_caustics(f, error))
+        return false;
     return draw_mirrored(sea, f) && draw_behind(sea, f) && draw_surface(sea, f, error);
 }
 
 bool lom_draw_sea_stage(struct frame *f, lom_error *error)
 {
-    const lom_water_params *water = &f->scene->water;
     struct sea sea;
-    if (water->given == 0 || !water->enabled || f->scene->quality.water < LOM_WATER_NORMAL_MAP)
+    if (!has_waves(f))
         return true;
     memset(&sea, 0, sizeof sea);
-    if (!lom_fill_waves(f->renderer, &sea.uniforms.waves, f->time, error))
-        return false;
     look_at_sea(&sea, f);
-    find_side(&sea, f);
     if (!draw_seen(&sea, f, error))
         return false;
-    return !sea.below || draw_underwater(&sea, f);
+    return !f->below || draw_underwater(&sea, f);
 }

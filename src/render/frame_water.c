@@ -3,6 +3,8 @@
  * byte. */
 #include "render/frame_water.h"
 
+const struct lom_window lom_whole_view = { { -1, -1 }, { 1, 1 } };
+
 bool lom_find_water(struct frame *f, lom_error *error)
 {
     lom_image *mask = lom_read_texture(f->renderer->mask, 0, 0, error);
@@ -26,20 +28,28 @@ bool lom_find_water(struct frame *f, lom_error *error)
     return true;
 }
 
-lom_rect lom_water_reach(const struct frame *f, double reach, int width, int height)
+/* Frame pixels from..to of an axis as pixels of a picture, grown by `reach` parts of it and two, within it. The axis
+ * runs from low to high in normalised device coordinates as pixels do. */
+static void map_range(int from, int to, int frame, double low, double high, double reach, int size, int *first,
+                      int *count)
+{
+    double scale = 2.0 / (frame * (high - low)), offset = (-1 - low) / (high - low);
+    double a = lom_double_floor((from * scale + offset - reach) * size) - 2;
+    double b = lom_double_floor((to * scale + offset + reach) * size) + 3;
+    *first = a < 0 ? 0 : a < size ? (int)a : size - 1;
+    *count = (b > size ? size : b < 1 ? 1 : (int)b) - *first;
+    *count = *count < 1 ? 1 : *count;
+}
+
+lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window, double reach, int width, int height)
 {
     const lom_rect *w = &f->water;
-    int rx = (int)(reach * width) + 2, ry = (int)(reach * height) + 2;
+    lom_rect r = { 0, 0, width, height };
     if (!f->scene->quality.scissor)
-        return (lom_rect){ 0, 0, width, height };
-    int x0 = (int)((int64_t)w->x * width / f->width) - rx, y0 = (int)((int64_t)w->y * height / f->height) - ry;
-    int x1 = (int)((int64_t)(w->x + w->width) * width / f->width) + 1 + rx;
-    int y1 = (int)((int64_t)(w->y + w->height) * height / f->height) + 1 + ry;
-    x0 = x0 < 0 ? 0 : x0;
-    y0 = y0 < 0 ? 0 : y0;
-    x1 = x1 > width ? width : x1;
-    y1 = y1 > height ? height : y1;
-    return (lom_rect){ x0, y0, x1 - x0, y1 - y0 };
+        return r;
+    map_range(w->x, w->x + w->width, f->width, window->low[0], window->high[0], reach, width, &r.x, &r.width);
+    map_range(w->y, w->y + w->height, f->height, -window->high[1], -window->low[1], reach, height, &r.y, &r.height);
+    return r;
 }
 
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,

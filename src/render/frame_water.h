@@ -4,16 +4,24 @@
 
 #include "render/frame.h"
 
+/* The part of the view that a picture shows, in normalised device coordinates: left, right, bottom, top. */
+struct lom_window {
+    double low[2], high[2];
+};
+extern const struct lom_window lom_whole_view;
+
 /* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there is
  * none.
  */
 bool lom_find_water(struct frame *f, lom_error *error);
 /* The part of a picture of the scene (scaled to width x height) that lookups from the visible water can reach: `reach`
  * parts of the picture away, and a texel of filtering. The whole picture when quality.scissor is off. */
-lom_rect lom_water_reach(const struct frame *f, double reach, int width, int height);
+lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window, double reach, int width, int height);
 /* Draws the scene into a picture of its own. */
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
                       const struct lom_scene_view *view, const float clear[4], lom_rect scissor);
+/* Makes the caustics of f->waves and points f->view at them; or says in the plan why there are none. */
+bool lom_draw_caustics(struct frame *f, lom_error *error);
 /* Adds "left out" to the plan for every pass of the water, for this reason. True. */
 bool lom_skip_water(struct frame *f, const char *reason);
 /* Begins the pass that draws the surface over the finished scene, where water is seen. */

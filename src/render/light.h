@@ -9,11 +9,29 @@ struct lom_lit {
     lom_float3 textured, highlight;
 };
 
+/* The sunlight at a point in parts of the sun's: what the waves above it focus, fading in below the level and out at
+ * the borders of the map. */
+LOM_INLINE lom_float lom_caustic_light(const struct lom_view_uniform *view, lom_float3 world)
+{
+    const struct lom_caustics_uniform *c = &view->caustics;
+    lom_float one = lom_splat(1.0f);
+    if (c->map == NULL || !lom_any(world.y < c->level))
+        return one;
+    lom_float s = (world.x - c->corner[0]) * c->scale, t = (world.z - c->corner[1]) * c->scale;
+    lom_float border = lom_min(lom_min(s, one - s), lom_min(t, one - t));
+    lom_float share = lom_saturate(border * 10.0f) * lom_saturate((c->level - world.y) * 3.0f) * c->strength;
+    lom_float3 away = lom_sub3(world, lom_uniform3(view->eye));
+    lom_float texels = lom_sqrt(lom_dot3(away, away)) * c->lod_scale;
+    lom_float light = lom_sample(c->map, s, t, lom_log2(lom_max(texels, one))).x;
+    return lom_max(lom_mix(one, light, share), (lom_float){ 0 });
+}
+
 LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
                                             lom_float3 world, lom_float3 normal)
 {
     const struct lom_light_uniform *light = &view->light;
-    lom_float share = lom_light_share(light, world), lambert = lom_lambert(light, normal) * share;
+    lom_float share = lom_light_share(light, world);
+    lom_float lambert = lom_lambert(light, normal) * share * lom_caustic_light(view, world);
     struct lom_lit lit;
     lit.textured = lom_add3(lom_mul3(lom_uniform3(light->ambient), lom_uniform3(m->ambient)),
                             lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert));

@@ -62,7 +62,9 @@ struct lom_renderer {
     struct lom_cloud_set *clouds; /* NULL: none */
     struct lom_ground_shadow ground_shadow;
 
-    lom_texture *foam;           /* its pattern, or NULL */
+    lom_texture *foam; /* its pattern, or NULL */
+    lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
+    lom_texture *photons, *caustics;
     struct lom_polar_mesh polar; /* of displaced water */
 
     /* targets, remade when the size changes */
@@ -77,6 +79,8 @@ lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool col
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error);
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
+/* The terrain's heights as a texture of width x height, where caustics need them. */
+bool lom_load_bed(lom_renderer *renderer, int width, int height, lom_error *error);
 /* What water with waves needs; its waves at a time, and their height over a point of the world, metres. */
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
 bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
@@ -92,6 +96,7 @@ struct lom_scene_view {
     double plane[4]; /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
     bool mirrored;   /* front faces are clockwise */
     bool sky;
+    struct lom_caustics_uniform caustics;
 };
 
 /* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs

@@ -10,12 +10,21 @@ struct lom_material_uniform {
     const lom_texture *texture; /* multiplies ambient and diffuse; NULL: white */
 };
 
+/* The sunlight that waves focus on what is below the level: a map over x and z. */
+struct lom_caustics_uniform {
+    const lom_texture *map; /* NULL: none */
+    float corner[2], scale; /* s = (x - corner[0]) scale */
+    float level, strength;
+    float lod_scale; /* texels of the map a pixel covers, per metre of distance */
+};
+
 /* What every surface of a pass shares. */
 struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_world;
     struct lom_light_uniform light;
     float eye[3];
     float plane[4]; /* clip distance 0 is plane . (world, 1); (0, 0, 0, 1) keeps everything */
+    struct lom_caustics_uniform caustics;
 };
 
 struct lom_entity_uniforms {

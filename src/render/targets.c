@@ -8,14 +8,14 @@ static int scaled(int size, double scale)
     return result < 1 ? 1 : result;
 }
 
-static lom_texture *make_target(lom_renderer *renderer, int width, int height, lom_format format)
+static lom_texture *make_target(lom_renderer *renderer, int width, int height, lom_format format, lom_mips mips)
 {
     lom_sampler_desc sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP };
     if (format == LOM_FORMAT_DEPTH32F)
         sampler.magnify = sampler.minify = LOM_FILTER_NEAREST;
     return lom_make_texture(
         renderer->device,
-        &(lom_texture_desc){ .width = width, .height = height, .format = format, .sampler = sampler });
+        &(lom_texture_desc){ .width = width, .height = height, .format = format, .mips = mips, .sampler = sampler });
 }
 
 static void release_targets(lom_renderer *r)
@@ -43,11 +43,13 @@ static void make_water_targets(lom_renderer *r, int width, int height)
         reflection_height = scaled(height, scene->quality.reflection_scale);
     int refraction_width = scaled(width, scene->quality.refraction_scale),
         refraction_height = scaled(height, scene->quality.refraction_scale);
-    r->mask = make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8);
-    r->reflection = make_target(r, reflection_width, reflection_height, color_format(scene));
-    r->reflection_depth = make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F);
-    r->refraction = make_target(r, refraction_width, refraction_height, color_format(scene));
-    r->refraction_depth = make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F);
+    /* Rough water mirrors a blurred picture. */
+    lom_mips levels = scene->quality.water >= LOM_WATER_NORMAL_MAP ? LOM_MIPS_ALL : LOM_MIPS_NONE;
+    r->mask = make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8, LOM_MIPS_NONE);
+    r->reflection = make_target(r, reflection_width, reflection_height, color_format(scene), levels);
+    r->reflection_depth = make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
+    r->refraction = make_target(r, refraction_width, refraction_height, color_format(scene), LOM_MIPS_NONE);
+    r->refraction_depth = make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
 }
 
 bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, int target_height, lom_error *error)
@@ -60,8 +62,8 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, 
     r->height = height;
     r->target_width = target_width;
     r->target_height = target_height;
-    r->color = make_target(r, target_width, target_height, color_format(r->scene));
-    r->depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F);
+    r->color = make_target(r, target_width, target_height, color_format(r->scene), LOM_MIPS_NONE);
+    r->depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
     if (r->scene->water.given != 0 && r->scene->water.enabled)
         make_water_targets(r, width, height);
     const lom_error *failed = lom_device_error(r->device);

@@ -45,7 +45,8 @@ lom_texture *lom_load_sky(lom_device *device, const lom_sky_params *sky, bool sr
                                                       .width = size,
                                                       .height = size,
                                                       .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
-                                                      .pixels = pixels });
+                                                      .pixels = pixels,
+                                                      .mips = LOM_MIPS_ALL });
     lom_release(pixels);
     if (box == NULL)
         lom_fail(error, lom_device_error(device)->code, "%s", lom_device_error(device)->text);

@@ -80,7 +80,7 @@ static const lom_key optics[] = {
               "wind is all of it." },
     { "glitter", LOM_KEY_NUMBER, AT(glitter), .maximum = 100, .initial = { 1 },
       .text = "Factor on the sun's reflection." },
-    { "reach", LOM_KEY_NUMBER, AT(reach), .maximum = 1, .initial = { 0.25 },
+    { "reach", LOM_KEY_NUMBER, AT(reach), .maximum = 1, .initial = { 0.5 },
       .text =
           "How far from its pixel a bent or mirrored ray may look, in parts of the picture. What lies further is sky "
           "above and bottomless water below." },

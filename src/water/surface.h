@@ -7,11 +7,16 @@
 
 #include <lom/geometry.h>
 
-/* A picture of the scene with its depth: where a point of the world is in it, and what stands there. */
+/* A picture of the scene with its depth: where a point of the world is in it, and what stands there. It need not show
+ * what the frame does: the frame's pixel (x, y) is at (x scale[0] + offset[0], y scale[1] + offset[1]). */
 struct lom_picture_uniform {
     struct lom_matrix_uniform clip_from_world;
+    float scale[2], offset[2];
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
 };
+
+/* The coarsest level at which a reflection is looked up: a texel of it is 2^4 pixels. */
+enum { LOM_BLUR_LEVELS = 4 };
 
 /* Water as a medium: 1/m of red, green and blue; the light that it sends back per metre and absorption, at the surface;
  * the length of the sun's refracted ray per metre of depth. */

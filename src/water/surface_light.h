@@ -37,6 +37,14 @@ LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_fl
     return lom_mul3(color, (lom_float3){ texel.x, texel.y, texel.z });
 }
 
+/* The level of detail at which a picture's pixels are as wide as a rough surface blurs what it mirrors: 2 s. */
+LOM_INLINE lom_float lom_blur(const struct lom_surface_uniforms *u, lom_float variance)
+{
+    float pixels = 1.0f / (u->pixel_angle * u->pixel_angle);
+    lom_float lod = 0.5f * lom_log2(lom_max(variance * pixels, lom_splat(1.0f)));
+    return lom_min(lod, lom_splat((float)LOM_BLUR_LEVELS));
+}
+
 /* ---- pictures of the scene ---- */
 
 struct lom_lookup {
@@ -57,10 +65,15 @@ LOM_INLINE lom_float lom_picture_w(const struct lom_surface_uniforms *u, const s
     return u->near_plane / lom_max(lom_sample_depth(picture->depth, s, t), lom_splat(1e-12f));
 }
 
-LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
-                                     struct lom_lookup at)
+/* Where the picture shows what the fragment hides. */
+LOM_INLINE lom_float2 lom_own_place(const struct lom_picture_uniform *picture, const struct lom_surface_point *p)
 {
-    lom_mask near = (lom_abs(at.s - p->x * u->pixel[0]) < u->reach) & (lom_abs(at.t - p->y * u->pixel[1]) < u->reach);
+    return (lom_float2){ p->x * picture->scale[0] + picture->offset[0], p->y * picture->scale[1] + picture->offset[1] };
+}
+
+LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, lom_float2 own, struct lom_lookup at)
+{
+    lom_mask near = (lom_abs(at.s - own.x) < u->reach) & (lom_abs(at.t - own.y) < u->reach);
     return near & (at.s > 0.0f) & (at.s < 1.0f) & (at.t > 0.0f) & (at.t < 1.0f) & (at.w > 0.0f);
 }
 
@@ -70,15 +83,16 @@ struct lom_hit {
     lom_float s, t;
 };
 
-/* Follows the ray from p along d through the picture: `steps` points whose distances grow as the square of their
- * number, then halving of the step in which the ray went behind what the picture shows. What
- * stands further before the ray than a step is passed behind. A ray that leaves the picture, or its reach, finds
+/* Follows the ray from p along d through the picture: `steps` points whose distances grow as the cube of their number,
+ * then halving of the step in which the ray went behind what the picture shows. Behind what stands further before the
+ * ray than a step it goes on; its length is then where it first did. A ray that leaves the picture, or its reach, finds
  * nothing. */
 LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
                                          const struct lom_picture_uniform *picture, const struct lom_surface_point *p,
                                          lom_float3 d, lom_float range)
 {
-    struct lom_hit hit = { { 0 }, range, p->x * u->pixel[0], p->y * u->pixel[1] };
+    lom_float2 own = lom_own_place(picture, p);
+    struct lom_hit hit = { { 0 }, lom_splat(1e9f), own.x, own.y };
     lom_mask going = range > 0.0f;
     lom_float before = { 0 }, last = { 0 };
     for (int i = 1; i <= u->steps && lom_any(going); i++) {
@@ -86,9 +100,9 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
         lom_float length = range * (share * share * share);
         struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
         lom_float over = at.w - lom_picture_w(u, picture, at.s, at.t);
-        going = going & lom_within_reach(u, p, at);
+        going = going & lom_within_reach(u, own, at);
         lom_mask met = going & (over > 0.0f) & (over < 1.5f * (length - last));
-        hit.length = lom_select(met, length, hit.length);
+        hit.length = lom_select(going & (over > 0.0f) & (met | (length < hit.length)), length, hit.length);
         before = lom_select(met, last, before);
         hit.found = hit.found | met;
         going = going & ~met;
@@ -105,24 +119,30 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
         low = lom_select(behind, low, middle);
     }
     struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, high)));
-    hit.length = high;
+    hit.length = lom_select(hit.found, high, hit.length);
     hit.s = lom_clamp(at.s, hit.s - u->reach, hit.s + u->reach);
     hit.t = lom_clamp(at.t, hit.t - u->reach, hit.t + u->reach);
     return hit;
 }
 
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
- * one. */
+ * one, at most `longest`. Where something nearer than the surface stands
+ * there, the unbent ray answers. */
 LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms *u,
                                                const struct lom_picture_uniform *picture,
-                                               const struct lom_surface_point *p, lom_float3 d)
+                                               const struct lom_surface_point *p, lom_float3 d, lom_float longest)
 {
-    lom_float s = p->x * u->pixel[0], t = p->y * u->pixel[1];
-    lom_float further = lom_picture_w(u, picture, s, t) / p->w - 1.0f;
+    lom_float2 own = lom_own_place(picture, p);
+    lom_float further = lom_picture_w(u, picture, own.x, own.y) / p->w - 1.0f;
     lom_float length = lom_clamp(further, (lom_float){ 0 }, lom_splat(100.0f)) * p->distance;
+    length = lom_min(length, longest);
     struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
-    return (struct lom_hit){ at.w > 0.0f, length, lom_clamp(at.s, s - u->reach, s + u->reach),
-                             lom_clamp(at.t, t - u->reach, t + u->reach) };
+    struct lom_hit hit = { at.w > 0.0f, length, lom_clamp(at.s, own.x - u->reach, own.x + u->reach),
+                           lom_clamp(at.t, own.y - u->reach, own.y + u->reach) };
+    lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > p->w * 0.98f);
+    hit.s = lom_select(hidden, own.x, hit.s);
+    hit.t = lom_select(hidden, own.y, hit.t);
+    return hit;
 }
 
 /* ---- below the surface ---- */
@@ -160,15 +180,17 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
         /* Under water nothing is seen beyond 10 absorption lengths of the clearest colour. */
         float clear = lom_max(lom_splat(u->medium.absorption[2]), lom_splat(0.01f))[0];
         lom_float range = above ? 1.0f * p->distance + 300.0f : lom_min(lom_splat(10.0f / clear), lom_splat(400.0f));
-        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d);
+        struct lom_hit met = { { 0 }, lom_splat(1e9f), { 0 }, { 0 } };
+        if (followed)
+            met = lom_follow_ray(u, picture, p, d, range);
+        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d, met.length);
         if (followed) {
-            struct lom_hit met = lom_follow_ray(u, picture, p, d, range);
             hit.length = lom_select(met.found, met.length, hit.length);
             hit.s = lom_select(met.found, met.s, hit.s);
             hit.t = lom_select(met.found, met.t, hit.t);
             hit.found = hit.found | met.found;
         }
-        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, (lom_float){ 0 });
+        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, above ? lom_blur(u, variance) : (lom_float){ 0 });
         share = lom_select(hit.found, texel.w, (lom_float){ 0 });
         color = lom_scale3((lom_float3){ texel.x, texel.y, texel.z },
                            lom_select(hit.found, lom_splat(1.0f), (lom_float){ 0 }));
@@ -254,7 +276,8 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
     const struct lom_foam_uniform *foam = &u->foam;
     lom_float cover = p->slopes.foam * foam->amount;
     if (foam->shore_depth > 0 && u->behind.depth != NULL && u->side > 0) {
-        lom_float further = lom_picture_w(u, &u->behind, p->x * u->pixel[0], p->y * u->pixel[1]) / p->w - 1.0f;
+        lom_float2 own = lom_own_place(&u->behind, p);
+        lom_float further = lom_picture_w(u, &u->behind, own.x, own.y) / p->w - 1.0f;
         lom_float depth = lom_max(further, (lom_float){ 0 }) * (u->eye[1] - p->world.y);
         lom_float band = lom_saturate(1.0f - lom_abs(depth) / foam->shore_depth);
         lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - 6.2831855f * foam->move);

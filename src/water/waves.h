@@ -61,11 +61,12 @@ struct lom_wave_slopes {
     lom_float foam;          /* 0 none .. 1 */
 };
 
-/* How much of a wave is left when its phase changes by so much from sample to sample: all up to a radian, nothing from
- * pi on, where it could not be told from another. */
+/* How much of a wave is left when its phase changes by so much from sample to sample: (1 - (change / pi)^2)^2, nothing
+ * from pi on, where it could not be told from another. */
 LOM_INLINE lom_float lom_wave_weight(lom_float change)
 {
-    return 1.0f - lom_smoothstep(lom_splat(1.0f), lom_splat(3.1415927f), change);
+    lom_float left = lom_max(1.0f - change * change * 0.10132118f, (lom_float){ 0 });
+    return left * left;
 }
 
 LOM_INLINE lom_float lom_wave_lod(const lom_texture *texture, const struct lom_footprint *f, float scale)

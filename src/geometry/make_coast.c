@@ -1,0 +1,140 @@
+/* Coasts. In: a name, a seed. Out: a height map of a square of 400 m whose black is 20 m below the sea and whose white
+ * is 44 m above it; z grows down the picture. A height is a function of the place alone. */
+#include "noise.h"
+
+#include <lom/geometry.h>
+
+#include <string.h>
+
+static const double side = 400, deepest = 20, relief = 64;
+
+typedef double coast_height(const lom_noise *noise, double x, double z); /* metres, of x and z in 0..400 */
+
+static double bend(const lom_noise *noise, double x, double z, double length, double amount)
+{
+    lom_octaves octaves = { .count = 3, .period = 256, .gain = 0.5 };
+    return amount * lom_fractal2(noise, x / length + 7.3, z / length + 3.1, octaves);
+}
+
+/* A beach of sand: d metres from its line, below it a bed that deepens like d^(2/3) (Dean 1977), above it dunes. */
+static double beach(double d, double slope)
+{
+    if (d < 0)
+        return 9 * (1 - lom_double_exp(d * slope / 9)) * 1.0;
+    double root = lom_double_cbrt(d);
+    return -slope * 2.2 * root * root;
+}
+
+/* Ripples that waves leave on a sandy bed. */
+static double ripples(const lom_noise *noise, double x, double z)
+{
+    double phase = (z + bend(noise, x, z, 9, 3)) / 1.9;
+    return 0.035 * lom_double_sin(6.283185307179586 * phase) + bend(noise, x, z, 5, 0.12);
+}
+
+/* A rock that rises from the bed: a bump of this radius and height, broken by ridges. */
+static double rock(const lom_noise *noise, double x, double z, double at_x, double at_z, double radius, double height)
+{
+    double dx = (x - at_x) / radius, dz = (z - at_z) / radius, square = dx * dx + dz * dz;
+    if (square > 4)
+        return -1000;
+    lom_octaves octaves = { .count = 5, .period = 256, .gain = 0.55 };
+    double ridge = lom_ridged2(noise, x / (1.1 * radius) + 11.5, z / (1.1 * radius) + 4.5, octaves);
+    double bump = 1.35 - square * (1.1 + 0.4 * square);
+    return height * (bump * (0.45 + 0.75 * ridge) + 0.35 * (ridge - 0.5)) - 4;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* Land to the north, a bay of clear shallow water before it, a reef, then the deep. */
+static double lagoon(const lom_noise *noise, double x, double z)
+{
+    double d = z - 120 - bend(noise, x, z * 0.3, 130, 55) - 0.0012 * (x - 210) * (x - 210);
+    double inner = beach(d, 0.16), floor = -3.4 + bend(noise, x, z, 60, 2.0);
+    double bed = inner < floor ? floor : inner;
+    double out = lom_smooth_step(285, 380, z + bend(noise, x, z, 80, 30));
+    double reef = lom_double_exp(-(z - 292) * (z - 292) / 250) * (3.2 + bend(noise, x, z, 12, 3));
+    bed = lom_mix_double(bed, -17, out) + reef * (1 - out) * lom_smooth_step(60, 150, d);
+    double coral = larger(0, bend(noise, x + 90, z, 7, 3) - 0.75) * 2.0 * lom_smooth_step(40, 90, d);
+    bed += coral + ripples(noise, x, z) * lom_smooth_step(-2, 3, d);
+    bed += lom_smooth_step(-25, -75, d) * (10 + bend(noise, x, z, 45, 16));
+    bed = larger(bed, rock(noise, x, z, 120, 196, 13, 9));
+    bed = larger(bed, rock(noise, x, z, 146, 212, 6, 5));
+    return larger(bed, rock(noise, x, z, 300, 172, 17, 13));
+}
+
+/* A beach that faces the open sea in the south, between two headlands of rock. */
+static double cove(const lom_noise *noise, double x, double z)
+{
+    double d = z - 150 - bend(noise, x, 0.4 * z, 90, 22) - 0.0016 * (x - 200) * (x - 200);
+    double bed = beach(d, 0.13) + ripples(noise, x, z) * lom_smooth_step(-2, 3, d);
+    bed += lom_smooth_step(-18, -80, d) * (15 + bend(noise, x, z, 55, 22));
+    lom_octaves octaves = { .count = 6, .period = 256, .gain = 0.55 };
+    double ridge = lom_ridged2(noise, x / 75 + 2.5, z / 75 + 8.5, octaves);
+    double west = lom_smooth_step(110, 20, x + bend(noise, x, z, 60, 30)) * lom_smooth_step(330, 230, z);
+    double east = lom_smooth_step(300, 385, x + bend(noise, z, x, 60, 26)) * lom_smooth_step(300, 190, z);
+    bed += (west + east) * (6 + 34 * ridge);
+    bed = larger(bed, rock(noise, x, z, 152, 196, 8, 7));
+    bed = larger(bed, rock(noise, x, z, 164, 206, 5, 6));
+    return larger(bed, rock(noise, x, z, 258, 202, 10, 9));
+}
+
+/* A river through woods: it winds from the north to the south between banks, over gravel, around boulders. */
+static double river(const lom_noise *noise, double x, double z)
+{
+    double middle = 200 + 46 * lom_double_sin(z / 46) + 20 * lom_double_sin(z / 19 + 1) + bend(noise, 40, z, 70, 20);
+    double half = 11 + bend(noise, 90, z, 40, 6), off = x - middle, away = off < 0 ? -off : off;
+    double bank = away - half + bend(noise, x, z, 12, 3.5);
+    double bed = -1.9 + 1.3 * (away / half) * (away / half) + bend(noise, x, z, 6, 0.7);
+    double land = 1.4 + 0.05 * larger(bank, 0) + bend(noise, x, z, 40, 3) * lom_smooth_step(0, 25, bank);
+    double hills = lom_smooth_step(50, 170, bank) * (16 + bend(noise, x, z, 70, 26));
+    double height = lom_mix_double(bed < 0.2 ? bed : 0.2, land + hills, lom_smooth_step(-2.5, 3.5, bank));
+    static const double rocks[][4] = { { 0.4, 214, 3.0, 4.6 },   { -0.5, 205, 2.2, 4.6 }, { 0.1, 186, 2.6, 4.8 },
+                                       { -0.35, 172, 3.4, 5.0 }, { 0.6, 158, 2.4, 4.4 },  { 0.0, 236, 1.8, 4.5 } };
+    for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++) {
+        double at = rocks[i][1];
+        double line =
+            200 + 46 * lom_double_sin(at / 46) + 20 * lom_double_sin(at / 19 + 1) + bend(noise, 40, at, 70, 20);
+        height = larger(height, rock(noise, x, z, line + rocks[i][0] * 11, at, rocks[i][2], rocks[i][3]) + 0.4);
+    }
+    return height;
+}
+
+static const struct coast {
+    const char *name;
+    coast_height *height;
+} coasts[] = { { "lagoon", lagoon }, { "cove", cove }, { "river", river } };
+enum { COASTS = sizeof coasts / sizeof coasts[0] };
+
+const char *lom_coast_name(size_t index)
+{
+    return index < COASTS ? coasts[index].name : NULL;
+}
+
+lom_image *lom_make_coast(const char *name, int size, uint64_t seed, lom_error *error)
+{
+    const struct coast *coast = NULL;
+    for (size_t i = 0; i < COASTS; i++)
+        if (strcmp(coasts[i].name, name) == 0)
+            coast = &coasts[i];
+    if (coast == NULL || size < 2 || size > 4096) {
+        lom_fail(error, LOM_ERROR_USAGE, "There is no coast \"%s\" of %d pixels a side.", name, size);
+        return NULL;
+    }
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_noise noise;
+    lom_seed_noise(&noise, seed);
+    lom_image *map = lom_create_image(size, size, 1, LOM_FORMAT_R16, error);
+    for (int y = 0; map != NULL && y < size; y++)
+        for (int x = 0; x < size; x++) {
+            double height = coast->height(&noise, side * x / (size - 1), side * y / (size - 1));
+            uint16_t *pixel = lom_image_pixel(map, x, y, 0);
+            *pixel = (uint16_t)(lom_clamp_double((height + deepest) / relief, 0, 1) * 65535 + 0.5);
+        }
+    lom_leave_float_state(&state);
+    return map;
+}
