@@ -95,14 +95,33 @@ LOM_INLINE lom_float lom_volume_channel(const lom_int c[8], int32_t mask, lom_vo
     return lom_mix(lom_mix(row[0], row[2], place.y), lom_mix(row[1], row[3], place.y), place.x);
 }
 
-/* Colour in [0, 1], in the same order. */
-LOM_INLINE lom_float3 lom_sample_volume_color(const lom_volume *volume, lom_volume_place place)
+LOM_INLINE void lom_load_volume_corners(const lom_volume *volume, lom_volume_place place, lom_int corner[8])
 {
-    lom_int corner[8];
     int pitch = volume->width + 1, slice = pitch * (volume->height + 1);
     for (int i = 0; i < 8; i += 2)
         lom_gather_pairs(volume->color + (i >> 1 & 1) * pitch + (i >> 2) * slice, place.index, &corner[i],
                          &corner[i + 1]);
+}
+
+/* Density and colour at once: the density by the operations of lom_sample_density (a byte that is masked where it stands
+ * differs from one that is shifted down by an exact factor), so the same bits. */
+LOM_INLINE lom_float3 lom_sample_volume_all(const lom_volume *volume, lom_volume_place place, lom_float *density)
+{
+    lom_int corner[8], high[8];
+    lom_load_volume_corners(volume, place, corner);
+    for (int i = 0; i < 8; i++)
+        high[i] = (lom_int)((lom_uint)corner[i] >> 24);
+    *density = lom_volume_channel(high, 0xff, place) * (1 / 255.0f);
+    return (lom_float3){ lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
+                         lom_volume_channel(corner, 0xff00, place) * (0x1p-8f / 255.0f),
+                         lom_volume_channel(corner, 0xff0000, place) * (0x1p-16f / 255.0f) };
+}
+
+/* Colour in [0, 1], in the same order. */
+LOM_INLINE lom_float3 lom_sample_volume_color(const lom_volume *volume, lom_volume_place place)
+{
+    lom_int corner[8];
+    lom_load_volume_corners(volume, place, corner);
     return (lom_float3){ lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
                          lom_volume_channel(corner, 0xff00, place) * (0x1p-8f / 255.0f),
                          lom_volume_channel(corner, 0xff0000, place) * (0x1p-16f / 255.0f) };

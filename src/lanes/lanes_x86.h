@@ -89,16 +89,8 @@ LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *fi
 {
     const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
     const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
-    int32_t at[16];
-    _mm512_storeu_si512(at, (__m512i)index);
-    __m256i quarter[4];
-    for (int i = 0; i < 4; i++) {
-        __m128i a = lom_load_two_pairs(from + at[4 * i], from + at[4 * i + 1]);
-        __m128i b = lom_load_two_pairs(from + at[4 * i + 2], from + at[4 * i + 3]);
-        quarter[i] = _mm256_inserti128_si256(_mm256_castsi128_si256(a), b, 1);
-    }
-    __m512i low = _mm512_inserti64x4(_mm512_castsi256_si512(quarter[0]), quarter[1], 1);
-    __m512i high = _mm512_inserti64x4(_mm512_castsi256_si512(quarter[2]), quarter[3], 1);
+    __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256((__m512i)index), (const void *)from, 4);
+    __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64((__m512i)index, 1), (const void *)from, 4);
     *first = (lom_int)_mm512_permutex2var_epi32(low, even, high);
     *second = (lom_int)_mm512_permutex2var_epi32(low, odd, high);
 }

@@ -9,20 +9,24 @@ typedef struct bundle {
     float spread, speed;
 } bundle;
 
-static void bounds(lom_float x, uint32_t lanes, float *low, float *high)
+/* The least and the greatest value of the lanes that are set: halves against halves, which order does not matter to. */
+static void bounds(lom_float x, lom_mask lanes, float *low, float *high)
 {
-    float value[LOM_LANES];
-    lom_store(value, x);
-    *low = *high = value[__builtin_ctz(lanes)];
-    for (int i = 0; i < LOM_LANES; i++)
-        if (lanes >> i & 1) {
-            *low = value[i] < *low ? value[i] : *low;
-            *high = value[i] > *high ? value[i] : *high;
+    const float infinity = __builtin_inff();
+    float least[LOM_LANES], most[LOM_LANES];
+    lom_store(least, lom_select(lanes, x, lom_splat(infinity)));
+    lom_store(most, lom_select(lanes, x, lom_splat(-infinity)));
+    for (int half = LOM_LANES / 2; half > 0; half /= 2)
+        for (int i = 0; i < half; i++) {
+            least[i] = least[i] < least[i + half] ? least[i] : least[i + half];
+            most[i] = most[i] > most[i + half] ? most[i] : most[i + half];
         }
+    *low = least[0];
+    *high = most[0];
 }
 
 /* The distance of rays from their centre is a convex function of the step: largest at the first or the last. */
-static void bound_axis(bundle *b, int axis, lom_float start, lom_float step, int size, int steps, uint32_t lanes)
+static void bound_axis(bundle *b, int axis, lom_float start, lom_float step, int size, int steps, lom_mask lanes)
 {
     float low, high, last = (float)(steps - 1), scale = (float)size;
     bounds(step, lanes, &low, &high);
@@ -40,7 +44,7 @@ static void bound_axis(bundle *b, int axis, lom_float start, lom_float step, int
     b->speed = fastest * scale > b->speed ? fastest * scale : b->speed;
 }
 
-static bundle make_bundle(const lom_march_rays *rays, const lom_march_desc *desc, uint32_t lanes)
+static bundle make_bundle(const lom_march_rays *rays, const lom_march_desc *desc, lom_mask lanes)
 {
     bundle b = { .speed = 0x1p-20f };
     bound_axis(&b, 0, rays->start.x, rays->step.x, desc->volume->width, desc->steps, lanes);
@@ -75,6 +79,23 @@ static bool is_near(const bundle *b, int steps)
     return near;
 }
 
+/* Where every ray has left the unit cube for good, in steps; with nothing in the outermost voxels all beyond is empty.
+ * A ray leaves through the far face of each axis it moves along; one step more than enough covers the rounding. */
+static int last_step(const lom_march_rays *rays, const lom_march_desc *desc, lom_mask lanes)
+{
+    const lom_float start[3] = { rays->start.x, rays->start.y, rays->start.z };
+    const lom_float step[3] = { rays->step.x, rays->step.y, rays->step.z };
+    lom_float leave = lom_splat((float)desc->steps);
+    for (int i = 0; i < 3; i++) {
+        lom_float face = lom_select(step[i] > 0.0f, lom_splat(1.0f), (lom_float){ 0 });
+        lom_float at = (face - start[i]) / step[i];
+        leave = lom_select(lom_abs(step[i]) > 1e-6f, lom_min(at, leave), leave);
+    }
+    float low, high;
+    bounds(leave, lanes, &low, &high);
+    return high > 0 ? (high < (float)desc->steps ? (int)high + 2 : desc->steps) : 1;
+}
+
 void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
                                 lom_march_count *count)
 {
@@ -84,13 +105,16 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
     bundle b = { 0 };
     bool skips = !desc->walk && lom_any(alive);
     if (skips) {
-        b = make_bundle(rays, desc, lom_bits(alive));
+        b = make_bundle(rays, desc, alive);
         skips = is_near(&b, desc->steps);
     }
+    int last = skips && desc->volume->empty_border ? last_step(rays, desc, alive) : desc->steps;
+    last = last < desc->steps ? last : desc->steps;
     uint64_t sampled = 0;
+    bool was_empty = true;
     int i = 0;
-    for (; i < desc->steps && lom_any(alive); i++) {
-        if (skips) {
+    for (; i < last && lom_any(alive); i++) {
+        if (skips && was_empty) {
             int empty = empty_steps(&b, desc->volume, i);
             if (empty != 0) {
                 i += empty - 1;
@@ -100,10 +124,17 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
         sampled++;
         lom_float3 p = lom_add3(rays->start, lom_scale3(rays->step, lom_splat((float)i)));
         lom_volume_place at = lom_find_in_volume(desc->volume, p);
-        lom_float density = lom_sample_density(desc->volume, at);
-        if (skips && !lom_any((density > 0.0f) & alive))
-            continue;
-        lom_float3 color = lom_sample_volume_color(desc->volume, at);
+        lom_float density;
+        lom_float3 color;
+        if (skips) {
+            density = lom_sample_density(desc->volume, at);
+            was_empty = !lom_any((density > 0.0f) & alive);
+            if (was_empty)
+                continue;
+            color = lom_sample_volume_color(desc->volume, at);
+        } else {
+            color = lom_sample_volume_all(desc->volume, at, &density);
+        }
         lom_float above = lom_sample_density(desc->volume, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
         lom_float seen = (1.0f - sum.w) * (density * desc->absorption);
         seen = lom_as_float(lom_as_int(seen) & alive);
@@ -116,7 +147,7 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
     }
     *out = sum;
     if (count != NULL) {
-        count->walked += (uint64_t)i;
+        count->walked += (uint64_t)(last < desc->steps && i >= last ? desc->steps : i);
         count->sampled += sampled;
     }
 }
