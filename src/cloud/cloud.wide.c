@@ -2,30 +2,8 @@
  * the eye and, as alpha, the share of what lies behind that it takes. Invariant: a pixel's ray depends on the pixel
  * alone; a ray that meets no density gives 0 and alpha 0, which leaves the picture as it is. */
 #include "cloud/cloud_uniforms.h"
+#include "cloud/cloud_rays.h"
 #include "cloud/phase.h"
-
-static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    const struct lom_cloud_uniforms *cloud = uniforms;
-    lom_float3 offset;
-    lom_int first = (in->vertex & 7) * 3;
-    offset.x = lom_gather(&cloud->corner[0][0], first);
-    offset.y = lom_gather(&cloud->corner[0][0], first + 1);
-    offset.z = lom_gather(&cloud->corner[0][0], first + 2);
-    out->position = lom_transform4(&cloud->clip_from_offset, offset);
-    out->varying[0] = offset.x;
-    out->varying[1] = offset.y;
-    out->varying[2] = offset.z;
-}
-
-/* Metres along the ray to what is drawn there: near / z is its distance along the view axis, w that of the fragment. */
-static lom_float scene_distance(const struct lom_cloud_uniforms *cloud, const lom_varyings *in, lom_float length)
-{
-    lom_int x = lom_to_int(in->x - cloud->origin[0]), y = lom_to_int(in->y - cloud->origin[1]);
-    lom_float depth = lom_fetch(cloud->depth, x, y, 0).x;
-    return lom_select(depth > 0.0f, length * (cloud->near_plane / lom_max(depth, lom_splat(1e-30f))) / in->w,
-                      lom_splat(3e38f));
-}
 
 static lom_float jitter_of(const struct lom_cloud_uniforms *cloud, const lom_varyings *in)
 {
@@ -44,32 +22,12 @@ static void set_phases(const struct lom_cloud_uniforms *cloud, lom_medium_rays *
         rays->phase[0] = lom_max(rays->phase[0], cloud->silver * lom_phase_henyey_greenstein(mu, cloud->silver_cosine));
 }
 
-/* Air between the eye and the cloud turns it to the haze's colour. */
-static lom_float3 add_haze(const struct lom_cloud_uniforms *cloud, lom_float3 color, lom_float alpha,
-                           lom_float distance)
-{
-    if (cloud->haze_rate == 0)
-        return color;
-    lom_float air = -lom_expm1(-(distance * cloud->haze_rate));
-    return lom_mix3(color, lom_scale3(lom_uniform3(cloud->haze_color), alpha), air);
-}
-
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
-    lom_float3 offset = { in->varying[0], in->varying[1], in->varying[2] };
-    lom_float length = lom_sqrt(lom_dot3(offset, offset));
-    lom_float3 direction = lom_scale3(offset, 1.0f / lom_max(length, lom_splat(1e-20f)));
-    lom_medium_rays rays = { .start = lom_uniform3(cloud->eye_in_box),
-                             .along = { lom_dot3(direction, lom_uniform3(cloud->box_axis[0])),
-                                        lom_dot3(direction, lom_uniform3(cloud->box_axis[1])),
-                                        lom_dot3(direction, lom_uniform3(cloud->box_axis[2])) },
-                             .shift = jitter_of(cloud, in),
-                             .active = in->covered };
-    LOM_WIDE(lom_cross_box)(&rays);
-    if (cloud->depth != NULL)
-        rays.leave = lom_min(rays.leave, scene_distance(cloud, in, length));
-    rays.active &= rays.enter < rays.leave;
+    lom_float3 direction;
+    lom_medium_rays rays = lom_cloud_rays(cloud, in, &direction);
+    rays.shift = jitter_of(cloud, in);
     set_phases(cloud, &rays, direction);
     lom_medium_result seen;
     LOM_WIDE(lom_march_medium)(&seen, &rays, &cloud->march, NULL);
@@ -77,7 +35,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     lom_float3 color = lom_scale3(lom_uniform3(cloud->sun), seen.sun);
     color = lom_add3(color, lom_scale3(lom_uniform3(cloud->sky), seen.sky));
     color = lom_add3(color, lom_scale3(lom_uniform3(cloud->ground), seen.ground));
-    color = add_haze(cloud, color, alpha, seen.distance);
+    color = lom_cloud_haze(cloud, color, alpha, seen.distance);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
 }
 
@@ -109,5 +67,5 @@ static void shadow_fragment(lom_fragment *out, const lom_varyings *in, const voi
 
 LOM_SHADER(lom_cloud_shadow_shader, shadow_vertex, shadow_fragment, .varyings = 2, .reads = 3, .colors = 1,
            .uniforms_size = sizeof(struct lom_cloud_shadow_uniforms))
-LOM_SHADER(lom_cloud_shader, vertex, fragment, .varyings = 3, .reads = 7, .reads_position = true, .colors = 1,
+LOM_SHADER(lom_cloud_shader, lom_cloud_vertex, fragment, .varyings = 3, .reads = 7, .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_cloud_uniforms))

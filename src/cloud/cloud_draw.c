@@ -121,6 +121,43 @@ static void set_place(struct lom_cloud_uniforms *u, const struct lom_placed_clou
     }
 }
 
+static void set_original(struct lom_cloud_uniforms *u, const struct lom_cloud_set *set,
+                         const struct lom_placed_cloud *placed, const struct lom_cloud_view *view)
+{
+    const double *size = placed->cloud->size;
+    double longest = size[0] > size[1] ? size[0] : size[1];
+    longest = size[2] > longest ? size[2] : longest;
+    u->original = placed->original;
+    u->unit = (float)(100 / longest); /* the reference's clouds are about 100 of its units across */
+    u->is_real_time =
+        set->params->original_light == LOM_ORIGINAL_COMBINED || set->params->original_light == LOM_ORIGINAL_REAL_TIME;
+    for (int i = 0; i < 3; i++) {
+        double along = 0;
+        for (int k = 0; k < 3; k++)
+            along += placed->axes[i][k] * (double)view->light.to_light[k];
+        u->light_in_box[i] = (float)(along / size[i]);
+        u->sun[i] = view->light.color[i] < 1 ? view->light.color[i] : 1;
+    }
+}
+
+/* A square as wide as the box, upright and turned to the eye; corner[0] becomes its middle. */
+static void set_picture(struct lom_cloud_uniforms *u, const struct lom_cloud_set *set,
+                        const struct lom_placed_cloud *placed, const struct lom_cloud_view *view)
+{
+    const double *size = placed->cloud->size;
+    lom_vec3 away = lom_vec3_subtract(placed->middle, view->eye);
+    lom_vec3 right = lom_vec3_normalize((lom_vec3){ -away.z, 0, away.x });
+    double half = lom_double_sqrt(size[0] * size[0] + size[2] * size[2]) / 2.6;
+    u->picture = set->picture;
+    const double across[3] = { right.x * half, 0, right.z * half }, middle[3] = { away.x, away.y, away.z };
+    for (int i = 0; i < 3; i++) {
+        u->right[i] = (float)across[i];
+        u->up[i] = i == 1 ? (float)(size[1] / 2) : 0;
+        u->corner[0][i] = (float)middle[i];
+        u->sun[i] = view->light.color[i] < 1 ? view->light.color[i] : 1;
+    }
+}
+
 void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
                            const struct lom_cloud_view *view)
 {
@@ -134,13 +171,21 @@ void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, 
     set_place(&u, cloud, view);
     set_light(&u, set, view);
     set_march(&u.march, set, cloud, view);
-    lom_draw(device, &(lom_draw_desc){ .shader = &lom_cloud_shader,
+    bool is_flat = set->quality.model == LOM_CLOUDS_BILLBOARD, is_original = set->quality.model == LOM_CLOUDS_ORIGINAL;
+    if (is_original)
+        set_original(&u, set, cloud, view);
+    if (is_flat)
+        set_picture(&u, set, cloud, view);
+    lom_draw(device, &(lom_draw_desc){ .shader = is_flat       ? &lom_cloud_picture_shader
+                                                 : is_original ? &lom_cloud_original_shader
+                                                               : &lom_cloud_shader,
                                        .uniforms = &u,
-                                       .indices = faces,
+                                       .indices = is_flat ? NULL : faces,
                                        .index_bits = 16,
-                                       .count = 36,
-                                       .vertex_count = 8,
-                                       .cull = LOM_CULL_FRONT,
+                                       .count = is_flat ? 4 : 36,
+                                       .topology = is_flat ? LOM_TRIANGLE_STRIP : LOM_TRIANGLES,
+                                       .vertex_count = is_flat ? 4 : 8,
+                                       .cull = is_flat ? LOM_CULL_NONE : LOM_CULL_FRONT,
                                        .front_clockwise = view->mirrored,
                                        .depth_test_off = true,
                                        .blend = { { .enabled = true,

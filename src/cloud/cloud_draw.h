@@ -43,7 +43,8 @@ struct lom_cloud_set {
     struct lom_placed_cloud *clouds; /* in the order of the file; those that are not visible are left out */
     size_t count;
     lom_detail *detail;
-    float *jitter; /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
+    lom_texture *picture; /* of the flat model, or NULL */
+    float *jitter;        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 
 /* Makes or reads the volumes of the visible clouds. NULL and no failure when there are none, or the model is off. */

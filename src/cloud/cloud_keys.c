@@ -51,7 +51,7 @@ static const lom_key clouds[] = {
       .text = "Mean cosine of the backward lobe." },
     { "blend", LOM_KEY_NUMBER, OF_ALL(blend), .maximum = 1, .initial = { 0.35 },
       .text = "Share of the backward lobe." },
-    { "silver", LOM_KEY_NUMBER, OF_ALL(silver), .maximum = 100, .initial = { 0.6 },
+    { "silver", LOM_KEY_NUMBER, OF_ALL(silver), .maximum = 100, .initial = { 0.1 },
       .text = "Strength of the silver lining: a narrow lobe around the sun, seen through thin edges." },
     { "silver_spread", LOM_KEY_NUMBER, OF_ALL(silver_spread), .minimum = 0.01, .maximum = 1, .initial = { 0.1 },
       .text = "How wide that lobe is: 1 less its mean cosine." },
@@ -75,11 +75,12 @@ static const lom_key clouds[] = {
       .choices = { "combined", "advance", "real_time", "none" },
       .text = "With `quality.clouds = \"original\"`: which of its two kinds of light." },
     { "lighter", LOM_KEY_NUMBER, OF_ALL(lighter), .maximum = 100, .initial = { 0.6 },
-      .text = "The original's factor on densities that lie towards the sun. Its value was never published; ours keeps "
-              "a cloud of full density half lit at its middle." },
-    { "dark_light", LOM_KEY_NUMBER, OF_ALL(dark_light), .maximum = 1000, .initial = { 8 },
-      .text = "The original's factor on the number of voxels passed when the density summed up is above 250. Its value "
-              "was never published; ours darkens a voxel fully behind some thirty others." },
+      .text =
+          "The original's factor on the densities (0 to 255) met towards the sun. Its value was never published; with "
+          "ours the sum passes 250 behind ten voxels of full density." },
+    { "dark_light", LOM_KEY_NUMBER, OF_ALL(dark_light), .flags = LOM_KEY_ABOVE, .maximum = 1000, .initial = { 0.17 },
+      .text = "The original's factor on the number of voxels met when their sum is above 250. Its value was never "
+              "published; with ours a voxel behind ten of full density gets the gray 105 of 255." },
 };
 const lom_key_table lom_clouds_keys = { sizeof(lom_clouds), clouds, sizeof clouds / sizeof *clouds,
                                         "What all clouds share: how they scatter, and the light of sky and ground." };

@@ -103,6 +103,22 @@ static float depth_beyond(void *context, const float exit[3])
     return (float)sum;
 }
 
+/* The original model: gray by its lighting in advance, or white. */
+static bool light_in_advance(const struct lom_cloud_set *set, struct lom_placed_cloud *cloud, const double to_light[3],
+                             lom_error *error)
+{
+    double along[3]; /* in voxels: the reference steps by voxels of a cube */
+    bool in_advance =
+        set->params->original_light == LOM_ORIGINAL_COMBINED || set->params->original_light == LOM_ORIGINAL_ADVANCE;
+    to_box(cloud, to_light, false, along);
+    lom_image *lit = lom_light_cloud_in_advance(cloud->density->image, along, in_advance ? set->params->lighter : 0,
+                                                set->params->dark_light, error);
+    lom_free_volume(cloud->original);
+    cloud->original = lit != NULL ? lom_create_volume(lit, error) : NULL;
+    lom_free_image(lit);
+    return cloud->original != NULL;
+}
+
 static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], size_t *others, int *swept,
                         lom_error *error)
 {
@@ -121,6 +137,11 @@ static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to
     hash |= 1;
     if (cloud->lit_for == hash)
         return true;
+    if (set->quality.model == LOM_CLOUDS_ORIGINAL) {
+        cloud->lit_for = hash;
+        ++*swept;
+        return light_in_advance(set, cloud, to_light, error);
+    }
     lom_light_desc desc = { .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density),
                             .beyond = s.other_count != 0 ? depth_beyond : NULL,
                             .context = &s };

@@ -19,6 +19,7 @@ void lom_free_clouds(struct lom_cloud_set *set)
         lom_free_volume(set->clouds[i].original);
     }
     lom_free_detail(set->detail);
+    lom_free_texture(set->picture);
     lom_release(set->jitter);
     lom_release(set->densities);
     lom_release(set->clouds);
@@ -86,12 +87,29 @@ static bool place_cloud(struct lom_cloud_set *set, const lom_cloud *cloud, lom_e
     return true;
 }
 
+static bool load_picture(struct lom_cloud_set *set, lom_error *error)
+{
+    lom_image *made = lom_make_cloud_picture(256, 1, error);
+    lom_texture_desc desc = { .width = 256,
+                              .height = 256,
+                              .mips = LOM_MIPS_ALL,
+                              .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+    if (made != NULL) {
+        desc.pixels = made->pixels;
+        set->picture = lom_create_texture(&desc, error);
+    }
+    lom_free_image(made);
+    return set->picture != NULL;
+}
+
 static bool load_shared(struct lom_cloud_set *set, lom_error *error)
 {
     lom_image *noise = lom_make_detail_noise(error);
     set->detail = noise != NULL ? lom_create_detail(noise, error) : NULL;
     lom_free_image(noise);
     if (set->detail == NULL)
+        return false;
+    if (set->quality.model == LOM_CLOUDS_BILLBOARD && !load_picture(set, error))
         return false;
     if (set->quality.jitter)
         set->jitter = lom_make_blue_noise(LOM_BLUE_NOISE, 1, error);

@@ -22,6 +22,13 @@ struct lom_cloud_uniforms {
     float forward, backward, blend;
     float silver, silver_cosine;
     float haze_color[3], haze_rate; /* 1/m; 0: none */
+    /* the earlier models */
+    const lom_volume *original; /* lit in advance, or white */
+    float light_in_box[3];      /* parts of the box a metre towards the light */
+    float unit;                 /* the reference's units a metre */
+    bool is_real_time;
+    const lom_texture *picture; /* of the billboard */
+    float right[3], up[3];      /* half the billboard, metres */
 };
 
 /* A cloud's shadow on the plane of the ground's shadow map. */
@@ -34,6 +41,7 @@ struct lom_cloud_shadow_uniforms {
     lom_medium_desc march;
 };
 
+extern const lom_shader lom_cloud_original_shader, lom_cloud_picture_shader;
 extern const lom_shader lom_cloud_shader, lom_cloud_shadow_shader;
 
 #endif

@@ -1,0 +1,60 @@
+/* What the shaders of clouds share: the box's vertices, a pixel's ray through it, and the air before it. */
+#ifndef LOM_CLOUD_RAYS_H
+#define LOM_CLOUD_RAYS_H
+
+#include "cloud/cloud_uniforms.h"
+
+LOM_INLINE void lom_cloud_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_cloud_uniforms *cloud = uniforms;
+    lom_float3 offset;
+    lom_int first = (in->vertex & 7) * 3;
+    offset.x = lom_gather(&cloud->corner[0][0], first);
+    offset.y = lom_gather(&cloud->corner[0][0], first + 1);
+    offset.z = lom_gather(&cloud->corner[0][0], first + 2);
+    out->position = lom_transform4(&cloud->clip_from_offset, offset);
+    out->varying[0] = offset.x;
+    out->varying[1] = offset.y;
+    out->varying[2] = offset.z;
+}
+
+/* Metres along the ray to what is drawn there: near / z is its distance along the view axis, w that of the fragment. */
+LOM_INLINE lom_float lom_scene_distance(const struct lom_cloud_uniforms *cloud, const lom_varyings *in,
+                                        lom_float length)
+{
+    lom_int x = lom_to_int(in->x - cloud->origin[0]), y = lom_to_int(in->y - cloud->origin[1]);
+    lom_float depth = lom_fetch(cloud->depth, x, y, 0).x;
+    return lom_select(depth > 0.0f, length * (cloud->near_plane / lom_max(depth, lom_splat(1e-30f))) / in->w,
+                      lom_splat(3e38f));
+}
+
+/* Air between the eye and the cloud turns it to the haze's colour. */
+LOM_INLINE lom_float3 lom_cloud_haze(const struct lom_cloud_uniforms *cloud, lom_float3 color, lom_float alpha,
+                                     lom_float distance)
+{
+    if (cloud->haze_rate == 0)
+        return color;
+    lom_float air = -lom_expm1(-(distance * cloud->haze_rate));
+    return lom_mix3(color, lom_scale3(lom_uniform3(cloud->haze_color), alpha), air);
+}
+
+/* The ray of each fragment, from where it enters the box to where it leaves it or meets what is drawn. */
+LOM_INLINE lom_medium_rays lom_cloud_rays(const struct lom_cloud_uniforms *cloud, const lom_varyings *in,
+                                          lom_float3 *direction)
+{
+    lom_float3 offset = { in->varying[0], in->varying[1], in->varying[2] };
+    lom_float length = lom_sqrt(lom_dot3(offset, offset));
+    *direction = lom_scale3(offset, 1.0f / lom_max(length, lom_splat(1e-20f)));
+    lom_medium_rays rays = { .start = lom_uniform3(cloud->eye_in_box),
+                             .along = { lom_dot3(*direction, lom_uniform3(cloud->box_axis[0])),
+                                        lom_dot3(*direction, lom_uniform3(cloud->box_axis[1])),
+                                        lom_dot3(*direction, lom_uniform3(cloud->box_axis[2])) },
+                             .active = in->covered };
+    LOM_WIDE(lom_cross_box)(&rays);
+    if (cloud->depth != NULL)
+        rays.leave = lom_min(rays.leave, lom_scene_distance(cloud, in, length));
+    rays.active &= rays.enter < rays.leave;
+    return rays;
+}
+
+#endif
