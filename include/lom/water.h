@@ -120,7 +120,7 @@ typedef struct lom_water_params {
     lom_water_foam foam;
 } lom_water_params;
 
-enum { LOM_MAX_WAVES = 32 };
+enum { LOM_MAX_WAVES = 64 };
 
 /* Attenuation (1/m) and the radiance of bottomless water (parts of white) at 650, 550 and 475 nm, for red, green and
  * blue. Attenuation is Jerlov's of downward irradiance (table XXVII), which for pure water is its absorption. The

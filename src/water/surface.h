@@ -15,8 +15,8 @@ struct lom_picture_uniform {
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
 };
 
-/* The coarsest level at which a reflection is looked up: a texel of it is 2^4 pixels. */
-enum { LOM_BLUR_LEVELS = 4 };
+/* The coarsest level at which a reflection is looked up: a texel of it is 2^3 pixels. */
+enum { LOM_BLUR_LEVELS = 3 };
 
 /* Water as a medium: 1/m of red, green and blue; the light that it sends back per metre and absorption, at the surface;
  * the length of the sun's refracted ray per metre of depth. */

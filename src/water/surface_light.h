@@ -31,21 +31,21 @@ LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_fl
         return color;
     lom_float3 turned = { sky->cosine * d.x + sky->sine * d.z, d.y, sky->cosine * d.z - sky->sine * d.x };
     /* A lobe of standard deviation 2 s on texels of about 1.3 / size; not wider than its height above the horizon. */
-    lom_float low = lom_abs(d.y) + 0.02f, bounded = lom_min(variance, low * low);
+    lom_float low = lom_abs(d.y) + 0.02f, bounded = lom_min(variance, 0.25f * low * low);
     lom_float lod = 0.5f * lom_log2(lom_max(bounded * (sky->size * sky->size), lom_splat(1.0f)));
     lom_float4 texel = lom_sample_cube(sky->box, turned, lod);
     return lom_mul3(color, (lom_float3){ texel.x, texel.y, texel.z });
 }
 
-/* The level of detail at which a picture's pixels are as wide as a rough surface blurs what it mirrors: 2 s. */
-LOM_INLINE lom_float lom_blur(const struct lom_surface_uniforms *u, lom_float variance)
+/* ---- pictures of the scene ---- */
+
+/* How many pixels wide a rough surface blurs what it mirrors, 2 s, as far as the levels of a picture go. */
+LOM_INLINE lom_float lom_blur_width(const struct lom_surface_uniforms *u, lom_float variance)
 {
     float pixels = 1.0f / (u->pixel_angle * u->pixel_angle);
-    lom_float lod = 0.5f * lom_log2(lom_max(variance * pixels, lom_splat(1.0f)));
-    return lom_min(lod, lom_splat((float)LOM_BLUR_LEVELS));
+    lom_float width = lom_sqrt(lom_max(variance * pixels, lom_splat(1.0f)));
+    return lom_min(width, lom_splat((float)(1 << LOM_BLUR_LEVELS)));
 }
-
-/* ---- pictures of the scene ---- */
 
 struct lom_lookup {
     lom_float s, t, w;
@@ -125,12 +125,27 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     return hit;
 }
 
+/* Whether anything nearer than the surface stands within `width` pixels of a place in a picture. */
+LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                  const struct lom_surface_point *p, lom_float s, lom_float t, lom_float width)
+{
+    lom_float bound = p->w * 0.98f, x = width * (1.5f * u->pixel[0]), y = width * (1.5f * u->pixel[1]);
+    lom_mask hidden = ~(lom_picture_w(u, picture, s, t) > bound);
+    if (lom_any(width > 1.0f))
+        for (int i = 0; i < 4; i++) {
+            lom_float near = lom_picture_w(u, picture, i & 1 ? s + x : s - x, i & 2 ? t + y : t - y);
+            hidden = hidden | (~(near > bound) & (width > 1.0f));
+        }
+    return hidden;
+}
+
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
  * one, at most `longest`. Where something nearer than the surface stands
  * there, the unbent ray answers. */
 LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms *u,
                                                const struct lom_picture_uniform *picture,
-                                               const struct lom_surface_point *p, lom_float3 d, lom_float longest)
+                                               const struct lom_surface_point *p, lom_float3 d, lom_float longest,
+                                               lom_float width)
 {
     lom_float2 own = lom_own_place(picture, p);
     lom_float further = lom_picture_w(u, picture, own.x, own.y) / p->w - 1.0f;
@@ -139,7 +154,7 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
     struct lom_hit hit = { at.w > 0.0f, length, lom_clamp(at.s, own.x - u->reach, own.x + u->reach),
                            lom_clamp(at.t, own.y - u->reach, own.y + u->reach) };
-    lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > p->w * 0.98f);
+    lom_mask hidden = lom_is_hidden(u, picture, p, hit.s, hit.t, width);
     hit.s = lom_select(hidden, own.x, hit.s);
     hit.t = lom_select(hidden, own.y, hit.t);
     return hit;
@@ -183,14 +198,15 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
         struct lom_hit met = { { 0 }, lom_splat(1e9f), { 0 }, { 0 } };
         if (followed)
             met = lom_follow_ray(u, picture, p, d, range);
-        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d, met.length);
+        lom_float width = above ? lom_blur_width(u, variance) : lom_splat(1.0f);
+        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d, met.length, width);
         if (followed) {
             hit.length = lom_select(met.found, met.length, hit.length);
             hit.s = lom_select(met.found, met.s, hit.s);
             hit.t = lom_select(met.found, met.t, hit.t);
             hit.found = hit.found | met.found;
         }
-        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, above ? lom_blur(u, variance) : (lom_float){ 0 });
+        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, lom_log2(width));
         share = lom_select(hit.found, texel.w, (lom_float){ 0 });
         color = lom_scale3((lom_float3){ texel.x, texel.y, texel.z },
                            lom_select(hit.found, lom_splat(1.0f), (lom_float){ 0 }));
@@ -318,7 +334,10 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
     bool above = u->side > 0;
     lom_float variance = p->slopes.vxx + p->slopes.vzz;
     lom_float3 n = lom_scale3(p->facet, lom_splat(u->side)), d = lom_scale3(p->to_eye, lom_splat(-1.0f));
-    lom_float cosine = lom_max(lom_dot3(n, p->to_eye), lom_splat(0.01f));
+    /* A mean normal that points away from the eye is turned towards it: what is seen faces the eye. */
+    lom_float turn = lom_max(0.08f - lom_dot3(n, p->to_eye), (lom_float){ 0 });
+    n = lom_normalize3(lom_add3(n, lom_scale3(p->to_eye, turn)));
+    lom_float cosine = lom_dot3(n, p->to_eye);
     lom_float share = lom_surface_fresnel(u, cosine);
 
     lom_float3 r = lom_reflect3(d, n);

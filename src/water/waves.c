@@ -42,15 +42,22 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_params *w
         struct wave w = choose_wave(waves, i);
         double amplitude = factor * w.length, bound = 1 / (waves->count * w.number);
         double across = waves->steepness * (amplitude < bound ? amplitude : bound);
-        double turns = w.phase - lom_double_sqrt(gravity * w.number) * time / turn;
+        double rate = lom_double_sqrt(gravity * w.number), turns = w.phase - rate * time / turn;
         double x = lom_double_cos(w.angle), z = lom_double_sin(w.angle);
         turns -= lom_double_floor(turns + 0.5);
-        out->trochoid[i] =
-            (struct lom_trochoid_uniform){ (float)(x * w.number), (float)(z * w.number), (float)(turns * turn),
-                                           (float)amplitude,      (float)(x * across),   (float)(z * across) };
+        out->trochoid[i] = (struct lom_trochoid_uniform){ .kx = (float)(x * w.number),
+                                                          .kz = (float)(z * w.number),
+                                                          .phase = (float)(turns * turn),
+                                                          .amplitude = (float)amplitude,
+                                                          .across_x = (float)(x * across),
+                                                          .across_z = (float)(z * across),
+                                                          .rate = (float)rate };
         high += amplitude;
         reach += across;
     }
+    bool breaks = out->trochoid_count > 0 && water->foam.amount > 0;
+    out->foam_threshold = breaks ? (float)water->foam.threshold : 0;
+    out->foam_window = (float)water->foam.window;
     out->highest = (float)(high * 1.0001);
     out->lowest = -out->highest;
     out->reach = (float)(reach * 1.0001);

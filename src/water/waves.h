@@ -21,6 +21,7 @@ struct lom_trochoid_uniform {
     float kx, kz;                        /* rad/m */
     float phase;                         /* radians at this time */
     float amplitude, across_x, across_z; /* metres: a, and b k/|k| */
+    float rate;                          /* rad/s that the phase falls by */
 };
 
 struct lom_cascade_uniform {
@@ -37,7 +38,11 @@ struct lom_waves_uniform {
     float level;           /* y at rest */
     float lowest, highest; /* bounds of h, metres from the level */
     float reach;           /* bound of |(dx, dz)| */
+    float foam_threshold;  /* the Jacobian below which trochoids break; 0: they have no foam */
+    float foam_window;     /* seconds that the foam lasts */
 };
+
+enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked at */
 
 /* The trochoids of the water at a time in seconds, exact phases for |time| up to 1e9; and the bounds of their sum. The
  * horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves keep the sum of b k at most 1, which is where the
@@ -124,6 +129,33 @@ LOM_INLINE void lom_add_trochoid_slopes(const struct lom_trochoid_uniform *t, lo
     w->xz = w->xz - t->across_x * t->kz * c;
 }
 
+/* What broke at a rest point within the window before this time: the largest of its moments, each by how far the
+ * Jacobian was below the threshold, fading with its age. A function of the time alone: any frame has its foam. */
+LOM_INLINE lom_float lom_trochoid_foam(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                       const struct lom_footprint *f)
+{
+    lom_float foam = { 0 }, xx[LOM_FOAM_MOMENTS], zz[LOM_FOAM_MOMENTS], xz[LOM_FOAM_MOMENTS];
+    for (int m = 0; m < LOM_FOAM_MOMENTS; m++)
+        xx[m] = zz[m] = xz[m] = (lom_float){ 0 };
+    for (int i = 0; i < waves->trochoid_count; i++) {
+        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
+        lom_float weight = lom_wave_weight(lom_phase_change(t, f)), angle = t->kx * x + t->kz * z + t->phase;
+        for (int m = 0; m < LOM_FOAM_MOMENTS && lom_any(weight > 0.0f); m++) {
+            float ago = waves->foam_window * (float)m / LOM_FOAM_MOMENTS;
+            lom_float c = lom_cos(angle + t->rate * ago) * weight;
+            xx[m] = xx[m] - t->across_x * t->kx * c;
+            zz[m] = zz[m] - t->across_z * t->kz * c;
+            xz[m] = xz[m] - t->across_x * t->kz * c;
+        }
+    }
+    for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
+        lom_float jacobian = (1.0f + xx[m]) * (1.0f + zz[m]) - xz[m] * xz[m];
+        float fresh = 1.0f - (float)m / LOM_FOAM_MOMENTS;
+        foam = lom_max(foam, lom_saturate((waves->foam_threshold - jacobian) * 4.0f) * fresh);
+    }
+    return foam;
+}
+
 LOM_INLINE void lom_add_cascade_slopes(const struct lom_cascade_uniform *c, lom_float x, lom_float z,
                                        const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
@@ -148,6 +180,8 @@ LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform
     memset(&w, 0, sizeof w);
     for (int i = 0; i < waves->trochoid_count; i++)
         lom_add_trochoid_slopes(&waves->trochoid[i], x, z, f, &w);
+    if (waves->foam_threshold > 0)
+        w.foam = lom_trochoid_foam(waves, x, z, f);
     for (int i = 0; i < waves->cascade_count; i++)
         lom_add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
     return w;

@@ -69,7 +69,7 @@ static void w1_crests_never_loop(void)
 {
     static const double heights[] = { 0.1, 1, 10, 100 };
     for (size_t k = 0; k < sizeof heights / sizeof heights[0]; k++)
-        for (int count = 1; count <= LOM_MAX_WAVES; count += 31) {
+        for (int count = 1; count <= LOM_MAX_WAVES; count += 21) {
             struct lom_waves_uniform waves = waves_at(heights[k], 1, count, 1);
             for (int i = 0; i < 2000; i++) {
                 struct lom_wave_slopes s =
