@@ -97,7 +97,7 @@ static void test_rows_are_the_same_at_every_width(void)
             LOM_WIDE(lom_shape_row)(row, &shape, y, z);
             hash = lom_hash_bytes(hash, row, sizeof row);
         }
-    CHECK(hash == UINT64_C(0x353fa46a45d36595), "%016llx", (unsigned long long)hash);
+    CHECK(hash == UINT64_C(0x7748184f31e0b93e), "%016llx", (unsigned long long)hash);
 }
 
 int main(int argc, char **argv)

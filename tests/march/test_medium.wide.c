@@ -1,0 +1,388 @@
+/* Proves, against closed forms and by name (numerics.md V, clouds.md 10 and 11): marching a medium is exact where it is
+ * uniform, converges at the designed order elsewhere, keeps its bounds, starts anywhere, and skips empty space without
+ * changing a byte. */
+#include "check.h"
+
+#include <lom/march.h>
+
+#define ALL lom_splat_int(-1)
+
+static double uniform(uint32_t *state, double low, double high)
+{
+    return low + (high - low) * lom_random_uniform(77, (*state)++);
+}
+
+/* A medium of n voxels along x whose density is given. */
+static lom_medium *medium_along_x(int n, double (*density)(double x))
+{
+    lom_image *image = lom_create_image(n, 1, 1, LOM_FORMAT_R32F, NULL);
+    for (int i = 0; i < n; i++)
+        ((float *)image->pixels)[i] = (float)density((i + 0.5) / n);
+    lom_medium *medium = lom_create_medium(image, NULL);
+    lom_free_image(image);
+    return medium;
+}
+
+static double one(double x)
+{
+    (void)x;
+    return 1;
+}
+
+static double nothing(double x)
+{
+    (void)x;
+    return 0;
+}
+
+static double ramp(double x)
+{
+    return x;
+}
+
+static double exponential(double x)
+{
+    return lom_double_exp(-3 * x);
+}
+
+static lom_medium_rays rays_along_x(double enter, double leave)
+{
+    lom_medium_rays rays = { .start = lom_splat3(0, 0.5f, 0.5f),
+                             .along = lom_splat3(1, 0, 0),
+                             .enter = lom_splat((float)enter),
+                             .leave = lom_splat((float)leave),
+                             .shift = lom_splat(1.0f),
+                             .active = ALL };
+    for (int k = 0; k < LOM_MAX_OCTAVES; k++)
+        rays.phase[k] = lom_splat(1.0f);
+    return rays;
+}
+
+static lom_medium_desc plain(const lom_medium *medium, double extinction, double step)
+{
+    return (lom_medium_desc){ .medium = medium,
+                              .extinction = (float)extinction,
+                              .step = (float)step,
+                              .most_steps = 65536,
+                              .octaves = 1,
+                              .weight = { 1 } };
+}
+
+static lom_medium_result march(const lom_medium_rays *rays, const lom_medium_desc *desc)
+{
+    lom_medium_result result;
+    LOM_WIDE(lom_march_medium)(&result, rays, desc, NULL);
+    return result;
+}
+
+static double magnitude(double x)
+{
+    return x < 0 ? -x : x;
+}
+
+/* V13, V3: alpha of a slab is 1 - exp(-t) for thin, thick and opaque ones, whatever the step and its shift. */
+static void test_V13_slab_is_exact(void)
+{
+    static const double depths[] = { 1e-8, 1e-6, 1e-3, 0.1, 1, 7, 40, 1e6 };
+    lom_medium *medium = medium_along_x(8, one);
+    for (size_t i = 0; i < sizeof depths / sizeof *depths; i++)
+        for (int steps = 1; steps <= 1000; steps = steps * 5 + 2)
+            for (int shift = 1; shift <= 4; shift++) {
+                lom_medium_desc desc = plain(medium, depths[i], 1.0 / steps);
+                lom_medium_rays rays = rays_along_x(0, 1);
+                rays.shift = lom_splat((float)shift / 4);
+                lom_medium_result seen = march(&rays, &desc);
+                double want = -lom_double_expm1(-depths[i]), got = 1 - (double)seen.transmittance[0];
+                double bound = (8 + 0.5 * steps) * 0x1p-24;
+                CHECK(magnitude(got - want) <= bound, "depth %g, %d steps: %.9g for %.9g", depths[i], steps, got, want);
+                /* V2: by what is summed a thin slab keeps its relative precision */
+                CHECK(magnitude((double)seen.sun[0] / want - 1) < (8 + steps) * 0x1p-23, "depth %g: %.9g", depths[i],
+                      seen.sun[0]);
+            }
+    lom_free_medium(medium);
+}
+
+/* V14: one segment against two halves. */
+static void test_V14_split_changes_nothing(void)
+{
+    lom_medium *medium = medium_along_x(8, one);
+    for (int i = 0; i < 40; i++) {
+        double cut = 0.025 * i, depth = 0.2 * i;
+        lom_medium_desc desc = plain(medium, depth, 1);
+        lom_medium_rays whole = rays_along_x(0, 1), first = rays_along_x(0, cut), second = rays_along_x(cut, 1);
+        double a = (double)march(&whole, &desc).transmittance[0];
+        double b = (double)march(&first, &desc).transmittance[0] * (double)march(&second, &desc).transmittance[0];
+        CHECK(magnitude(a - b) <= 4 * 0x1p-24, "cut %g: %.9g %.9g", cut, a, b);
+    }
+    lom_free_medium(medium);
+}
+
+/* V15: forwards or backwards, the same comes through. */
+static void test_V15_order_reversed(void)
+{
+    lom_medium *medium = medium_along_x(64, exponential);
+    lom_medium_desc desc = plain(medium, 5, 0.01);
+    lom_medium_rays there = rays_along_x(0, 1), back = there;
+    back.start = lom_splat3(1, 0.5f, 0.5f);
+    back.along = lom_splat3(-1, 0, 0);
+    double a = (double)march(&there, &desc).transmittance[0], b = (double)march(&back, &desc).transmittance[0];
+    CHECK(magnitude(a - b) < 1e-5, "%.9g %.9g", a, b);
+    lom_free_medium(medium);
+}
+
+/* V13: midpoint is exact on a linear ramp, of order 2 on an exponential one; samples at the left end of each step (a
+ * shift of the ray by half a step) are of order 1. The ramp is read inside the outermost voxels' centres. */
+static void test_V13_order_of_convergence(void)
+{
+    enum { N = 512 };
+    lom_medium *linear = medium_along_x(N, ramp), *curved = medium_along_x(N, exponential);
+    lom_medium_rays rays = rays_along_x(0.125, 0.875);
+    lom_medium_desc desc = plain(linear, 4, 0.75 / 16);
+    double want = lom_double_exp(-4 * (0.875 * 0.875 - 0.125 * 0.125) / 2);
+    CHECK(magnitude((double)march(&rays, &desc).transmittance[0] - want) < 2e-6, "linear ramp");
+    double depth = 4 * (lom_double_exp(-3 * 0.125) - lom_double_exp(-3 * 0.875)) / 3, error[2][2];
+    for (int left = 0; left < 2; left++)
+        for (int fine = 0; fine < 2; fine++) {
+            double step = 0.75 / (fine ? 12 : 6);
+            rays = rays_along_x(0.125, 0.875);
+            rays.start.x = lom_splat(left ? (float)(-0.5 * step) : 0.0f); /* the middle of a step reads its left end */
+            desc = plain(curved, 4, step);
+            error[left][fine] = magnitude(-lom_double_log((double)march(&rays, &desc).transmittance[0]) - depth);
+        }
+    for (int left = 0; left < 2; left++) {
+        double order = lom_double_log2(error[left][0] / error[left][1]);
+        CHECK(magnitude(order - (left ? 1 : 2)) < 0.1, "%s: order %.3f (%g, %g)", left ? "left" : "midpoint", order,
+              error[left][0], error[left][1]);
+    }
+    lom_free_medium(linear);
+    lom_free_medium(curved);
+}
+
+/* V5: where there is nothing the result is exactly nothing, and the colour behind keeps every bit. */
+static void test_V5_empty_medium(void)
+{
+    lom_medium *medium = medium_along_x(16, nothing);
+    lom_medium_desc desc = plain(medium, 50, 0.001);
+    lom_medium_rays rays = rays_along_x(0, 1);
+    lom_medium_result seen = march(&rays, &desc);
+    CHECK(seen.transmittance[0] == 1.0f && seen.sun[0] == 0 && seen.sky[0] == 0 && seen.distance[0] == 0, "%g",
+          seen.transmittance[0]);
+    lom_free_medium(medium);
+}
+
+static lom_image *blobs(uint32_t *state, int size)
+{
+    lom_image *image = lom_create_image(size, size, size, LOM_FORMAT_R16, NULL);
+    for (int b = 0; b < 3; b++) {
+        int c[3], r = 2 + (int)uniform(state, 0, size / 6.0);
+        for (int k = 0; k < 3; k++)
+            c[k] = (int)uniform(state, 0, size);
+        for (int z = 0; z < size; z++)
+            for (int y = 0; y < size; y++)
+                for (int x = 0; x < size; x++)
+                    if ((x - c[0]) * (x - c[0]) + (y - c[1]) * (y - c[1]) + (z - c[2]) * (z - c[2]) < r * r)
+                        *(uint16_t *)lom_image_pixel(image, x, y, z) = (uint16_t)uniform(state, 0, 65536);
+    }
+    return image;
+}
+
+/* A ray a lane, near each other or not, from anywhere, around the box. */
+static lom_medium_rays random_rays(uint32_t *state, double width)
+{
+    lom_medium_rays rays = rays_along_x(0, 1);
+    float at[3][LOM_LANES], along[3][LOM_LANES], shift[LOM_LANES];
+    for (int k = 0; k < 3; k++) {
+        double from = uniform(state, -0.5, 1.5), way = uniform(state, -1, 1);
+        for (int i = 0; i < LOM_LANES; i++) {
+            at[k][i] = (float)(from + width * uniform(state, -1, 1));
+            along[k][i] = (float)(way + width * uniform(state, -1, 1));
+            shift[i] = (float)uniform(state, 0.01, 1);
+        }
+    }
+    rays.start = (lom_float3){ lom_load(at[0]), lom_load(at[1]), lom_load(at[2]) };
+    rays.along = (lom_float3){ lom_load(along[0]), lom_load(along[1]), lom_load(along[2]) };
+    rays.shift = lom_load(shift);
+    LOM_WIDE(lom_cross_box)(&rays);
+    return rays;
+}
+
+static void test_skipping_changes_no_byte(void)
+{
+    uint32_t state = 1;
+    lom_march_count count = { 0 };
+    for (int round = 0; round < 12; round++) {
+        lom_image *image = blobs(&state, 10 + 8 * round);
+        lom_medium *medium = lom_create_medium(image, NULL);
+        lom_medium_desc desc = plain(medium, uniform(&state, 0, 40), uniform(&state, 0.003, 0.05));
+        desc.stop = 0.01f;
+        for (int i = 0; i < 60; i++) {
+            lom_medium_rays rays = random_rays(&state, i % 3 == 0 ? 0.3 : 0.01);
+            lom_medium_result walked, skipped;
+            desc.walk = true;
+            LOM_WIDE(lom_march_medium)(&walked, &rays, &desc, NULL);
+            desc.walk = false;
+            LOM_WIDE(lom_march_medium)(&skipped, &rays, &desc, &count);
+            CHECK(memcmp(&walked, &skipped, sizeof walked) == 0, "round %d, rays %d", round, i);
+        }
+        lom_free_medium(medium);
+        lom_free_image(image);
+    }
+    CHECK(count.sampled * 2 < count.walked, "%llu of %llu", (unsigned long long)count.sampled,
+          (unsigned long long)count.walked);
+}
+
+/* V10: ending a ray early changes what it brings by at most `stop` times the largest radiance, which is 1 here. V11:
+ * shares stay in [0, 1]. */
+static void test_V10_early_stop_keeps_its_bound(void)
+{
+    static const float stops[] = { 0.1f, 0.01f, 0.001f };
+    uint32_t state = 9;
+    for (int round = 0; round < 10; round++) {
+        lom_image *image = blobs(&state, 40);
+        lom_medium *medium = lom_create_medium(image, NULL);
+        lom_medium_desc desc = plain(medium, uniform(&state, 1, 60), 0.01);
+        for (int i = 0; i < 60; i++) {
+            lom_medium_rays rays = random_rays(&state, 0.1);
+            desc.stop = 0;
+            lom_medium_result full = march(&rays, &desc), cut;
+            desc.stop = stops[i % 3];
+            cut = march(&rays, &desc);
+            for (int k = 0; k < LOM_LANES; k++) {
+                CHECK(full.sun[k] - cut.sun[k] <= desc.stop && cut.sun[k] <= full.sun[k], "%g against %g", cut.sun[k],
+                      full.sun[k]);
+                CHECK(full.transmittance[k] >= 0 && full.transmittance[k] <= 1 && full.sun[k] <= 1.00001f, "%g %g",
+                      full.transmittance[k], full.sun[k]);
+            }
+        }
+        lom_free_medium(medium);
+        lom_free_image(image);
+    }
+}
+
+/* The step of lom_medium_step keeps its bound on any ray and with any shift: against a hundred times finer steps. */
+static void test_step_keeps_its_error_bound(void)
+{
+    uint32_t state = 5;
+    const float size[3] = { 1, 1, 1 };
+    for (int round = 0; round < 8; round++) {
+        lom_image *image = blobs(&state, 24);
+        lom_medium *medium = lom_create_medium(image, NULL);
+        double error = round % 2 ? 0.05 : 0.01, worst = 0;
+        lom_medium_desc desc = plain(medium, 1e-3, lom_medium_step(medium, size, (float)error));
+        for (int i = 0; i < 40; i++) {
+            lom_medium_rays rays = random_rays(&state, 0.2);
+            lom_float square = lom_dot3(rays.along, rays.along), unit = 1.0f / lom_sqrt(square);
+            rays.along = lom_scale3(rays.along, unit);
+            rays.active = ALL;
+            LOM_WIDE(lom_cross_box)(&rays);
+            lom_float exact;
+            LOM_WIDE(lom_medium_depth)(&exact, &rays, &desc, 4000);
+            lom_medium_result seen = march(&rays, &desc);
+            for (int k = 0; k < LOM_LANES; k++) {
+                if (!rays.active[k])
+                    continue;
+                /* in a thin medium what is seen of the sun is the optical depth, up to its square */
+                double length = (double)(rays.leave[k] - rays.enter[k]);
+                double off = magnitude((double)seen.sun[k] - (double)exact[k]) / 1e-3;
+                CHECK(off <= error * length + 1e-3, "off by %g over %g", off, length);
+                worst = off > worst ? off : worst;
+            }
+        }
+        CHECK(worst > 1e-5, "nothing was compared");
+        lom_free_medium(medium);
+        lom_free_image(image);
+    }
+}
+
+/* V6, V7, V8: a camera inside, on a face, an edge, a corner, beyond; rays parallel to faces; directions of any length.
+ */
+static void test_V7_boxes_are_entered_once(void)
+{
+    static const struct {
+        float start[3], along[3], enter, leave; /* leave 0: missed */
+    } cases[] = {
+        { { 0.5f, 0.5f, 0.5f }, { 1, 0, 0 }, 0, 0.5f },
+        { { 0, 0.5f, 0.5f }, { 1, 0, 0 }, 0, 1 },
+        { { 1, 0.5f, 0.5f }, { 1, 0, 0 }, 0, 0 },
+        { { 1, 0.5f, 0.5f }, { -1, 0, 0 }, 0, 1 },
+        { { 0, 0, 0 }, { 1, 1, 1 }, 0, 1 },
+        { { 1, 1, 1 }, { -1, -1, -1 }, 0, 1 },
+        { { 0, 0, 0.5f }, { 0, 0, 1 }, 0, 0.5f },
+        { { 1, 0.5f, 0.5f }, { 0, 1, 0 }, 0, 0 },
+        { { 0, 0.5f, 0.5f }, { 0, 1, 0 }, 0, 0.5f },
+        { { -1, 0.5f, 0.5f }, { 1, 0, 0 }, 1, 2 },
+        { { -1, 0.5f, 0.5f }, { -1, 0, 0 }, 0, 0 },
+        { { -1, 2, 0.5f }, { 1, 0, 0 }, 0, 0 },
+        { { 0.5f, 0.5f, -4 }, { 0, -0.0f, 2 }, 2, 2.5f },
+        { { 0.5f, 0.5f, 0.5f }, { 0, 0, 1e-3f }, 0, 500 },
+        { { 0.5f, 0.5f, 0.5f }, { 1e-40f, 0, 1 }, 0, 0.5f },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        lom_medium_rays rays = { .start = lom_splat3(cases[i].start[0], cases[i].start[1], cases[i].start[2]),
+                                 .along = lom_splat3(cases[i].along[0], cases[i].along[1], cases[i].along[2]),
+                                 .active = ALL };
+        LOM_WIDE(lom_cross_box)(&rays);
+        bool hit = cases[i].leave > 0;
+        CHECK(lom_any(rays.active) == hit, "case %zu", i);
+        CHECK(!hit || (magnitude((double)rays.enter[0] - (double)cases[i].enter) < 1e-6 &&
+                       magnitude((double)rays.leave[0] / (double)cases[i].leave - 1) < 1e-6),
+              "case %zu: %g to %g", i, rays.enter[0], rays.leave[0]);
+    }
+}
+
+/* V17: a ray longer than the greatest number of steps takes longer ones, to its end. V1: no stall for the shortest
+ * steps. */
+static void test_V17_step_cap_covers_the_ray(void)
+{
+    lom_medium *medium = medium_along_x(8, one);
+    lom_medium_desc desc = plain(medium, 2, 1e-9);
+    desc.most_steps = 100;
+    lom_medium_rays rays = rays_along_x(0, 1);
+    lom_march_count count = { 0 };
+    lom_medium_result seen;
+    LOM_WIDE(lom_march_medium)(&seen, &rays, &desc, &count);
+    CHECK(count.sampled <= 101 && magnitude((double)seen.transmittance[0] - lom_double_exp(-2)) < 1e-5, "%llu %g",
+          (unsigned long long)count.sampled, seen.transmittance[0]);
+    lom_free_medium(medium);
+}
+
+/* V19: full density is full from 8 bits, 16 bits and floats; negative floats and those above 1 are clamped. */
+static void test_V19_full_voxels(void)
+{
+    static const lom_format formats[] = { LOM_FORMAT_R8, LOM_FORMAT_R16, LOM_FORMAT_R32F };
+    for (int f = 0; f < 3; f++)
+        for (int negative = 0; negative < 2; negative++) {
+            lom_image *image = lom_create_image(3, 3, 3, formats[f], NULL);
+            for (int i = 0; i < 27; i++) {
+                if (f == 2)
+                    ((float *)image->pixels)[i] = negative ? -3.0f : 7.0f;
+                else
+                    memset(image->pixels + (f + 1) * i, negative ? 0 : 255, (size_t)f + 1);
+            }
+            lom_medium *medium = lom_create_medium(image, NULL);
+            lom_float density = lom_sample_medium(medium, lom_find_in_cells(3, 3, 3, lom_splat3(0.4f, 0.7f, 0.99f)));
+            CHECK(magnitude((double)density[0] - !negative) < 1e-6, "format %d: %g", f, density[0]);
+            lom_free_medium(medium);
+            lom_free_image(image);
+        }
+}
+
+int main(int argc, char **argv)
+{
+    if (!check_lanes_run()) {
+        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
+        return 0;
+    }
+    RUN(test_V13_slab_is_exact);
+    RUN(test_V14_split_changes_nothing);
+    RUN(test_V15_order_reversed);
+    RUN(test_V13_order_of_convergence);
+    RUN(test_V5_empty_medium);
+    RUN(test_skipping_changes_no_byte);
+    RUN(test_V10_early_stop_keeps_its_bound);
+    RUN(test_step_keeps_its_error_bound);
+    RUN(test_V7_boxes_are_entered_once);
+    RUN(test_V17_step_cap_covers_the_ray);
+    RUN(test_V19_full_voxels);
+    return check_result();
+}
