@@ -235,7 +235,7 @@ LOM_INLINE void lom_defined_gather_pairs(const int32_t *from, lom_int index, lom
 /* Four consecutive floats at rows[i] + offset, transposed: lane i of member k is the k-th float of row i. */
 LOM_INLINE lom_float4 lom_defined_load_rows(const float *const rows[LOM_LANES], size_t offset)
 {
-    lom_float4 x = { 0 };
+    lom_float4 x = { { 0 }, { 0 }, { 0 }, { 0 } };
     for (int i = 0; i < LOM_LANES; i++) {
         const float *row = rows[i] + offset;
         x.x[i] = row[0];

@@ -228,7 +228,7 @@ LOM_INLINE lom_float lom_shifted_sin(lom_float x, double offset, int64_t sign)
     q = 0x1.11110fdaaf87bp-7 + u * q;
     q = -0x1.555555546053p-3 + u * q;
     lom_double value = r * (1.0 + u * q); /* keeps -0 */
-    return lom_narrow((lom_double)((lom_long)value ^ ((lom_long)t << 63) ^ sign));
+    return lom_narrow((lom_double)((lom_long)value ^ (lom_long)((lom_ulong)t << 63) ^ sign));
 }
 
 /* sin x and cos x: angles below 131072 in double; larger ones by the exact reduction of lom_double_sin, a lane at a

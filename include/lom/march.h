@@ -210,7 +210,7 @@ LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
     int mask = detail->size - 1;
     lom_float3 p = { at.x * size, at.y * size, at.z * size };
     lom_float3 below = { lom_floor(p.x), lom_floor(p.y), lom_floor(p.z) };
-    lom_volume_place place = { .x = p.x - below.x, .y = p.y - below.y, .z = p.z - below.z };
+    lom_volume_place place = { .index = { 0 }, .x = p.x - below.x, .y = p.y - below.y, .z = p.z - below.z };
     place.index = ((lom_to_int(below.z) & mask) * detail->size + (lom_to_int(below.y) & mask)) * detail->size +
                   (lom_to_int(below.x) & mask);
     lom_int low, high;

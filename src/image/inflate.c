@@ -226,10 +226,10 @@ static bool inflate_codes(reader *in, const code *literals, const code *distance
         }
         if (symbol == END_OF_BLOCK)
             return true;
-        if (symbol < 0 || symbol >= FIRST_LENGTH + 29)
+        unsigned code = (unsigned)symbol - FIRST_LENGTH; /* -1, no code, is beyond every code */
+        if (code >= 29)
             return fail(in, "there is no such code for a literal or a length");
-        symbol -= FIRST_LENGTH;
-        size_t length = length_base[symbol] + take(in, length_extra[symbol]);
+        size_t length = length_base[code] + take(in, length_extra[code]);
         symbol = decode(in, distances);
         if (symbol < 0 || symbol >= DISTANCES)
             return in->count < 0 ? fail_end(in) : fail(in, "there is no such code for a distance");

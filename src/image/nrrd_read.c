@@ -252,7 +252,7 @@ static bool store_samples(const header *h, const layout *l, const uint8_t *from,
             if (value != value)
                 return lom_fail(h->error, LOM_ERROR_INPUT, "%s: sample %llu is NaN, which is no density.", h->name,
                                 (unsigned long long)i);
-            ((float *)image->pixels)[i] = value;
+            ((float *)(void *)image->pixels)[i] = value;
         }
     }
     return true;

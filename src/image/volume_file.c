@@ -40,7 +40,7 @@ lom_image *lom_decode_raw_volume(const uint8_t *data, size_t size, int width, in
                 lom_free_image(image);
                 return NULL;
             }
-            ((float *)image->pixels)[i] = value;
+            ((float *)(void *)image->pixels)[i] = value;
         }
     }
     return image;
