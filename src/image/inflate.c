@@ -226,10 +226,10 @@ static bool inflate_codes(reader *in, const code *literals, const code *distance
         }
         if (symbol == END_OF_BLOCK)
             return true;
-        unsigned code = (unsigned)symbol - FIRST_LENGTH; /* -1, no code, is beyond every code */
-        if (code >= 29)
+        unsigned number = (unsigned)symbol - FIRST_LENGTH; /* -1, no code, is beyond every code */
+        if (number >= 29)
             return fail(in, "there is no such code for a literal or a length");
-        size_t length = length_base[code] + take(in, length_extra[code]);
+        size_t length = length_base[number] + take(in, length_extra[number]);
         symbol = decode(in, distances);
         if (symbol < 0 || symbol >= DISTANCES)
             return in->count < 0 ? fail_end(in) : fail(in, "there is no such code for a distance");
