@@ -39,8 +39,9 @@ typedef struct lom_reference_water {
     double lowest, highest; /* the bounds of height; equal for a plane */
     double step;            /* metres along a ray in which it crosses the surface at most once; a plane needs none */
     double index;           /* of refraction, against air */
+    double roughness;       /* mean square slope of ripples that are finer than any pixel: each ray meets its own */
     double absorption[3];   /* 1/m for red, green and blue */
-    double color[3];        /* radiance of endless depths */
+    double color[3];        /* radiance of endless depths, seen from straight above */
     const void *context;    /* for the functions; outlives the reference */
     double (*height)(const void *context, double x, double z, double time); /* NULL: the plane y = lowest */
     void (*slope)(const void *context, double x, double z, double time, double slope[2]); /* dy/dx and dy/dz; NULL: that
@@ -58,7 +59,9 @@ typedef struct lom_reference lom_reference;
  * their front sides alone, their materials and textures under the scene's directional light and ambient light with
  * Phong's reflection for each sample, no shadows, and the sky behind. Dials of [quality] that make the renderer cheaper
  * are not looked at. Water is what the scene's [water] table describes, by what physics says of it: the share that is
- * reflected by Fresnel's equations, refraction by Snell's law, absorption by Beer and Lambert. */
+ * reflected by Fresnel's equations, refraction by Snell's law, absorption by Beer and Lambert; its waves
+ * ([water.waves]) as fine triangles, else its normal map. Sunlight reaches the bed through a level surface, and there
+ * is no foam. */
 lom_reference *lom_create_reference(const lom_scene *scene, lom_error *error);
 void lom_free_reference(lom_reference *reference); /* NULL is allowed */
 
@@ -70,7 +73,7 @@ bool lom_set_reference_water(lom_reference *reference, const lom_reference_water
 
 /* How a ray sees the scene: the radiance (linear) that comes from `direction` (unit length) to `origin`, nothing nearer
  * than `near_distance`. depth: how many times a path may be divided or mirrored at water; after that water is not seen.
- */
+ * Without the waves of [water.waves], which lom_trace_scene makes for its camera. */
 lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3 direction, double near_distance,
                        double time, int depth);
 

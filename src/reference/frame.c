@@ -1,12 +1,14 @@
 /* A picture by rays. In: a loaded scene and a frame's description. Out: linear RGB32F. Each pixel is computed from its
  * coordinates in the whole frame alone; threads take rows. */
 #include "base/threads.h"
-#include "reference/world.h"
+#include "reference/waves.h"
 
 #include <stdatomic.h>
 
 struct frame {
-    const lom_reference *world;
+    lom_reference world; /* the reference with the waves of this frame */
+    struct lom_wave_surface waves;
+    bool in_water; /* the camera */
     lom_reference_frame desc;
     lom_image *image;
     lom_camera_view camera;
@@ -49,9 +51,8 @@ static lom_vec3 see(const struct frame *f, double x, double y)
     lom_vec3 world = { v[0][0] * ray[0] + v[1][0] * ray[1] + v[2][0] * ray[2],
                        v[0][1] * ray[0] + v[1][1] * ray[1] + v[2][1] * ray[2],
                        v[0][2] * ray[0] + v[1][2] * ray[1] + v[2][2] * ray[2] };
-    double slant = length(world);
-    return lom_radiance_along(f->world, (struct lom_ray){ f->camera.position, world }, f->camera.near_plane * slant,
-                              f->desc.time, f->desc.depth);
+    return lom_radiance_along(&f->world, (struct lom_ray){ f->camera.position, world },
+                              f->camera.near_plane * length(world), f->desc.time, f->desc.depth, f->in_water);
 }
 
 static void trace_row(const struct frame *f, int row)
@@ -98,27 +99,40 @@ static bool check_frame(const lom_reference_frame *d, lom_error *error)
     return true;
 }
 
+/* The camera and the waves around it. */
+static bool look(struct frame *f, lom_error *error)
+{
+    f->camera = lom_scene_camera_at(f->world.scene, f->desc.time);
+    f->view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
+    f->projection =
+        lom_perspective(f->camera.field_of_view, (double)f->desc.width / f->desc.height, f->camera.near_plane);
+    lom_vec3 eye = f->camera.position;
+    if (!lom_make_wave_surface(&f->waves, &f->world, eye, f->desc.time, error))
+        return false;
+    f->in_water = lom_water_above(&f->world, eye, f->desc.time) > 0;
+    if (f->waves.count > 0) {
+        f->world.waves = &f->waves;
+        f->in_water = lom_is_over_water(&f->world, eye) && eye.y < lom_wave_surface_height(&f->waves, eye.x, eye.z);
+    }
+    return true;
+}
+
 lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_frame *desc, lom_error *error)
 {
-    struct frame f = { .world = reference, .desc = *desc };
+    struct frame f = { .world = *reference, .desc = *desc };
     if (f.desc.crop.width == 0)
         f.desc.crop = (lom_rect){ 0, 0, desc->width, desc->height };
     if (!check_frame(&f.desc, error))
         return NULL;
-    f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
-    lom_pool *pool =
-        f.image == NULL ? NULL : lom_create_pool(desc->threads > 0 ? desc->threads : lom_default_threads(), error);
-    if (pool == NULL) {
-        lom_free_image(f.image);
-        return NULL;
-    }
     lom_float_state state;
     lom_enter_float_state(&state);
-    f.camera = lom_scene_camera_at(reference->scene, f.desc.time);
-    f.view = lom_look_at(f.camera.position, f.camera.target, f.camera.up);
-    f.projection = lom_perspective(f.camera.field_of_view, (double)f.desc.width / f.desc.height, f.camera.near_plane);
-    lom_run_pool(pool, trace_rows, &f);
-    lom_leave_float_state(&state);
+    lom_pool *pool = lom_create_pool(desc->threads > 0 ? desc->threads : lom_default_threads(), error);
+    if (pool != NULL && look(&f, error))
+        f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
+    if (f.image != NULL)
+        lom_run_pool(pool, trace_rows, &f);
+    lom_free_wave_surface(&f.waves);
     lom_free_pool(pool);
+    lom_leave_float_state(&state);
     return f.image;
 }

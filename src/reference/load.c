@@ -303,10 +303,21 @@ static bool make_flow_map(lom_reference *world, const char *normal_map, lom_erro
     return done;
 }
 
+/* 1 / the cosine below the surface of sunlight that came from a direction above it. */
+static double find_slant(lom_vec3 to_light, double index)
+{
+    lom_vec3 down;
+    const lom_vec3 up = { 0, 1, 0 };
+    if (!(to_light.y > 0) || !lom_reference_refract(scaled(to_light, -1), up, index, &down))
+        return 1;
+    return -1 / down.y;
+}
+
 static bool load_water(lom_reference *world, lom_error *error)
 {
     const lom_water_params *w = &world->scene->water;
     world->normal_map = world->flow_map = LOM_NO_PICTURE;
+    world->slant = 1;
     world->water = (lom_reference_water){ .low = { 1, 1 }, .index = 1 };
     if (w->given == 0 || !w->enabled)
         return true;
@@ -315,6 +326,8 @@ static bool load_water(lom_reference *world, lom_error *error)
         world->water.high[i] = w->position[i] + w->size[i] / 2;
     }
     world->water.lowest = world->water.highest = w->level;
+    world->slant = find_slant(world->to_light, w->optics.index);
+    world->water.roughness = w->optics.roughness;
     world->water.index = w->optics.index;
     lom_vec3 light = along(world->ambient, world->light, at_least(world->to_light.y, 0)); /* of a white surface */
     const double white[3] = { light.x, light.y, light.z };

@@ -49,6 +49,7 @@ static bool is_finite(double x)
 bool lom_set_reference_water(lom_reference *reference, const lom_reference_water *w, lom_error *error)
 {
     bool good = w->index > 0 && is_finite(w->index) && w->lowest <= w->highest && is_finite(w->highest - w->lowest) &&
+                w->roughness >= 0 && is_finite(w->roughness) &&
                 (w->height == NULL || (w->step > 0 && is_finite(w->step)));
     for (int i = 0; i < 2; i++)
         good = good && is_finite(w->high[i] - w->low[i]);

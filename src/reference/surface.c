@@ -1,6 +1,6 @@
 /* The water's surface. In: rays, places, times. Out: where a ray crosses the surface, the normal and the depth there. A
  * plane is met exactly; any other height field by equal steps with bisection at the first change of side. */
-#include "reference/world.h"
+#include "reference/waves.h"
 
 static bool has_water(const lom_reference_water *w)
 {
@@ -17,10 +17,15 @@ static double height_at(const lom_reference_water *w, double x, double z, double
     return w->height == NULL ? w->lowest : w->height(w->context, x, z, time);
 }
 
+bool lom_is_over_water(const lom_reference *world, lom_vec3 place)
+{
+    return has_water(&world->water) && covers(&world->water, place.x, place.z);
+}
+
 double lom_water_above(const lom_reference *world, lom_vec3 place, double time)
 {
     const lom_reference_water *w = &world->water;
-    if (!has_water(w) || !covers(w, place.x, place.z) || place.y >= w->highest)
+    if (!lom_is_over_water(world, place) || place.y >= w->highest)
         return 0;
     return at_least(height_at(w, place.x, place.z, time) - place.y, 0);
 }
@@ -38,10 +43,11 @@ static bool cut_interval(double origin, double direction, double from, double to
     return *low <= *high;
 }
 
-static bool hit_plane(const lom_reference_water *w, const struct lom_ray *ray, double low, double high, double *t)
+static bool hit_plane(const lom_reference_water *w, const struct lom_ray *ray, bool from_below, double low, double high,
+                      double *t)
 {
     double at = (w->lowest - ray->origin.y) / ray->direction.y;
-    if (ray->direction.y == 0 || !(at > low && at < high) ||
+    if (ray->direction.y == 0 || from_below != (ray->direction.y > 0) || !(at > low && at < high) ||
         !covers(w, ray->origin.x + ray->direction.x * at, ray->origin.z + ray->direction.z * at))
         return false;
     *t = at;
@@ -70,8 +76,9 @@ static double bisect(const lom_reference_water *w, const struct lom_ray *ray, do
     return from;
 }
 
-static bool hit_field(const lom_reference_water *w, const struct lom_ray *ray, double time, double low, double high,
-                      double *t)
+/* A ray that starts on the wrong side, within rounding of the surface, first comes over to its own. */
+static bool hit_field(const lom_reference_water *w, const struct lom_ray *ray, double time, bool from_below, double low,
+                      double high, double *t)
 {
     enum { STEPS = 1 << 22 }; /* beyond them a ray that grazes endless waves is taken to miss */
     const lom_vec3 o = ray->origin, d = ray->direction;
@@ -79,26 +86,19 @@ static bool hit_field(const lom_reference_water *w, const struct lom_ray *ray, d
         !cut_interval(o.x, d.x, w->low[0], w->high[0], &low, &high) ||
         !cut_interval(o.z, d.z, w->low[1], w->high[1], &low, &high))
         return false;
-    bool from_above = above(w, ray, time, low) > 0;
+    bool own_side = (above(w, ray, time, low) > 0) != from_below;
     double last = low;
     for (int i = 1; i < STEPS && last < high; i++) {
         double next = at_most(low + i * w->step, high);
-        if ((above(w, ray, time, next) > 0) != from_above) {
-            *t = bisect(w, ray, time, last, next, from_above);
+        bool there = (above(w, ray, time, next) > 0) != from_below;
+        if (own_side && !there) {
+            *t = bisect(w, ray, time, last, next, !from_below);
             return true;
         }
+        own_side = there;
         last = next;
     }
     return false;
-}
-
-bool lom_hit_water(const lom_reference *world, const struct lom_ray *ray, double time, double low, double high,
-                   double *t)
-{
-    const lom_reference_water *w = &world->water;
-    if (!has_water(w))
-        return false;
-    return w->height == NULL ? hit_plane(w, ray, low, high, t) : hit_field(w, ray, time, low, high, t);
 }
 
 /* ---- normals ---- */
@@ -120,15 +120,53 @@ static lom_vec3 mapped_normal(const lom_reference *world, lom_vec3 place, double
     return unit((lom_vec3){ texel.x * 2 - 1, texel.z * w->normal_up, texel.y * 2 - 1 });
 }
 
-lom_vec3 lom_water_normal(const lom_reference *world, lom_vec3 place, double time)
+static lom_vec3 normal_of_slope(const double slope[2])
+{
+    return unit((lom_vec3){ -slope[0], 1, -slope[1] });
+}
+
+/* Ripples finer than any pixel: slopes normally distributed, as random numbers that belong to the place. */
+static lom_vec3 ripple(lom_vec3 normal, lom_vec3 place, double roughness)
+{
+    double slopes[2];
+    if (!(roughness > 0))
+        return normal;
+    lom_random_normal(lom_hash_bytes(LOM_HASH_START, &place.x, sizeof place.x),
+                      lom_hash_bytes(LOM_HASH_START, &place.z, sizeof place.z), slopes);
+    double deviation = lom_double_sqrt(roughness / 2), up = normal.y;
+    return unit((lom_vec3){ normal.x + up * deviation * slopes[0], up, normal.z + up * deviation * slopes[1] });
+}
+
+static void find_normals(const lom_reference *world, double time, struct lom_crossing *c)
 {
     const lom_reference_water *w = &world->water;
+    c->facet = (lom_vec3){ 0, 1, 0 };
     if (w->slope != NULL) {
         double slope[2];
-        w->slope(w->context, place.x, place.z, time, slope);
-        return unit((lom_vec3){ -slope[0], 1, -slope[1] });
+        w->slope(w->context, c->place.x, c->place.z, time, slope);
+        c->normal = normal_of_slope(slope);
+        c->facet = w->height != NULL ? c->normal : c->facet;
+    } else {
+        c->normal = world->normal_map == LOM_NO_PICTURE ? c->facet : mapped_normal(world, c->place, time);
     }
-    if (world->normal_map == LOM_NO_PICTURE)
-        return (lom_vec3){ 0, 1, 0 };
-    return mapped_normal(world, place, time);
+    c->normal = ripple(c->normal, c->place, world->water.roughness);
+}
+
+bool lom_cross_water(const lom_reference *world, const struct lom_ray *ray, double time, bool from_below, double low,
+                     double high, struct lom_crossing *c)
+{
+    const lom_reference_water *w = &world->water;
+    if (world->waves != NULL) {
+        if (!lom_hit_waves(world->waves, ray, from_below, low, high, c))
+            return false;
+        c->normal = ripple(c->normal, c->place, world->water.roughness);
+        return true;
+    }
+    if (!has_water(w) || !(w->height == NULL ? hit_plane(w, ray, from_below, low, high, &c->t)
+                                             : hit_field(w, ray, time, from_below, low, high, &c->t)))
+        return false;
+    c->place = along(ray->origin, ray->direction, c->t);
+    c->place.y = height_at(w, c->place.x, c->place.z, time);
+    find_normals(world, time, c);
+    return true;
 }

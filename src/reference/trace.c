@@ -23,15 +23,25 @@ static const double FAR = 1e300;
 
 static lom_vec3 follow(const struct tracer *tracer, const struct path *path);
 
-/* Beer and Lambert: light exp(-a t) + color (1 - exp(-a t)), what is lost replaced by the glow of endless depths. */
-static lom_vec3 absorb(const lom_reference_water *water, lom_vec3 light, double t)
+/* Light from `beyond` after a way of t metres through water, from `depth` metres below the surface on. Each metre takes
+ * a share a of it (Beer and Lambert) and adds a source exp(-a slant depth): the sunlight that comes down so far and is
+ * scattered to here. Over the way, with rate = 1 + slant (metres down a metre), that is
+ * source exp(-a slant depth) (1 - exp(-a t rate)) / rate; straight down without end it is source / (1 + slant), which
+ * the water's color states. */
+static lom_vec3 cross_medium(const struct tracer *tracer, const struct path *path, lom_vec3 beyond, double t)
 {
-    double *channel[3] = { &light.x, &light.y, &light.z };
+    const lom_reference *world = tracer->world;
+    const lom_reference_water *water = &world->water;
+    double slant = world->slant, rate = 1 - slant * path->ray.direction.y;
+    double depth = lom_water_above(world, path->ray.origin, tracer->time);
+    double *channel[3] = { &beyond.x, &beyond.y, &beyond.z };
     for (int i = 0; i < 3; i++) {
-        double thickness = water->absorption[i] * t;
-        *channel[i] = *channel[i] * lom_double_exp(-thickness) - water->color[i] * lom_double_expm1(-thickness);
+        double a = water->absorption[i], thickness = a * t;
+        double source = water->color[i] * (1 + slant) * lom_double_exp(-a * slant * depth);
+        double inner = __builtin_fabs(rate) < 1e-9 ? thickness : -lom_double_expm1(-thickness * rate) / rate;
+        *channel[i] = *channel[i] * lom_double_exp(-thickness) + (source > 0 ? source * inner : 0);
     }
-    return light;
+    return beyond;
 }
 
 /* What a directional light of radiance `light` on a white diffuse surface looks like as a disc of this radius: with
@@ -41,37 +51,34 @@ static lom_vec3 sun_disc(const lom_reference *world, lom_vec3 direction)
     double radius = world->scene->quality.reference.sun, sine = lom_double_sin(radius);
     if (dot(direction, world->to_light) < lom_double_cos(radius))
         return (lom_vec3){ 0, 0, 0 };
-    return scaled(world->light, 1 / (sine * sine));
+    return scaled(world->light, world->scene->water.optics.glitter / (sine * sine));
 }
 
-/* The ways that a path goes on after the water's surface at t. A facet of the normal map that is turned away from the
- * ray stands for a wave that hides it: it reflects all, like the plane. What a facet would send through the surface the
- * wrong way is mirrored back at the plane. */
-static lom_vec3 divide(const struct tracer *tracer, const struct path *path, double t)
+/* d on the side of the plane that n points to: mirrored when it is not. */
+static lom_vec3 kept_in_front(lom_vec3 d, lom_vec3 n)
+{
+    return dot(d, n) < 0 ? lom_reference_mirror(d, n) : d;
+}
+
+/* The ways that a path goes on after the water's surface. A normal that is turned away from the ray stands for a wave
+ * that hides it: it reflects all, like the facet. What would come to lie on the wrong side of the facet is mirrored by
+ * it. */
+static lom_vec3 divide(const struct tracer *tracer, const struct path *path, const struct lom_crossing *c)
 {
     const lom_reference_water *water = &tracer->world->water;
     double side = path->in_water ? -1 : 1, index = path->in_water ? 1 / water->index : water->index;
-    lom_vec3 place = along(path->ray.origin, path->ray.direction, t), d = path->ray.direction;
-    lom_vec3 normal = scaled(lom_water_normal(tracer->world, place, tracer->time), side);
-    struct path next = *path;
-    double height =
-        water->height == NULL ? water->lowest : water->height(water->context, place.x, place.z, tracer->time);
-    double margin = water->height == NULL ? 0 : 1e-9 * side;
-    next.low = 0;
-    next.depth--;
-    next.by_water = true;
-    next.ray.origin = (lom_vec3){ place.x, height + margin, place.z };
+    lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side);
+    struct path next = {
+        .ray.origin = c->place, .depth = path->depth - 1, .in_water = path->in_water, .by_water = true
+    };
     double cosine = -dot(d, normal), share = cosine > 0 ? lom_reference_fresnel(cosine, index) : 1;
-    next.ray.direction = cosine > 0 ? lom_reference_mirror(d, normal) : (lom_vec3){ d.x, -d.y, d.z };
-    if (water->height == NULL && next.ray.direction.y * side < 0)
-        next.ray.direction.y = -next.ray.direction.y;
     lom_vec3 light = { 0, 0, 0 };
-    if (share > 0)
+    if (share > 0) {
+        next.ray.direction = kept_in_front(lom_reference_mirror(d, cosine > 0 ? normal : facet), facet);
         light = scaled(follow(tracer, &next), share);
+    }
     if (share < 1 && lom_reference_refract(d, normal, index, &next.ray.direction)) {
-        if (water->height == NULL && next.ray.direction.y * side > 0)
-            next.ray.direction.y = -next.ray.direction.y;
-        next.ray.origin.y = height - margin;
+        next.ray.direction = kept_in_front(next.ray.direction, scaled(facet, -1));
         next.in_water = !path->in_water;
         light = along(light, follow(tracer, &next), 1 - share);
     }
@@ -83,10 +90,11 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
     const lom_reference *world = tracer->world;
     struct lom_ray_hit hit = { .t = FAR };
     bool opaque = lom_hit_triangles(&world->opaque, &path->ray, path->low, &hit);
-    double length = hit.t;
+    struct lom_crossing crossing = { .t = hit.t };
     lom_vec3 light;
-    if (path->depth > 0 && lom_hit_water(world, &path->ray, tracer->time, path->low, hit.t, &length)) {
-        light = divide(tracer, path, length);
+    if (path->depth > 0 &&
+        lom_cross_water(world, &path->ray, tracer->time, path->in_water, path->low, hit.t, &crossing)) {
+        light = divide(tracer, path, &crossing);
     } else if (opaque) {
         light = lom_shade_hit(world, &path->ray, &hit, tracer->time);
     } else {
@@ -94,17 +102,16 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
         if (path->by_water)
             light = sum(light, sun_disc(world, path->ray.direction));
     }
-    return path->in_water ? absorb(&world->water, light, length) : light;
+    return path->in_water ? cross_medium(tracer, path, light, crossing.t) : light;
 }
 
 lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,
-                            int depth)
+                            int depth, bool in_water)
 {
     struct tracer tracer = { world, time };
-    struct path path = { .ray = { ray.origin, unit(ray.direction) },
-                         .low = near_distance,
-                         .depth = depth,
-                         .in_water = lom_water_above(world, ray.origin, time) > 0 };
+    struct path path = {
+        .ray = { ray.origin, unit(ray.direction) }, .low = near_distance, .depth = depth, .in_water = in_water
+    };
     return follow(&tracer, &path);
 }
 
@@ -113,7 +120,8 @@ lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3
 {
     lom_float_state state;
     lom_enter_float_state(&state);
-    lom_vec3 light = lom_radiance_along(reference, (struct lom_ray){ origin, direction }, near_distance, time, depth);
+    lom_vec3 light = lom_radiance_along(reference, (struct lom_ray){ origin, direction }, near_distance, time, depth,
+                                        lom_water_above(reference, origin, time) > 0);
     lom_leave_float_state(&state);
     return light;
 }

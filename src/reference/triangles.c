@@ -246,6 +246,11 @@ static bool hit_sheared(const struct lom_ray_triangles *set, const struct lom_ra
     }
     /* Signed areas as seen against z: positive for a triangle that is clockwise along the ray, which is its front. */
     double u = x[2] * y[1] - y[2] * x[1], v = x[0] * y[2] - y[0] * x[2], w = x[1] * y[0] - y[1] * x[0];
+    if (set->inside_out) {
+        u = -u;
+        v = -v;
+        w = -w;
+    }
     if (u < 0 || v < 0 || w < 0)
         return false;
     double area = u + v + w;

@@ -21,6 +21,7 @@ struct lom_ray_triangles {
     const lom_vec3 *points;
     const struct lom_ray_triangle *triangles;
     uint32_t count;
+    bool inside_out; /* the back sides are hit instead of the front sides */
     uint32_t *order; /* of the triangles, leaf after leaf */
     struct lom_ray_node *nodes;
     uint32_t node_count;
@@ -42,13 +43,13 @@ struct lom_ray_hit {
 bool lom_build_ray_triangles(struct lom_ray_triangles *set, lom_error *error);
 void lom_free_ray_triangles(struct lom_ray_triangles *set);
 
-/* The front side of one triangle. Inclusive on its edges, with edge functions that are exact negatives of one another
- * for two triangles that share an edge: no ray passes between them (S. Woop, C. Benthin, I. Wald, Watertight
- * Ray/Triangle Intersection, JCGT 2(1), 2013). */
+/* The front side (or the back side, inside_out) of one triangle. Inclusive on its edges, with edge functions that are
+ * exact negatives of one another for two triangles that share an edge: no ray passes between them (S. Woop, C. Benthin,
+ * I. Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013). */
 bool lom_hit_triangle(const struct lom_ray_triangles *set, const struct lom_ray *ray, uint32_t triangle,
                       struct lom_ray_hit *hit);
 
-/* The nearest front side with low < t < hit->t, the lowest index of equally near ones; false, and *hit as it was, when
+/* The nearest such side with low < t < hit->t, the lowest index of equally near ones; false, and *hit as it was, when
  * there is none. */
 bool lom_hit_triangles(const struct lom_ray_triangles *set, const struct lom_ray *ray, double low,
                        struct lom_ray_hit *hit);

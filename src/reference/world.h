@@ -35,6 +35,8 @@ struct lom_ray_layer {
     double scale[2]; /* repetitions a metre along x and z */
 };
 
+struct lom_wave_surface;
+
 struct lom_reference {
     const lom_scene *scene;
     struct lom_ray_triangles opaque;
@@ -53,9 +55,11 @@ struct lom_reference {
     struct lom_picture sky;      /* no image: one colour */
     double sky_sine, sky_cosine; /* of the angle that turns directions back into the box */
     lom_vec3 to_light, light, ambient;
+    double slant; /* metres that sunlight goes in the water for each metre down */
 
     lom_reference_water water; /* bounds empty (low > high): there is none */
     int normal_map, flow_map;
+    const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
 };
 
 /* Loading (load.c): everything that the scene names. */
@@ -69,15 +73,22 @@ lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 direction);
 
 /* Rays (trace.c): lom_trace_ray in the float state that the caller has set. */
 lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,
-                            int depth);
+                            int depth, bool in_water);
 
 /* Water (surface.c). */
-/* Where a ray first crosses the surface of the water at low < t < high; false when it does not. */
-bool lom_hit_water(const lom_reference *world, const struct lom_ray *ray, double time, double low, double high,
-                   double *t);
-/* The unit normal there, upwards. */
-lom_vec3 lom_water_normal(const lom_reference *world, lom_vec3 place, double time);
-/* Metres of water above a place; 0 where there is none. */
+struct lom_crossing {
+    double t;
+    lom_vec3 place;
+    lom_vec3 facet;  /* the geometry's unit normal, upwards */
+    lom_vec3 normal; /* the one that mirrors and bends, upwards */
+};
+/* Where a ray first crosses the surface of the water at low < t < high, from above or from below; false when it does
+ * not. */
+bool lom_cross_water(const lom_reference *world, const struct lom_ray *ray, double time, bool from_below, double low,
+                     double high, struct lom_crossing *crossing);
+/* Whether a place is over or under the rectangle of the water. */
+bool lom_is_over_water(const lom_reference *world, lom_vec3 place);
+/* Metres of water above a place, waves of a frame left out; 0 where there is none. */
 double lom_water_above(const lom_reference *world, lom_vec3 place, double time);
 
 #endif

@@ -24,6 +24,7 @@ static lom_image *trace(const lom_scene *scene, double index, lom_reference_fram
     if (reference != NULL) {
         lom_reference_water water = lom_get_reference_water(reference);
         water.index = index;
+        water.roughness = index > 1e6 ? 0 : water.roughness; /* a mirror is smooth */
         CHECK(lom_set_reference_water(reference, &water, NULL));
         image = lom_trace_scene(reference, &frame, NULL);
     }

@@ -1,0 +1,36 @@
+/* A surface with waves as rays meet it: triangles around the eye, with normals from the waves themselves. */
+#ifndef LOM_REFERENCE_WAVES_H
+#define LOM_REFERENCE_WAVES_H
+
+#include "reference/world.h"
+
+struct lom_ray_wave {
+    double kx, kz, phase;                 /* rad/m, radians at the time */
+    double amplitude, across_x, across_z; /* metres */
+};
+
+struct lom_wave_surface {
+    int count;
+    struct lom_ray_wave wave[LOM_MAX_WAVES];
+    double level;
+    lom_vec3 *points;
+    double (*rest)[2]; /* of each point: where its water is at rest */
+    struct lom_ray_triangle *triangles;
+    struct lom_ray_triangles above, below; /* the same, hit from there; nodes and order belong to `above` */
+};
+
+/* The trochoids of the scene's water at a time, and their surface in fine triangles: rings around the place below the
+ * eye, a twelfth of the shortest wave apart or 0.006 of their radius, whichever is more. Empty (count 0) where the
+ * scene has no waves. False on failure; freed with lom_free_wave_surface. */
+bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *world, lom_vec3 eye, double time,
+                           lom_error *error);
+void lom_free_wave_surface(struct lom_wave_surface *surface);
+
+/* The crossing of a ray, without the ripples on it. */
+bool lom_hit_waves(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below, double low,
+                   double high, struct lom_crossing *crossing);
+
+/* The height of the surface over (x, z) itself: the rest position is found by iteration. */
+double lom_wave_surface_height(const struct lom_wave_surface *surface, double x, double z);
+
+#endif
