@@ -10,7 +10,12 @@ extern "C" {
 
 /* ---- what the richer models add: [water.waves], [water.optics], [water.foam] ---- */
 
-typedef enum lom_waves_kind { LOM_WAVES_NONE, LOM_WAVES_GERSTNER, LOM_WAVES_SEA } lom_waves_kind;
+typedef enum lom_waves_kind {
+    LOM_WAVES_NONE,
+    LOM_WAVES_GERSTNER,
+    LOM_WAVES_SEA,
+    LOM_WAVES_FLOW /* a river: ripples of the normal map, carried by a flow that the terrain and the level make */
+} lom_waves_kind;
 
 /* The waves on the surface. Gerstner: `count` trochoids of geometrically spaced lengths about one direction. Sea: the
  * cascades of lom/sea.h. An angle is measured from +x towards +z and says where the waves travel to. */
@@ -31,6 +36,7 @@ typedef struct lom_water_waves {
     double height_scale;    /* sea: factor on the heights */
     double choppiness;      /* sea: factor on the horizontal displacement */
     int cascades, size;     /* sea: how many, and samples a side of each */
+    double speed;           /* flow: its mean, m/s */
     double cell;            /* displaced: pixels between the vertices of the mesh */
     double patch;           /* sea: metres of the largest cascade; 0: six peak wavelengths */
 } lom_water_waves;

@@ -82,7 +82,7 @@ static double cove(const lom_noise *noise, double x, double z)
     return larger(bed, rock(noise, x, z, 258, 202, 10, 9));
 }
 
-/* A river through woods: it winds from the north to the south between banks, over gravel, around boulders. */
+/* A river through woods: it winds from the north to the south between banks, over gravel. */
 static double river(const lom_noise *noise, double x, double z)
 {
     double middle = 200 + 46 * lom_double_sin(z / 46) + 20 * lom_double_sin(z / 19 + 1) + bend(noise, 40, z, 70, 20);
@@ -91,16 +91,7 @@ static double river(const lom_noise *noise, double x, double z)
     double bed = -1.9 + 1.3 * (away / half) * (away / half) + bend(noise, x, z, 6, 0.7);
     double land = 1.4 + 0.05 * larger(bank, 0) + bend(noise, x, z, 40, 3) * lom_smooth_step(0, 25, bank);
     double hills = lom_smooth_step(50, 170, bank) * (16 + bend(noise, x, z, 70, 26));
-    double height = lom_mix_double(bed < 0.2 ? bed : 0.2, land + hills, lom_smooth_step(-2.5, 3.5, bank));
-    static const double rocks[][4] = { { 0.4, 214, 3.0, 4.6 },   { -0.5, 205, 2.2, 4.6 }, { 0.1, 186, 2.6, 4.8 },
-                                       { -0.35, 172, 3.4, 5.0 }, { 0.6, 158, 2.4, 4.4 },  { 0.0, 236, 1.8, 4.5 } };
-    for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++) {
-        double at = rocks[i][1];
-        double line =
-            200 + 46 * lom_double_sin(at / 46) + 20 * lom_double_sin(at / 19 + 1) + bend(noise, 40, at, 70, 20);
-        height = larger(height, rock(noise, x, z, line + rocks[i][0] * 11, at, rocks[i][2], rocks[i][3]) + 0.4);
-    }
-    return height;
+    return lom_mix_double(bed < 0.2 ? bed : 0.2, land + hills, lom_smooth_step(-2.5, 3.5, bank));
 }
 
 static const struct coast {

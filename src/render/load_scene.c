@@ -63,6 +63,8 @@ bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
     if (map == NULL)
         return false;
     renderer->terrain = lom_make_terrain(map, t->size[0], t->size[1], t->height, t->base, error);
+    renderer->grid_width = map->width;
+    renderer->grid_height = map->height;
     bool done = renderer->terrain != NULL && make_blocks(renderer, map->width - 1, map->height - 1, error) &&
                 lom_load_bed(renderer, map->width, map->height, error);
     lom_free_image(map);

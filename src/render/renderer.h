@@ -55,6 +55,7 @@ struct lom_renderer {
 
     lom_texture *sky, *normal_map, *flow_map;
     lom_mesh *terrain;
+    int grid_width, grid_height; /* of its vertices */
     struct lom_terrain_block *blocks;
     size_t block_count;
     struct lom_loaded_entity *entities;
@@ -65,6 +66,7 @@ struct lom_renderer {
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
     lom_texture *photons, *caustics;
+    lom_texture *flow;           /* field of velocities, or NULL */
     struct lom_polar_mesh polar; /* of displaced water */
 
     /* targets, remade when the size changes */

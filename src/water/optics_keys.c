@@ -8,9 +8,9 @@
 
 #define AT(member) offsetof(lom_water_waves, member)
 static const lom_key waves[] = {
-    { "kind", LOM_KEY_CHOICE, AT(kind), .choices = { "none", "gerstner", "sea" },
-      .text =
-          "Still water; a handful of trochoidal waves; or a sea of thousands of waves, summed by Fourier transforms." },
+    { "kind", LOM_KEY_CHOICE, AT(kind), .choices = { "none", "gerstner", "sea", "flow" },
+      .text = "Still water; a handful of trochoidal waves; a sea of thousands of waves, summed by Fourier transforms; "
+              "or a flowing river." },
     { "direction", LOM_KEY_ANGLE, AT(direction), .minimum = -360, .maximum = 360, .unit = "degrees",
       .text = "Where the waves travel to: 0 is +x, 90 is +z." },
     { "seed", LOM_KEY_INTEGER, AT(seed), .minimum = 0, .maximum = 1e9, .initial = { 1 },
@@ -52,6 +52,10 @@ static const lom_key waves[] = {
       .text = "Sea: patches of different size whose sum is the surface." },
     { "size", LOM_KEY_INTEGER, AT(size), .minimum = 16, .maximum = 1024, .initial = { 256 },
       .text = "Sea: samples a side of a patch, a power of two." },
+    { "speed", LOM_KEY_NUMBER, AT(speed), .maximum = 100, .initial = { 0.6 }, .unit = "m/s",
+      .text =
+          "Flow: mean speed of the river. It enters the terrain where `direction` comes from; how it runs between its "
+          "shores follows from the terrain below the level. Its ripples are those of `water.normal_map`." },
     { "cell", LOM_KEY_NUMBER, AT(cell), .minimum = 1, .maximum = 256, .initial = { 5 }, .unit = "pixels",
       .text = "Displaced: distance between the vertices of the mesh on the screen." },
     { "patch", LOM_KEY_NUMBER, AT(patch), .maximum = 1e6, .unit = "m", .initial_text = "six of the longest waves",

@@ -125,18 +125,17 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     return hit;
 }
 
-/* Whether anything nearer than the surface stands within `width` pixels of a place in a picture. */
-LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
-                                  const struct lom_surface_point *p, lom_float s, lom_float t, lom_float width)
+/* The width of blur at a place in a picture: none where anything nearer than the surface stands within it, which would
+ * bleed into what is mirrored beyond. */
+LOM_INLINE lom_float lom_clear_width(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                     const struct lom_surface_point *p, struct lom_hit hit, lom_float width)
 {
     lom_float bound = p->w * 0.98f, x = width * (1.5f * u->pixel[0]), y = width * (1.5f * u->pixel[1]);
-    lom_mask hidden = ~(lom_picture_w(u, picture, s, t) > bound);
-    if (lom_any(width > 1.0f))
-        for (int i = 0; i < 4; i++) {
-            lom_float near = lom_picture_w(u, picture, i & 1 ? s + x : s - x, i & 2 ? t + y : t - y);
-            hidden = hidden | (~(near > bound) & (width > 1.0f));
-        }
-    return hidden;
+    lom_mask hidden = { 0 };
+    for (int i = 0; i < 4 && lom_any(width > 1.0f); i++)
+        hidden =
+            hidden | ~(lom_picture_w(u, picture, i & 1 ? hit.s + x : hit.s - x, i & 2 ? hit.t + y : hit.t - y) > bound);
+    return lom_select(hidden, lom_splat(1.0f), width);
 }
 
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
@@ -144,8 +143,7 @@ LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const st
  * there, the unbent ray answers. */
 LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms *u,
                                                const struct lom_picture_uniform *picture,
-                                               const struct lom_surface_point *p, lom_float3 d, lom_float longest,
-                                               lom_float width)
+                                               const struct lom_surface_point *p, lom_float3 d, lom_float longest)
 {
     lom_float2 own = lom_own_place(picture, p);
     lom_float further = lom_picture_w(u, picture, own.x, own.y) / p->w - 1.0f;
@@ -154,7 +152,7 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
     struct lom_hit hit = { at.w > 0.0f, length, lom_clamp(at.s, own.x - u->reach, own.x + u->reach),
                            lom_clamp(at.t, own.y - u->reach, own.y + u->reach) };
-    lom_mask hidden = lom_is_hidden(u, picture, p, hit.s, hit.t, width);
+    lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > p->w * 0.98f);
     hit.s = lom_select(hidden, own.x, hit.s);
     hit.t = lom_select(hidden, own.y, hit.t);
     return hit;
@@ -199,13 +197,14 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
         if (followed)
             met = lom_follow_ray(u, picture, p, d, range);
         lom_float width = above ? lom_blur_width(u, variance) : lom_splat(1.0f);
-        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d, met.length, width);
+        struct lom_hit hit = lom_displaced_lookup(u, picture, p, d, met.length);
         if (followed) {
             hit.length = lom_select(met.found, met.length, hit.length);
             hit.s = lom_select(met.found, met.s, hit.s);
             hit.t = lom_select(met.found, met.t, hit.t);
             hit.found = hit.found | met.found;
         }
+        width = lom_clear_width(u, picture, p, hit, width);
         lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, lom_log2(width));
         share = lom_select(hit.found, texel.w, (lom_float){ 0 });
         color = lom_scale3((lom_float3){ texel.x, texel.y, texel.z },

@@ -81,3 +81,19 @@ double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, doub
     }
     return height;
 }
+
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time)
+{
+    double period = speed > 0 ? tile / (3 * speed) : 1, weight[2];
+    for (int i = 0; i < 2; i++) {
+        double cycles = time / period + 0.5 * i, whole = lom_double_floor(cycles), share = cycles - whole;
+        double jump[2] = { 0.381966 * whole + 0.5 * i, 0.618034 * whole };
+        weight[i] = share < 0.5 ? 2 * share : 2 - 2 * share;
+        flow->drift[i] = (float)(speed * period * (share - 0.5));
+        for (int k = 0; k < 2; k++)
+            flow->jump[i][k] = (float)(jump[k] - lom_double_floor(jump[k]));
+    }
+    double norm = lom_double_sqrt(weight[0] * weight[0] + weight[1] * weight[1]);
+    flow->weight[0] = (float)(weight[0] / norm);
+    flow->weight[1] = (float)(weight[1] / norm);
+}

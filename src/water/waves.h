@@ -31,7 +31,18 @@ struct lom_cascade_uniform {
     float inverse_length, shift;     /* s = x inverse_length + shift */
 };
 
+/* Ripples of a normal map that a flow carries, in two phases: each drifts for a period and starts again where its
+ * weight is 0. */
+struct lom_flow_uniform {
+    const lom_texture *field; /* velocities in parts of the mean speed; NULL: no flow */
+    const lom_texture *ripples;
+    float corner[2], scale[2]; /* of the field over x and z */
+    float inverse_tile, steepness;
+    float drift[2], weight[2], jump[2][2]; /* metres at speed 1; shares; offsets in repetitions */
+};
+
 struct lom_waves_uniform {
+    struct lom_flow_uniform flow;
     int trochoid_count, cascade_count;
     struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
     struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
@@ -48,6 +59,9 @@ enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked a
  * horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves keep the sum of b k at most 1, which is where the
  * first loop would close: the Jacobian of the displacement never falls below 0. */
 void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_params *water, double time);
+/* Both phases of a flow at a time, for ripples that repeat after `tile` metres: a period is as long as the mean speed
+ * takes for a third of it. Closed in time. */
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time);
 /* The height over the point (x, z) itself, in double: the rest position is found by iteration. */
 double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z);
 
@@ -173,6 +187,33 @@ LOM_INLINE void lom_add_cascade_slopes(const struct lom_cascade_uniform *c, lom_
     w->foam = w->foam + m.w;
 }
 
+/* Two waves of independent phase: their variances add up as w0^2 + w1^2, which is divided out, so that the ripples
+ * never pulse. What the map's levels average away shortens the normals: (1 - l) / l is its variance (Toksvig 2005). */
+LOM_INLINE void lom_add_flow_slopes(const struct lom_flow_uniform *flow, lom_float x, lom_float z,
+                                    const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float s = (x - flow->corner[0]) * flow->scale[0], t = (z - flow->corner[1]) * flow->scale[1];
+    lom_float4 v = lom_sample(flow->field, s, t, (lom_float){ 0 });
+    lom_float lod = lom_wave_lod(flow->ripples, f, flow->inverse_tile);
+    lom_float sx = { 0 }, sz = { 0 }, lost = { 0 };
+    for (int i = 0; i < 2; i++) {
+        lom_float u = (x - v.x * flow->drift[i]) * flow->inverse_tile + flow->jump[i][0];
+        lom_float r = (z - v.y * flow->drift[i]) * flow->inverse_tile + flow->jump[i][1];
+        lom_float4 texel = lom_sample(flow->ripples, u, r, lod);
+        lom_float3 n = { texel.x * 2.0f - 1.0f, texel.z * 2.0f - 1.0f, texel.y * 2.0f - 1.0f };
+        lom_float length = lom_clamp(lom_sqrt(lom_dot3(n, n)), lom_splat(0.1f), lom_splat(1.0f));
+        lom_float scale = flow->weight[i] * flow->steepness / lom_max(n.y, lom_splat(0.1f));
+        sx = sx - n.x * scale;
+        sz = sz - n.z * scale;
+        lost = lost + flow->weight[i] * flow->weight[i] * (1.0f - length) / length;
+    }
+    lom_float hidden = 0.5f * flow->steepness * flow->steepness * lost;
+    w->sx = w->sx + sx;
+    w->sz = w->sz + sz;
+    w->vxx = w->vxx + hidden;
+    w->vzz = w->vzz + hidden;
+}
+
 LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                                                   const struct lom_footprint *f)
 {
@@ -184,6 +225,8 @@ LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform
         w.foam = lom_trochoid_foam(waves, x, z, f);
     for (int i = 0; i < waves->cascade_count; i++)
         lom_add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
+    if (waves->flow.field != NULL)
+        lom_add_flow_slopes(&waves->flow, x, z, f, &w);
     return w;
 }
 
