@@ -23,6 +23,7 @@ public() { # the public headers of each layer
     base.h) echo base ;;
     lanes.h | lanes_mathematics.h) echo lanes ;;
     image.h | texture.h) echo image ;;
+    sea.h | shallow.h | particles.h) echo water ;;
     lom.h) echo cli ;;
     *) basename "$1" .h ;;
     esac
