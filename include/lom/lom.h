@@ -11,6 +11,7 @@
 #include <lom/cloud.h>
 #include <lom/pipeline.h>
 #include <lom/scene.h>
+#include <lom/sea.h>
 #include <lom/sky.h>
 #include <lom/water.h>
 #include <lom/reference.h>

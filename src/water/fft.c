@@ -10,7 +10,7 @@
 
 static const double two_pi = 6.283185307179586;
 
-enum { GROUP = 16, PADDING = 16 };
+enum { GROUP = LOM_FFT_PAIR, PADDING = 16 };
 
 size_t lom_fft_rows(int size)
 {
@@ -194,5 +194,5 @@ void lom_transform_hermitian(lom_fft *fft, lom_device *device, float *real, floa
                                 .planes = { real, imaginary, pitch },
                                 .result = result,
                                 .count = count,
-                                .step = 2 * lanes });
+                                .step = 2 * LOM_FFT_PAIR });
 }

@@ -228,13 +228,13 @@ void LOM_WIDE(lom_fft_rows)(const struct lom_fft *fft, struct lom_fft_planes squ
     write_rows(fft, inner.im, im, square.pitch);
 }
 
-/* Two real rows in one complex transform: with spectra A and B of rows y and y + LOM_LANES, G = A + i B at n and
+/* Two real rows in one complex transform: with spectra A and B of rows y and y + LOM_FFT_PAIR, G = A + i B at n and
  * conj(A) + i conj(B) at N - n; column 0 holds A(0) + i A(N/2). The sign is 1: parts are exchanged. */
-void LOM_WIDE(lom_fft_real_rows)(const struct lom_fft *fft, struct lom_fft_planes half, size_t first, float *result,
-                                 float *scratch)
+static void run_pairs(const struct lom_fft *fft, struct lom_fft_planes half, size_t first, float *result,
+                      float *scratch)
 {
     struct lom_fft_planes inner = scratch_planes(fft, scratch), parts = { inner.im, inner.re, LOM_LANES };
-    size_t middle = (size_t)fft->size / 2, pitch = half.pitch, below = LOM_LANES * pitch;
+    size_t middle = (size_t)fft->size / 2, pitch = half.pitch, below = LOM_FFT_PAIR * pitch;
     const float *re = half.re + first * pitch, *im = half.im + first * pitch;
     for (size_t n = 0; n < middle; n += LOM_LANES) {
         lom_float a_re[LOM_LANES], a_im[LOM_LANES], b_re[LOM_LANES], b_im[LOM_LANES];
@@ -256,5 +256,12 @@ void LOM_WIDE(lom_fft_real_rows)(const struct lom_fft *fft, struct lom_fft_plane
     run_in_place(fft, parts);
     size_t out = lom_fft_pitch(fft->size);
     write_rows(fft, inner.re, result + first * out, out);
-    write_rows(fft, inner.im, result + (first + LOM_LANES) * out, out);
+    write_rows(fft, inner.im, result + (first + LOM_FFT_PAIR) * out, out);
+}
+
+void LOM_WIDE(lom_fft_real_rows)(const struct lom_fft *fft, struct lom_fft_planes half, size_t first, float *result,
+                                 float *scratch)
+{
+    for (size_t row = first; row < first + LOM_FFT_PAIR; row += LOM_LANES)
+        run_pairs(fft, half, row, result, scratch);
 }

@@ -10,7 +10,8 @@
 
 #include "water/fft.h"
 
-enum { LOM_FFT_STAGES = 6, LOM_FFT_MAX = 4096 };
+/* Real rows y and y + LOM_FFT_PAIR share a transform, at every width: what shares one shares its rounding. */
+enum { LOM_FFT_STAGES = 6, LOM_FFT_MAX = 4096, LOM_FFT_PAIR = 16 };
 
 struct lom_fft_stage {
     int radix, block;   /* r, M */
@@ -33,8 +34,8 @@ struct lom_fft_planes {
     size_t pitch;
 };
 
-/* One group of LOM_LANES columns from `column` on, in place; of LOM_LANES rows from `row` on; of the rows `row` ..
- * `row` + 2 LOM_LANES - 1 of half a spectrum whose columns are transformed, into real rows. */
+/* One group of LOM_LANES columns or rows from `first` on, in place; of the rows `first` ..
+ * `first` + 2 LOM_FFT_PAIR - 1 of half a spectrum whose columns are transformed, into real rows. */
 typedef void lom_fft_group(const struct lom_fft *fft, struct lom_fft_planes square, size_t first, float *scratch);
 typedef void lom_fft_real_group(const struct lom_fft *fft, struct lom_fft_planes half, size_t first, float *result,
                                 float *scratch);

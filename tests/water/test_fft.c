@@ -45,23 +45,44 @@ static void fill_random(square *s, uint64_t seed)
         }
 }
 
-/* A line of n values `step` apart: by the definition, or by halves (Danielson, Lanczos 1942) for n above 64. */
+/* exp(2 pi i j / n) of the last n asked for. */
+static const double (*turns_of(int n))[2]
+{
+    static double turns[4096][2];
+    static int filled;
+    for (int j = 0; j < n && filled != n; j++) {
+        turns[j][0] = lom_double_cos(2 * pi * j / n);
+        turns[j][1] = lom_double_sin(2 * pi * j / n);
+    }
+    filled = n;
+    return (const double(*)[2])turns;
+}
+
+/* A line of n values `step` apart by the definition. */
+static void define_line(double *a, double *b, size_t step, int n, int sign, double *re, double *im)
+{
+    const double(*turn)[2] = turns_of(n);
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < n; i++) {
+            const double *t = turn[i * k % n];
+            double x = a[(size_t)i * step], y = b[(size_t)i * step];
+            re[k] += x * t[0] - sign * y * t[1];
+            im[k] += sign * x * t[1] + y * t[0];
+        }
+}
+
+/* By the definition up to 64; larger ones by halves (Danielson, Lanczos 1942). */
 static void exact_line(double *a, double *b, size_t step, int n, int sign)
 {
     double *re = lom_allocate((size_t)n, 8, NULL), *im = lom_allocate((size_t)n, 8, NULL);
     if (n <= 64) {
-        for (int k = 0; k < n; k++)
-            for (int i = 0; i < n; i++) {
-                double angle = sign * 2 * pi * (i * k % n) / n, c = lom_double_cos(angle), s = lom_double_sin(angle);
-                double x = a[(size_t)i * step], y = b[(size_t)i * step];
-                re[k] += x * c - y * s;
-                im[k] += x * s + y * c;
-            }
+        define_line(a, b, step, n, sign, re, im);
     } else {
         exact_line(a, b, 2 * step, n / 2, sign);
         exact_line(a + step, b + step, 2 * step, n / 2, sign);
+        const double(*turn)[2] = turns_of(n);
         for (int k = 0; k < n / 2; k++) {
-            double angle = sign * 2 * pi * k / n, c = lom_double_cos(angle), s = lom_double_sin(angle);
+            double c = turn[k][0], s = sign * turn[k][1];
             size_t even = 2 * (size_t)k * step, odd = even + step;
             double x = a[odd] * c - b[odd] * s, y = a[odd] * s + b[odd] * c;
             re[k] = a[even] + x;
@@ -254,6 +275,13 @@ static void f5_simple_inputs_are_exact(void)
     lom_close_device(device);
 }
 
+static uint64_t hash_plane(uint64_t hash, const float *plane, int size)
+{
+    for (int y = 0; y < size; y++)
+        hash = lom_hash_bytes(hash, plane + (size_t)y * lom_fft_pitch(size), (size_t)size * 4);
+    return hash;
+}
+
 static uint64_t hash_on(int threads, int lanes, bool plain, int size)
 {
     lom_device *device = open(threads, lanes, plain);
@@ -261,10 +289,15 @@ static uint64_t hash_on(int threads, int lanes, bool plain, int size)
     lom_fft *fft = lom_create_fft(size, device, NULL);
     fill_random(&s, 77);
     lom_transform_square(fft, device, 1, s.re, s.im);
-    uint64_t hash = LOM_HASH_START;
-    for (int y = 0; y < size; y++) {
-        hash = lom_hash_bytes(hash, s.re + (size_t)y * lom_fft_pitch(size), (size_t)size * 4);
-        hash = lom_hash_bytes(hash, s.im + (size_t)y * lom_fft_pitch(size), (size_t)size * 4);
+    uint64_t hash = hash_plane(hash_plane(LOM_HASH_START, s.re, size), s.im, size);
+    if (size >= 4) {
+        size_t half = lom_fft_rows(size) * lom_fft_pitch(size / 2);
+        float *re = lom_allocate(half, 4, NULL), *im = lom_allocate(half, 4, NULL);
+        fill_hermitian(&s, re, im);
+        lom_transform_hermitian(fft, device, re, im, s.re);
+        hash = hash_plane(hash, s.re, size);
+        lom_release(re);
+        lom_release(im);
     }
     lom_free_fft(fft);
     free_square(&s);
