@@ -49,6 +49,7 @@ void lom_free_renderer(lom_renderer *renderer)
     for (size_t i = 0; i < renderer->path_count; i++)
         lom_release(renderer->paths[i]);
     lom_free_reference(renderer->reference);
+    lom_free_sea(renderer->sea);
     lom_free_polar_mesh(&renderer->polar);
     lom_free_mesh(renderer->terrain);
     lom_free_scene_clouds(renderer);

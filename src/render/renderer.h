@@ -6,6 +6,7 @@
 #include "water/surface.h"
 
 #include <lom/reference.h>
+#include <lom/sea.h>
 #include <lom/render.h>
 
 struct lom_cached_texture {
@@ -66,7 +67,9 @@ struct lom_renderer {
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
     lom_texture *photons, *caustics;
-    lom_texture *flow;           /* field of velocities, or NULL */
+    lom_texture *flow; /* field of velocities, or NULL */
+    lom_sea *sea;      /* or NULL */
+    lom_texture *sea_fields[LOM_SURFACE_CASCADES][3];
     struct lom_polar_mesh polar; /* of displaced water */
 
     /* targets, remade when the size changes */
@@ -83,6 +86,10 @@ bool lom_load_entities(lom_renderer *renderer, lom_error *error);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
 /* The terrain's heights as a texture of width x height, where caustics need them. */
 bool lom_load_bed(lom_renderer *renderer, int width, int height, lom_error *error);
+/* sea_waves.c: the cascades of a sea, its textures at a time, its height over a point at that time, metres. */
+bool lom_load_sea(lom_renderer *renderer, lom_error *error);
+bool lom_fill_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
+double lom_sea_height(const lom_renderer *renderer, double x, double z);
 /* What water with waves needs; its waves at a time, and their height over a point of the world, metres. */
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
 bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);

@@ -86,19 +86,17 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
     const lom_scene *scene = renderer->scene;
     if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP)
         return true;
-    return load_foam(renderer, error) && load_flow(renderer, error);
+    return load_foam(renderer, error) && load_flow(renderer, error) && lom_load_sea(renderer, error);
 }
 
 bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
 {
-    (void)error;
     lom_fill_trochoids(out, &renderer->scene->water, time);
     fill_flow(renderer, &out->flow, time);
-    return true;
+    return lom_fill_sea(renderer, out, time, error);
 }
 
 double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z)
 {
-    (void)renderer;
-    return lom_trochoid_height(waves, x, z);
+    return lom_trochoid_height(waves, x, z) + lom_sea_height(renderer, x, z);
 }

@@ -56,6 +56,11 @@ for model in normal_map displaced marched; do
 done
 
 model=displaced
+sea='--set water.waves.kind=sea --set water.waves.size=64'
+[ "$(hash $sea --lanes 4 --threads 1)" = "$(hash $sea --lanes 16 --threads 3)" ] && why= || why='lanes change the picture'
+[ "$(hash $sea --frame 3)" = "$(draw $sea --frames 2:3 --hash | sed -n 's/  frame 3$//p')" ] || why='a frame is another in a run'
+verdict the_sea_has_one_hash_and_any_frame_alone "$why"
+
 sed '/terrain/,/^base/d; /entity/,$d' "$scene" >"$folder/open.toml"
 case $("$lom" plan "$folder/open.toml" --set quality.water=displaced) in
     *'*  reflection'* | *'*  refraction'*) why='a picture is drawn of nothing' ;;
