@@ -21,7 +21,8 @@ extern "C" {
 #if defined __FAST_MATH__
 #error "lom promises the same bytes everywhere, which -ffast-math breaks: compile without it."
 #endif
-#if defined __FLT_EVAL_METHOD__ && __FLT_EVAL_METHOD__ != 0
+/* 16 is 0 for float and wider: machines that have 16-bit arithmetic (ISO/IEC TS 18661-3). */
+#if defined __FLT_EVAL_METHOD__ && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
 #error "lom needs float arithmetic in float: on 32-bit x86 compile with -msse2 -mfpmath=sse."
 #endif
 

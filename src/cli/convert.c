@@ -38,7 +38,7 @@ static const lom_option options[] = {
       .value = "WxHxD",
       .minimum = 1,
       .maximum = LOM_MAX_SIZE,
-      .help = "IN is raw voxels, this many along x, y and z, of 8 or 16 bits or floats, little-endian" },
+      .help = "IN is raw: voxels along x, y, z, of 8 or 16 bits or floats, little-endian" },
     { .name = "srgb",
       .kind = LOM_OPTION_FLAG,
       .field = offsetof(struct values, srgb),
@@ -50,11 +50,13 @@ static const lom_command_line line = {
     .arguments = "IN OUT",
     .summary = "Writes an image, a volume or a mesh in another form",
     .details =
-        "The kind of OUT is its extension or --format: png, ppm, pgm, pam (8 or 16 bits), pfm (floats), nrrd "
-        "(volumes; 8 or 16 bits or floats), obj. IN is "
-        "told\n"
-        "by its content. Samples keep their value in 0..1, correctly rounded; without --srgb no transfer function is\n"
-        "applied. ppm has no alpha, pgm is gray: Rec. 709 luminance of the samples as they are.\n"
+        "The kind of OUT is its extension or --format: png, ppm, pgm, pam (8 or 16 bits), pfm (floats), nrrd (volumes "
+        "of\n"
+        "8 or 16 bits or floats), obj. IN is told by its content. Samples keep their value in 0..1, correctly "
+        "rounded;\n"
+        "without --srgb no transfer function is applied. ppm has no alpha, pgm is gray: Rec. 709 luminance of the "
+        "samples\n"
+        "as they are.\n"
         "An obj is written with its normals, one triangle a face; its materials go to OUT with the extension mtl.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

@@ -28,12 +28,10 @@ static const lom_command_line line = {
     .arguments = "FILE...",
     .summary = "Says what is in images, meshes and scenes",
     .details =
-        "Meshes are *.obj, scenes *.toml, anything else is read as an image (PNG, PPM, PGM, PBM, PAM, PFM) or a volume "
-        "(NRRD). Triangles\n"
-        "count n - 2 a polygon; vertices are those left after equal corners became one. The hash of an image covers "
-        "its\n"
-        "size, its format and its samples; that of a mesh its vertices, its triangles and their materials; that of a\n"
-        "scene the bytes of all its files.",
+        "Meshes are *.obj, scenes *.toml, anything else is read as an image (PNG, PPM, PGM, PBM, PAM, PFM) or as a\n"
+        "volume (NRRD). Triangles count n - 2 a polygon; vertices are those left after equal corners became one. The\n"
+        "hash of an image covers its size, its format and its samples; that of a mesh its vertices, its triangles and\n"
+        "their materials; that of a scene the bytes of all its files.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,

@@ -239,14 +239,14 @@ static const lom_option options[] = {
 static const lom_command_line line = {
     .name = "make",
     .arguments = "KIND [NAME]",
-    .summary = "Makes a picture, a mesh or a volume: height-map, coast NAME, normal-map, flow-map, sky-box, albedo "
-               "NAME, entity NAME, "
-               "cloud NAME; or all",
-    .details = "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
-               "options a\n"
-               "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
-               "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.\n"
-               "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file.",
+    .summary = "Makes a picture, a mesh or a volume of the project",
+    .details =
+        "KIND is height-map, coast NAME, normal-map, flow-map, sky-box, albedo NAME, entity NAME, cloud NAME or all.\n"
+        "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
+        "options a\n"
+        "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
+        "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.\n"
+        "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
