@@ -66,8 +66,22 @@ typedef struct lom_light {
     double azimuth, elevation; /* radians, of the sun as in the file; already worked into direction */
     double color[3];           /* linear; multiplied by intensity it is the light's diffuse and specular colour */
     double intensity;
-    double ambient[3]; /* linear, the global ambient colour, not multiplied by intensity */
+    double ambient[3]; /* linear, ambient light on what faces up, not multiplied by intensity */
+    double ground[3];  /* linear, ambient light on what faces down; between them by the cosine to up */
 } lom_light;
+
+/* ---- [haze] ---- */
+
+/* Air that scatters: of a colour at the end of a path, exp(-optical depth) is left, and the air's colour fills the
+ * rest. Extinction is density up to the height base, and density exp(-(y - base) / height) above. */
+typedef struct lom_haze {
+    uint32_t given;       /* 0: clear air */
+    double density[3];    /* 1 / m at base, red, green and blue */
+    double color[3];      /* linear */
+    double base, height;  /* metres; height 0: the same at every height */
+    double glow[3];       /* linear, added to the colour towards the sun */
+    double glow_exponent; /* on the cosine between the path and the sun */
+} lom_haze;
 
 /* ---- materials ---- */
 
@@ -88,6 +102,8 @@ typedef struct lom_scene_material {
 
 /* ---- [terrain] ---- */
 
+typedef enum lom_mapping { LOM_MAPPING_PLANAR, LOM_MAPPING_TRIPLANAR } lom_mapping;
+
 typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers before it where its ranges hold */
     uint32_t given;
     const char *map;
@@ -96,6 +112,7 @@ typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers
     double from_slope, to_slope;   /* radians from flat (0) to upright (pi/2) */
     double blend;                  /* metres of height over which the layer fades in and out at its height bounds */
     double slope_blend;            /* radians, the same at its slope bounds */
+    int mapping;                   /* lom_mapping: from above, or from three sides */
 } lom_terrain_layer;
 
 typedef struct lom_terrain {
@@ -166,7 +183,9 @@ typedef struct lom_quality {
     double reflection_scale;  /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale;  /* the same of the refraction picture */
     lom_reference_quality reference;
-    bool scissor; /* pictures are drawn only where lookups can reach; changes no byte */
+    bool scissor;           /* pictures are drawn only where lookups can reach; changes no byte */
+    double terrain_error;   /* pixels that terrain may be off where it is drawn coarser; 0: full density */
+    bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
 } lom_quality;
 
 /* ---- the scene ---- */
@@ -177,6 +196,7 @@ typedef struct lom_scene {
     lom_output output;
     lom_camera camera;
     lom_light light;
+    lom_haze haze;       /* clear air when given is 0 */
     lom_terrain terrain; /* there is none when given is 0 */
     lom_sky_params sky;
     lom_water_params water; /* drawn when given is not 0 and enabled is set */

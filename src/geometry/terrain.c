@@ -1,7 +1,7 @@
 /* Terrain from a height map. In: gray, float or 24-bit RGB pixels. Out: a grid mesh, and the height of its triangles at
  * any place. Heights and normals are computed in double and rounded once to float; both functions use the same heights
  * and the same diagonal. */
-#include <lom/geometry.h>
+#include "geometry/terrain.h"
 
 #include <string.h>
 
@@ -10,6 +10,11 @@ enum { PIXEL_LIMIT = 1 << 26 };
 struct terrain {
     const lom_image *map;
     double width, length, height, base;
+};
+
+struct terrain_mesh {
+    lom_mesh *mesh;
+    size_t width; /* vertices of a row */
 };
 
 /* ---- heights ---- */
@@ -161,25 +166,48 @@ static void fill_indices(int width, int height, uint32_t *index)
 }
 
 /* Two rows of heights and two rows of face normals are enough at a time. */
-static bool fill_vertices(const struct terrain *terrain, lom_mesh *mesh, lom_error *error)
+static bool visit_rows(const struct terrain *terrain, lom_terrain_row *visit, void *context, lom_error *error)
 {
     size_t width = (size_t)terrain->map->width;
     int rows = terrain->map->height;
+    lom_mesh_vertex *row = lom_allocate(width, sizeof *row, error);
     double *heights = lom_allocate(2 * width, sizeof *heights, error);
     lom_vec3(*normals)[2] = lom_allocate(2 * width, sizeof *normals, error);
-    bool good = heights != NULL && normals != NULL && read_row(terrain, 0, heights, error);
+    bool good = row != NULL && heights != NULL && normals != NULL && read_row(terrain, 0, heights, error);
     for (int j = 0; good && j < rows; j++) {
         double *here = heights + (j & 1) * width, *next = heights + (~j & 1) * width;
         lom_vec3(*below)[2] = normals + (j & 1) * width, (*above)[2] = normals + (~j & 1) * width;
         good = j + 1 == rows || read_row(terrain, j + 1, next, error);
         if (good && j + 1 < rows)
             row_normals(terrain, here, next, below);
-        if (good)
-            fill_row(terrain, j, here, above, below, mesh->vertices + (size_t)j * width);
+        if (good) {
+            fill_row(terrain, j, here, above, below, row);
+            visit(context, j, row);
+        }
     }
+    lom_release(row);
     lom_release(heights);
     lom_release(normals);
     return good;
+}
+
+bool lom_visit_terrain(const lom_image *map, double width, double length, double height, double base,
+                       lom_terrain_row *visit, void *context, lom_error *error)
+{
+    struct terrain terrain = { map, width, length, height, base };
+    if (!check_terrain(&terrain, error))
+        return false;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool good = visit_rows(&terrain, visit, context, error);
+    lom_leave_float_state(&state);
+    return good;
+}
+
+static void copy_row(void *context, int row, const lom_mesh_vertex *vertices)
+{
+    const struct terrain_mesh *target = context;
+    memcpy(target->mesh->vertices + (size_t)row * target->width, vertices, target->width * sizeof *vertices);
 }
 
 lom_mesh *lom_make_terrain(const lom_image *map, double width, double length, double height, double base,
@@ -192,11 +220,8 @@ lom_mesh *lom_make_terrain(const lom_image *map, double width, double length, do
     lom_mesh *mesh = lom_create_mesh(columns * rows, 6 * (columns - 1) * (rows - 1), 1, 0, error);
     if (mesh == NULL)
         return NULL;
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    bool good = fill_vertices(&terrain, mesh, error);
-    lom_leave_float_state(&state);
-    if (!good) {
+    if (!lom_visit_terrain(map, width, length, height, base, copy_row, &(struct terrain_mesh){ mesh, columns },
+                           error)) {
         lom_free_mesh(mesh);
         return NULL;
     }

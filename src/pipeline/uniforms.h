@@ -13,7 +13,8 @@ struct lom_matrix_uniform {
 struct lom_light_uniform {
     float to_light[3]; /* unit length */
     float color[3];
-    float ambient[3];
+    float ambient[3]; /* from the sky, on what faces up */
+    float ground[3];  /* ambient light on what faces down */
     /* what clouds let through, by where the light that passes a place meets a plane; NULL: all of it */
     const lom_texture *shadow;
     float shadow_s[4], shadow_t[4]; /* rows: texture coordinates of a place (x, y, z, 1) */

@@ -11,6 +11,37 @@ struct lom_light_uniform lom_scene_light(const lom_scene *scene)
     for (int i = 0; i < 3; i++) {
         u.color[i] = (float)(light->color[i] * light->intensity);
         u.ambient[i] = (float)light->ambient[i];
+        u.ground[i] = (float)light->ground[i];
+    }
+    return u;
+}
+
+/* The antiderivative of the haze's profile (pipeline/haze.h). */
+static double haze_integral(const lom_haze *haze, double y)
+{
+    double above = y > haze->base ? y - haze->base : 0;
+    return y <= haze->base ? y - haze->base : -haze->height * lom_double_expm1(-above / haze->height);
+}
+
+struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored)
+{
+    const lom_haze *haze = &scene->haze;
+    struct lom_haze_uniform u = { .glow_exponent = (float)haze->glow_exponent, .base = (float)haze->base };
+    if (haze->given == 0)
+        return u;
+    for (int i = 0; i < 3; i++) {
+        u.density[i] = (float)haze->density[i];
+        u.color[i] = (float)haze->color[i];
+        u.glow[i] = (float)haze->glow[i];
+        u.on |= u.density[i] > 0;
+    }
+    u.gray = u.density[0] == u.density[1] && u.density[1] == u.density[2];
+    if (haze->height > 0) {
+        double mirror = scene->water.level;
+        u.height = (float)haze->height;
+        u.inverse_height = (float)(1 / haze->height);
+        u.start = (float)(mirrored ? 2 * haze_integral(haze, mirror) - haze_integral(haze, 2 * mirror - eye_height)
+                                   : haze_integral(haze, eye_height));
     }
     return u;
 }
@@ -39,11 +70,6 @@ static struct lom_matrix_uniform to_uniform(const lom_mat4 *m)
     return u;
 }
 
-struct culler {
-    lom_frustum frustum;
-    const double *plane;
-};
-
 /* The highest value of the clip plane over the box; a margin covers rounding in float. */
 static bool is_behind_plane(const double plane[4], const lom_box *box)
 {
@@ -54,7 +80,7 @@ static bool is_behind_plane(const double plane[4], const lom_box *box)
     return value < -1e-3;
 }
 
-static bool is_visible(const struct culler *culler, const lom_box *box)
+bool lom_is_visible(const struct lom_culler *culler, const lom_box *box)
 {
     return lom_box_visibility(&culler->frustum, *box) != LOM_OUTSIDE && !is_behind_plane(culler->plane, box);
 }
@@ -68,70 +94,6 @@ static void set_attributes(lom_draw_desc *draw, const lom_mesh *mesh)
     draw->attribute[2] = (lom_attribute){ data + 24, size - 24, stride, LOM_ATTRIBUTE_FLOAT2 };
     draw->attribute[3] = (lom_attribute){ data + 32, size - 32, stride, LOM_ATTRIBUTE_FLOAT4 };
     draw->indices = mesh->indices;
-}
-
-static void set_scale(float scale[2], double tile, const double size[2])
-{
-    scale[0] = (float)(1 / (tile > 0 ? tile : size[0]));
-    scale[1] = (float)(1 / (tile > 0 ? tile : size[1]));
-}
-
-/* Textures were loaded with the renderer: this only finds them. */
-static const lom_texture *find_texture(lom_renderer *renderer, const char *path, bool color)
-{
-    return path == NULL ? NULL : lom_load_texture(renderer, path, color, NULL);
-}
-
-static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, const struct lom_view_uniform *view)
-{
-    const lom_terrain *t = &renderer->scene->terrain;
-    struct lom_terrain_uniforms u = { .view = *view,
-                                      .detail_map = find_texture(renderer, t->detail_map, false),
-                                      .normal_map = find_texture(renderer, t->normal_map, false),
-                                      .layer_count = (int)t->layer_count };
-    set_scale(u.scale, t->tile, t->size);
-    set_scale(u.detail_scale, t->detail_tile, t->size);
-    for (int i = 0; i < 3; i++) {
-        u.material.ambient[i] = (float)t->material.ambient[i];
-        u.material.diffuse[i] = (float)t->material.diffuse[i];
-        u.material.specular[i] = (float)t->material.specular[i];
-    }
-    u.material.shininess = (float)t->material.shininess;
-    u.material.texture = find_texture(renderer, t->texture, true);
-    for (size_t i = 0; i < t->layer_count; i++) {
-        const lom_terrain_layer *from = &t->layers[i];
-        struct lom_layer_uniform *layer = &u.layer[i];
-        *layer =
-            (struct lom_layer_uniform){ .map = find_texture(renderer, from->map, true),
-                                        .from_height = (float)from->from_height,
-                                        .to_height = (float)from->to_height,
-                                        .from_slope = (float)from->from_slope,
-                                        .to_slope = (float)from->to_slope,
-                                        .blend = from->blend > 1e-3 ? (float)from->blend : 1e-3f,
-                                        .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f };
-        set_scale(layer->scale, from->tile, t->size);
-    }
-    return u;
-}
-
-static void draw_terrain(lom_renderer *renderer, const struct culler *culler, const struct lom_view_uniform *view,
-                         bool mirrored)
-{
-    if (renderer->terrain == NULL)
-        return;
-    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, view);
-    lom_draw_desc draw = { .shader = lom_terrain_shader(renderer->scene->quality.shading),
-                           .uniforms = &uniforms,
-                           .cull = LOM_CULL_BACK,
-                           .front_clockwise = mirrored };
-    set_attributes(&draw, renderer->terrain);
-    for (size_t i = 0; i < renderer->block_count; i++) {
-        if (!is_visible(culler, &renderer->blocks[i].bounds))
-            continue;
-        draw.first = renderer->blocks[i].first;
-        draw.count = renderer->blocks[i].count;
-        lom_draw(renderer->device, &draw);
-    }
 }
 
 /* Whether a placed entity is turned inside out by a negative scale. */
@@ -169,14 +131,15 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     struct lom_view_uniform uniform = { .clip_from_world = to_uniform(&clip_from_world),
                                         .light = lom_renderer_light(renderer),
+                                        .haze = lom_scene_haze(scene, view->eye.y, view->mirrored),
                                         .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
                                         .caustics = view->caustics };
-    struct culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
+    struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
     for (int i = 0; i < 4; i++)
         uniform.plane[i] = (float)view->plane[i];
-    draw_terrain(renderer, &culler, &uniform, view->mirrored);
+    lom_draw_ground(renderer, &culler, &uniform, view->mirrored);
     for (size_t i = 0; i < renderer->entity_count; i++)
-        if (is_visible(&culler, &renderer->entities[i].bounds))
+        if (lom_is_visible(&culler, &renderer->entities[i].bounds))
             draw_entity(renderer, &renderer->entities[i], &uniform, view->mirrored);
     if (view->sky)
         lom_draw_sky(renderer->device, &scene->sky, renderer->sky, &view->projection, &view->view);
@@ -185,12 +148,13 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
-    struct culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
-    for (size_t i = 0; renderer->terrain != NULL && i < renderer->block_count; i++)
-        if (is_visible(&culler, &renderer->blocks[i].bounds))
+    const struct lom_ground *ground = &renderer->ground;
+    struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
+    for (int i = 0; i < ground->across * ground->down; i++)
+        if (lom_is_visible(&culler, &ground->blocks[i].bounds))
             return true;
     for (size_t i = 0; i < renderer->entity_count; i++)
-        if (is_visible(&culler, &renderer->entities[i].bounds))
+        if (lom_is_visible(&culler, &renderer->entities[i].bounds))
             return true;
     return false;
 }

@@ -46,7 +46,8 @@ static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *un
 {
     const struct lom_entity_uniforms *entity = uniforms;
     struct corner c = transform(out, in, entity);
-    struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, c.world, lom_normalize3(c.normal));
+    struct lom_lit lit =
+        lom_light_surface(&entity->view, &entity->material, c.world, lom_normalize3(c.normal), lom_splat(1.0f));
     lom_float3 color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
     store3(out->varying + TEXTURED, lom_mul3(lit.textured, color));
     store3(out->varying + HIGHLIGHT, lit.highlight);
@@ -66,31 +67,33 @@ static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_var
     return (lom_float3){ texel.x, texel.y, texel.z };
 }
 
-static void finish(lom_fragment *out, lom_float3 textured, lom_float3 highlight, lom_float3 texel)
+static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                   lom_float3 textured, lom_float3 highlight)
 {
-    lom_float3 color = lom_add3(lom_mul3(textured, texel), highlight);
-    out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
+    lom_float3 color = lom_add3(lom_mul3(textured, albedo(entity, in)), highlight);
+    lom_finish_surface(out, &entity->view, load3(in, WORLD), color);
+}
+
+static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                  lom_float3 normal)
+{
+    struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, load3(in, WORLD), normal, lom_splat(1.0f));
+    finish(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
 }
 
 static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    const struct lom_entity_uniforms *entity = uniforms;
-    lom_float3 normal = lom_normalize3(load3(in, NORMAL));
-    struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, load3(in, WORLD), normal);
-    finish(out, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight, albedo(entity, in));
+    shade(out, in, uniforms, lom_normalize3(load3(in, NORMAL)));
 }
 
 static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    const struct lom_entity_uniforms *entity = uniforms;
-    lom_float3 normal = lom_face_normal(in, WORLD, load3(in, NORMAL));
-    struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, load3(in, WORLD), normal);
-    finish(out, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight, albedo(entity, in));
+    shade(out, in, uniforms, lom_face_normal(in, WORLD, load3(in, NORMAL)));
 }
 
 static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    finish(out, load3(in, TEXTURED), load3(in, HIGHLIGHT), albedo(uniforms, in));
+    finish(out, in, uniforms, load3(in, TEXTURED), load3(in, HIGHLIGHT));
 }
 
 LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
@@ -98,5 +101,5 @@ LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings 
 LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1, .reads = 0x7ff,
            .differentiates = 3 << UV | 7 << WORLD, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .varyings = 14, .clip_distances = 1,
-           .reads = 0x3f00 | 3 << UV, .differentiates = 3 << UV, .colors = 1,
+           .reads = 0x3f00 | 3 << UV | 7 << WORLD, .differentiates = 3 << UV, .colors = 1,
            .uniforms_size = sizeof(struct lom_entity_uniforms))

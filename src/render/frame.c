@@ -53,6 +53,15 @@ static void look(struct frame *f)
     f->view.sky = true;
 }
 
+/* The terrain's level of detail is the whole frame's, for all passes. */
+static bool choose_detail(struct frame *f, lom_error *error)
+{
+    struct lom_ground *ground = &f->renderer->ground;
+    double scale = f->height * f->view.projection.m[1][1] / 2;
+    return ground->blocks == NULL ||
+           lom_choose_ground(ground, f->camera.position, scale, f->scene->quality.terrain_error, error);
+}
+
 static bool draw_opaque(struct frame *f, lom_error *error)
 {
     (void)error;
@@ -85,7 +94,7 @@ static lom_image *draw_stages(struct frame *f, lom_error *error)
     lom_renderer *r = f->renderer;
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
         return NULL;
-    bool done = true;
+    bool done = choose_detail(f, error);
     for (size_t i = 0; done && i < sizeof stages / sizeof stages[0]; i++)
         done = stages[i](f, error);
     if (done)

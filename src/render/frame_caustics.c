@@ -115,24 +115,17 @@ bool lom_draw_caustics(struct frame *f, lom_error *error)
 
 /* ---- the bed ---- */
 
-bool lom_load_bed(lom_renderer *renderer, int width, int height, lom_error *error)
+bool lom_load_bed(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP || !(scene->water.optics.caustics > 0))
         return true;
-    size_t count = (size_t)width * (size_t)height;
-    float *heights = lom_allocate(count, sizeof *heights, error);
-    if (heights == NULL)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        heights[i] = renderer->terrain->vertices[i].position[1];
     renderer->bed = lom_make_texture(
-        renderer->device, &(lom_texture_desc){ .width = width,
-                                               .height = height,
+        renderer->device, &(lom_texture_desc){ .width = renderer->ground.columns + 1,
+                                               .height = renderer->ground.rows + 1,
                                                .format = LOM_FORMAT_R32F,
-                                               .pixels = heights,
+                                               .pixels = renderer->ground.heights,
                                                .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
-    lom_release(heights);
     const lom_error *failed = lom_device_error(renderer->device);
     return renderer->bed != NULL || lom_fail(error, failed->code, "%s", failed->text);
 }

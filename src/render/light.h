@@ -1,4 +1,6 @@
-/* Phong's reflection over lanes: ambient + light (diffuse N.L + specular (R.E)^s), for a surface of a scene. */
+/* Phong's reflection over lanes: ambient + light (diffuse N.L + specular (R.E)^s), for a surface of a scene, and the
+ * air in front of it. The ambient light is a hemisphere's: a mix of the sky's and the ground's by the cosine between
+ * the normal and up. */
 #ifndef LOM_RENDER_LIGHT_H
 #define LOM_RENDER_LIGHT_H
 
@@ -26,14 +28,16 @@ LOM_INLINE lom_float lom_caustic_light(const struct lom_view_uniform *view, lom_
     return lom_max(lom_mix(one, light, share), (lom_float){ 0 });
 }
 
+/* sky: the share of the sky that the place sees. */
 LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                            lom_float3 world, lom_float3 normal)
+                                            lom_float3 world, lom_float3 normal, lom_float sky)
 {
     const struct lom_light_uniform *light = &view->light;
     lom_float share = lom_light_share(light, world);
     lom_float lambert = lom_lambert(light, normal) * share * lom_caustic_light(view, world);
     struct lom_lit lit;
-    lit.textured = lom_add3(lom_mul3(lom_uniform3(light->ambient), lom_uniform3(m->ambient)),
+    lom_float3 ambient = lom_mix3(lom_uniform3(light->ground), lom_uniform3(light->ambient), 0.5f + 0.5f * normal.y);
+    lit.textured = lom_add3(lom_mul3(lom_scale3(ambient, sky), lom_uniform3(m->ambient)),
                             lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert));
     lit.highlight = lom_splat3(0, 0, 0);
     if (m->specular[0] != 0 || m->specular[1] != 0 || m->specular[2] != 0) {
@@ -42,6 +46,14 @@ LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view,
         lit.highlight = lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->specular)), specular);
     }
     return lit;
+}
+
+/* The colour of a fragment at a place of the world. */
+LOM_INLINE void lom_finish_surface(lom_fragment *out, const struct lom_view_uniform *view, lom_float3 world,
+                                   lom_float3 color)
+{
+    color = lom_apply_haze(&view->haze, view->light.to_light, view->eye, world, color);
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
 
 /* The face's normal towards the eye, from the derivatives of the world position: d/dy x d/dx on a screen whose y points

@@ -1,58 +1,10 @@
-/* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks that are culled as a whole,
- * entities placed in the world with a material for each part, the water's maps. */
+/* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks, entities placed in the world
+ * with a material for each part, the water's maps. */
 #include "render/renderer.h"
 #include "water/lake.h"
 
 #include <stdio.h>
 #include <string.h>
-
-enum { BLOCK = 64 }; /* quads along an edge of a terrain block */
-
-static void widen_box(lom_box *box, const float p[3])
-{
-    box->low.x = p[0] < box->low.x ? p[0] : box->low.x;
-    box->low.y = p[1] < box->low.y ? p[1] : box->low.y;
-    box->low.z = p[2] < box->low.z ? p[2] : box->low.z;
-    box->high.x = p[0] > box->high.x ? p[0] : box->high.x;
-    box->high.y = p[1] > box->high.y ? p[1] : box->high.y;
-    box->high.z = p[2] > box->high.z ? p[2] : box->high.z;
-}
-
-static struct lom_terrain_block make_block(const lom_mesh *mesh, uint32_t first, uint32_t count)
-{
-    struct lom_terrain_block block = { first, count, { { 1e300, 1e300, 1e300 }, { -1e300, -1e300, -1e300 } } };
-    for (uint32_t i = first; i < first + count; i++)
-        widen_box(&block.bounds, mesh->vertices[mesh->indices[i]].position);
-    return block;
-}
-
-/* Reorders the grid's triangles block by block; a block keeps the order of its quads. */
-static bool make_blocks(lom_renderer *renderer, int columns, int rows, lom_error *error)
-{
-    lom_mesh *mesh = renderer->terrain;
-    int across = (columns + BLOCK - 1) / BLOCK, down = (rows + BLOCK - 1) / BLOCK;
-    uint32_t *ordered = lom_allocate(mesh->index_count, sizeof *ordered, error);
-    renderer->blocks = lom_allocate((size_t)across * (size_t)down, sizeof *renderer->blocks, error);
-    if (ordered == NULL || renderer->blocks == NULL) {
-        lom_release(ordered);
-        return false;
-    }
-    uint32_t *old = mesh->indices, at = 0;
-    mesh->indices = ordered;
-    for (int block = 0; block < across * down; block++) {
-        int x0 = block % across * BLOCK, y0 = block / across * BLOCK;
-        int width = columns - x0 < BLOCK ? columns - x0 : BLOCK;
-        uint32_t first = at;
-        for (int y = y0; y < y0 + BLOCK && y < rows; y++) {
-            size_t quad = (size_t)y * (size_t)columns + (size_t)x0;
-            memcpy(ordered + at, old + 6 * quad, 6 * (size_t)width * sizeof *old);
-            at += 6 * (uint32_t)width;
-        }
-        renderer->blocks[renderer->block_count++] = make_block(mesh, first, at - first);
-    }
-    lom_release(old);
-    return true;
-}
 
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
 {
@@ -62,11 +14,9 @@ bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
     lom_image *map = lom_read_image(t->height_map, error);
     if (map == NULL)
         return false;
-    renderer->terrain = lom_make_terrain(map, t->size[0], t->size[1], t->height, t->base, error);
-    renderer->grid_width = map->width;
-    renderer->grid_height = map->height;
-    bool done = renderer->terrain != NULL && make_blocks(renderer, map->width - 1, map->height - 1, error) &&
-                lom_load_bed(renderer, map->width, map->height, error);
+    bool done = lom_load_ground(&renderer->ground, t, map, renderer->scene->quality.ambient_occlusion, renderer->device,
+                                error) &&
+                lom_load_bed(renderer, error);
     lom_free_image(map);
     if (done && t->texture != NULL)
         done = lom_load_texture(renderer, t->texture, true, error) != NULL;

@@ -51,10 +51,9 @@ void lom_free_renderer(lom_renderer *renderer)
     lom_free_reference(renderer->reference);
     lom_free_sea(renderer->sea);
     lom_free_polar_mesh(&renderer->polar);
-    lom_free_mesh(renderer->terrain);
     lom_free_scene_clouds(renderer);
+    lom_free_ground(&renderer->ground);
     lom_release(renderer->entities);
-    lom_release(renderer->blocks);
     lom_release(renderer->paths);
     lom_release(renderer->textures);
     lom_close_device(renderer->device);

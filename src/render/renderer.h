@@ -2,6 +2,7 @@
 #ifndef LOM_RENDER_RENDERER_H
 #define LOM_RENDER_RENDERER_H
 
+#include "render/ground.h"
 #include "render/surface.h"
 #include "water/surface.h"
 
@@ -29,12 +30,6 @@ struct lom_loaded_entity {
     lom_box bounds; /* in the world */
 };
 
-/* A square of the terrain's grid, culled as a whole. */
-struct lom_terrain_block {
-    uint32_t first, count;
-    lom_box bounds;
-};
-
 /* What clouds let through of the sun, over a plane: the shadows that fall on the ground and the water. */
 struct lom_ground_shadow {
     lom_texture *texture;
@@ -55,10 +50,7 @@ struct lom_renderer {
     size_t path_count, path_capacity;
 
     lom_texture *sky, *normal_map, *flow_map;
-    lom_mesh *terrain;
-    int grid_width, grid_height; /* of its vertices */
-    struct lom_terrain_block *blocks;
-    size_t block_count;
+    struct lom_ground ground; /* blocks are NULL when the scene has no terrain */
     struct lom_loaded_entity *entities;
     size_t entity_count;
     struct lom_cloud_set *clouds; /* NULL: none */
@@ -80,12 +72,12 @@ struct lom_renderer {
 /* The texture of a picture, loaded once; color: it holds colours (sRGB-encoded unless the scene's transfer is naive).
  */
 lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error);
-/* Terrain in blocks, entities with their materials, the water's maps. */
+/* Terrain, entities with their materials, the water's maps. */
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error);
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
-/* The terrain's heights as a texture of width x height, where caustics need them. */
-bool lom_load_bed(lom_renderer *renderer, int width, int height, lom_error *error);
+/* The terrain's heights as a texture, where caustics need them. */
+bool lom_load_bed(lom_renderer *renderer, lom_error *error);
 /* sea_waves.c: the cascades of a sea, its textures at a time, its height over a point at that time, metres. */
 bool lom_load_sea(lom_renderer *renderer, lom_error *error);
 bool lom_fill_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
@@ -108,6 +100,14 @@ struct lom_scene_view {
     struct lom_caustics_uniform caustics;
 };
 
+/* What a pass can show of a box. */
+struct lom_culler {
+    lom_frustum frustum;
+    const double *plane; /* of the view */
+};
+bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
+void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
+                     bool mirrored);
 /* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
  * nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
@@ -116,6 +116,8 @@ bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* The same with the shadows of clouds that the frame has made. */
 struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer);
+/* The haze for an eye at this height; mirrored: the eye below the water's plane from which its reflection is drawn. */
+struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored);
 /* Makes the targets for a frame of this size of which target_width x target_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int target_width, int target_height,
                       lom_error *error);

@@ -3,7 +3,7 @@
 #ifndef LOM_RENDER_SURFACE_H
 #define LOM_RENDER_SURFACE_H
 
-#include "pipeline/uniforms.h"
+#include "pipeline/haze.h"
 
 struct lom_material_uniform {
     float ambient[3], diffuse[3], specular[3], shininess;
@@ -22,6 +22,7 @@ struct lom_caustics_uniform {
 struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_world;
     struct lom_light_uniform light;
+    struct lom_haze_uniform haze;
     float eye[3];
     float plane[4]; /* clip distance 0 is plane . (world, 1); (0, 0, 0, 1) keeps everything */
     struct lom_caustics_uniform caustics;
@@ -41,13 +42,16 @@ struct lom_layer_uniform {
     float from_height, to_height; /* metres */
     float from_slope, to_slope;   /* radians */
     float blend, slope_blend;     /* above 0 */
+    bool triplanar;               /* laid on from three sides instead of from above */
 };
 
 struct lom_terrain_uniforms {
     struct lom_view_uniform view;
     struct lom_material_uniform material;
-    float scale[2];        /* of the base texture */
-    float detail_scale[2]; /* of the detail and normal maps */
+    const lom_texture *surface; /* normal and visible share of the sky, at the vertices */
+    float surface_scale[2];     /* its coordinates are 0.5 + (x, z) * surface_scale */
+    float scale[2];             /* of the base texture */
+    float detail_scale[2];      /* of the detail and normal maps */
     const lom_texture *detail_map, *normal_map;
     int layer_count;
     struct lom_layer_uniform layer[LOM_MAX_TERRAIN_LAYERS];

@@ -2,7 +2,14 @@
  * three shading frequencies. A layer that no fragment of a packet shows is not sampled. */
 #include "render/light.h"
 
-enum { WORLD = 0, NORMAL = 3, SLOPE = 6, TEXTURED = 7, HIGHLIGHT = 10 };
+enum { WORLD = 0, TEXTURED = 3, HIGHLIGHT = 6 };
+
+/* What the surface texture says of a place. */
+struct ground {
+    lom_float3 normal;
+    lom_float slope; /* radians */
+    lom_float sky;   /* the visible share of it */
+};
 
 static lom_float3 transform(lom_vertex *out, const lom_attributes *in, const struct lom_terrain_uniforms *terrain)
 {
@@ -12,11 +19,16 @@ static lom_float3 transform(lom_vertex *out, const lom_attributes *in, const str
     out->varying[WORLD] = world.x;
     out->varying[WORLD + 1] = world.y;
     out->varying[WORLD + 2] = world.z;
-    out->varying[NORMAL] = in->attribute[1].x;
-    out->varying[NORMAL + 1] = in->attribute[1].y;
-    out->varying[NORMAL + 2] = in->attribute[1].z;
-    out->varying[SLOPE] = lom_acos(lom_clamp(in->attribute[1].y, lom_splat(-1.0f), lom_splat(1.0f)));
     return world;
+}
+
+static struct ground look_up(const struct lom_terrain_uniforms *terrain, lom_float3 world, lom_float lod)
+{
+    lom_float4 texel = lom_sample(terrain->surface, 0.5f + world.x * terrain->surface_scale[0],
+                                  0.5f + world.z * terrain->surface_scale[1], lod);
+    struct ground g = { .normal = lom_normalize3((lom_float3){ texel.x, texel.y, texel.z }), .sky = texel.w };
+    g.slope = lom_acos(lom_clamp(g.normal.y, lom_splat(-1.0f), lom_splat(1.0f)));
+    return g;
 }
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
@@ -28,8 +40,8 @@ static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *un
 {
     const struct lom_terrain_uniforms *terrain = uniforms;
     lom_float3 world = transform(out, in, terrain);
-    lom_float3 normal = { in->attribute[1].x, in->attribute[1].y, in->attribute[1].z };
-    struct lom_lit lit = lom_light_surface(&terrain->view, &terrain->material, world, normal);
+    struct ground g = look_up(terrain, world, (lom_float){ 0 });
+    struct lom_lit lit = lom_light_surface(&terrain->view, &terrain->material, world, g.normal, g.sky);
     out->varying[TEXTURED] = lit.textured.x;
     out->varying[TEXTURED + 1] = lit.textured.y;
     out->varying[TEXTURED + 2] = lit.textured.z;
@@ -43,12 +55,49 @@ LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
     return (lom_float3){ in->varying[v], in->varying[v + 1], in->varying[v + 2] };
 }
 
-/* A map laid over x and z, scale repetitions a metre. */
+static struct ground look_up_fragment(const struct lom_terrain_uniforms *terrain, const lom_varyings *in)
+{
+    const float *scale = terrain->surface_scale;
+    lom_float lod = lom_lod_of(terrain->surface, lom_dx(in, WORLD) * scale[0], lom_dx(in, WORLD + 2) * scale[1],
+                               lom_dy(in, WORLD) * scale[0], lom_dy(in, WORLD + 2) * scale[1]);
+    return look_up(terrain, load3(in, WORLD), lod);
+}
+
+/* A map laid over two axes of the world, scale repetitions a metre. */
+static lom_float4 sample_plane(const lom_texture *map, const lom_varyings *in, int s, int t, float s_scale,
+                               float t_scale)
+{
+    lom_float lod = lom_lod_of(map, lom_dx(in, s) * s_scale, lom_dx(in, t) * t_scale, lom_dy(in, s) * s_scale,
+                               lom_dy(in, t) * t_scale);
+    return lom_sample(map, in->varying[s] * s_scale, in->varying[t] * t_scale, lod);
+}
+
+/* From above: x runs right and z down. */
 static lom_float4 sample_ground(const lom_texture *map, const lom_varyings *in, const float scale[2])
 {
-    lom_float lod = lom_lod_of(map, lom_dx(in, WORLD) * scale[0], lom_dx(in, WORLD + 2) * scale[1],
-                               lom_dy(in, WORLD) * scale[0], lom_dy(in, WORLD + 2) * scale[1]);
-    return lom_sample(map, in->varying[WORLD] * scale[0], in->varying[WORLD + 2] * scale[1], lod);
+    return sample_plane(map, in, WORLD, WORLD + 2, scale[0], scale[1]);
+}
+
+/* From the three sides, mixed by how much the surface faces each: the squares of the normal's components, of which
+ * those below a fifth count nothing. So nearly every packet takes one or two samples, and no wall is stretched. */
+static lom_float4 sample_sides(const lom_texture *map, const lom_varyings *in, const float scale[2], lom_float3 normal)
+{
+    lom_float3 square = lom_mul3(normal, normal);
+    lom_float share[3] = { lom_max(square.x - 0.2f, (lom_float){ 0 }), lom_max(square.y - 0.2f, (lom_float){ 0 }),
+                           lom_max(square.z - 0.2f, (lom_float){ 0 }) };
+    lom_float inverse = 1.0f / (share[0] + share[1] + share[2]);
+    lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
+    for (int side = 0; side < 3; side++) {
+        if (!lom_any(share[side] > 0.0f))
+            continue;
+        int s = side == 0 ? WORLD + 2 : WORLD, t = side == 1 ? WORLD + 2 : WORLD + 1;
+        lom_float4 texel = sample_plane(map, in, s, t, scale[0], side == 1 ? scale[1] : -scale[1]);
+        lom_float weight = share[side] * inverse;
+        sum.x += texel.x * weight;
+        sum.y += texel.y * weight;
+        sum.z += texel.z * weight;
+    }
+    return sum;
 }
 
 /* 1 inside [from, to], falling to 0 over `blend` outside it, linearly. */
@@ -58,7 +107,7 @@ LOM_INLINE lom_float range_weight(lom_float x, float from, float to, float blend
     return lom_saturate(1.0f + (x - from) * inverse) * lom_saturate(1.0f + (to - x) * inverse);
 }
 
-static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_varyings *in)
+static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
 {
     lom_float3 color = lom_splat3(1, 1, 1);
     if (terrain->material.texture != NULL) {
@@ -68,10 +117,11 @@ static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_v
     for (int i = 0; i < terrain->layer_count; i++) {
         const struct lom_layer_uniform *layer = &terrain->layer[i];
         lom_float weight = range_weight(in->varying[WORLD + 1], layer->from_height, layer->to_height, layer->blend) *
-                           range_weight(in->varying[SLOPE], layer->from_slope, layer->to_slope, layer->slope_blend);
+                           range_weight(g->slope, layer->from_slope, layer->to_slope, layer->slope_blend);
         if (!lom_any(weight > 0.0f))
             continue;
-        lom_float4 texel = sample_ground(layer->map, in, layer->scale);
+        lom_float4 texel = layer->triplanar ? sample_sides(layer->map, in, layer->scale, g->normal)
+                                            : sample_ground(layer->map, in, layer->scale);
         color = lom_mix3(color, (lom_float3){ texel.x, texel.y, texel.z }, weight);
     }
     if (terrain->detail_map != NULL) {
@@ -91,39 +141,44 @@ static lom_float3 perturb(const struct lom_terrain_uniforms *terrain, const lom_
     return lom_normalize3(lom_add3(lom_scale3(normal, texel.z * 2.0f - 1.0f), bump));
 }
 
-static void finish(lom_fragment *out, lom_float3 textured, lom_float3 highlight, lom_float3 texel)
+static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_terrain_uniforms *terrain,
+                   struct lom_lit lit, const struct ground *g)
 {
-    lom_float3 color = lom_add3(lom_mul3(textured, texel), highlight);
-    out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
-}
-
-static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_terrain_uniforms *terrain,
-                  lom_float3 normal)
-{
-    struct lom_lit lit = lom_light_surface(&terrain->view, &terrain->material, load3(in, WORLD), normal);
-    finish(out, lit.textured, lit.highlight, albedo(terrain, in));
+    lom_float3 color = lom_add3(lom_mul3(lit.textured, albedo(terrain, in, g)), lit.highlight);
+    lom_finish_surface(out, &terrain->view, load3(in, WORLD), color);
 }
 
 static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    shade(out, in, uniforms, perturb(uniforms, in, lom_normalize3(load3(in, NORMAL))));
+    const struct lom_terrain_uniforms *terrain = uniforms;
+    struct ground g = look_up_fragment(terrain, in);
+    lom_float3 normal = perturb(terrain, in, g.normal);
+    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, WORLD), normal, g.sky),
+           &g);
 }
 
 static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    shade(out, in, uniforms, lom_face_normal(in, WORLD, load3(in, NORMAL)));
+    const struct lom_terrain_uniforms *terrain = uniforms;
+    struct ground g = look_up_fragment(terrain, in);
+    lom_float3 normal = lom_face_normal(in, WORLD, g.normal);
+    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, WORLD), normal, g.sky),
+           &g);
 }
 
 static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    finish(out, load3(in, TEXTURED), load3(in, HIGHLIGHT), albedo(uniforms, in));
+    const struct lom_terrain_uniforms *terrain = uniforms;
+    struct ground g = look_up_fragment(terrain, in);
+    finish(out, in, terrain, (struct lom_lit){ load3(in, TEXTURED), load3(in, HIGHLIGHT) }, &g);
 }
 
-LOM_SHADER(lom_terrain_phong, vertex, phong_fragment, .attributes = 2, .varyings = 7, .clip_distances = 1,
-           .reads = 0x7f, .differentiates = 5 << WORLD, .colors = 1,
+LOM_SHADER(lom_terrain_phong, vertex, phong_fragment, .attributes = 1, .varyings = 3, .clip_distances = 1,
+           .reads = 7 << WORLD, .differentiates = 7 << WORLD, .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
-LOM_SHADER(lom_terrain_flat, vertex, flat_fragment, .attributes = 2, .varyings = 7, .clip_distances = 1, .reads = 0x7f,
-           .differentiates = 7 << WORLD, .colors = 1, .uniforms_size = sizeof(struct lom_terrain_uniforms))
-LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 2, .varyings = 13, .clip_distances = 1,
-           .reads = 0x1fc7, .differentiates = 5 << WORLD, .colors = 1,
+LOM_SHADER(lom_terrain_flat, vertex, flat_fragment, .attributes = 1, .varyings = 3, .clip_distances = 1,
+           .reads = 7 << WORLD, .differentiates = 7 << WORLD, .colors = 1,
+           .uniforms_size = sizeof(struct lom_terrain_uniforms))
+LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 1, .varyings = 9, .clip_distances = 1,
+           .reads = 0x1ff, .differentiates = 7 << WORLD, .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))

@@ -10,12 +10,13 @@ enum { FLOW_CELLS = 160 };
 static void find_depths(const lom_renderer *renderer, double *depth)
 {
     const lom_scene *scene = renderer->scene;
+    const struct lom_ground *ground = &renderer->ground;
     for (int y = 0; y < FLOW_CELLS; y++)
         for (int x = 0; x < FLOW_CELLS; x++) {
-            size_t column = (size_t)(x * (renderer->grid_width - 1) / (FLOW_CELLS - 1));
-            size_t row = (size_t)(y * (renderer->grid_height - 1) / (FLOW_CELLS - 1));
-            size_t vertex = row * (size_t)renderer->grid_width + column;
-            double bed = renderer->terrain != NULL ? (double)renderer->terrain->vertices[vertex].position[1] : -1e3;
+            size_t column = (size_t)(x * ground->columns / (FLOW_CELLS - 1));
+            size_t row = (size_t)(y * ground->rows / (FLOW_CELLS - 1));
+            size_t vertex = row * ((size_t)ground->columns + 1) + column;
+            double bed = ground->heights != NULL ? (double)ground->heights[vertex] : -1e3;
             depth[y * FLOW_CELLS + x] = scene->water.level - bed;
         }
 }

@@ -140,6 +140,8 @@ static bool check_light(lom_reader *reader, const lom_toml_value *root)
     lom_light *light = &reader->scene->light;
     const lom_toml_value *table = child(root, "light");
     bool stands = child(table, "azimuth") != NULL || child(table, "elevation") != NULL;
+    if (child(table, "ground") == NULL)
+        memcpy(light->ground, light->ambient, sizeof light->ground);
     if (child(table, "direction") == NULL) {
         double sa = lom_double_sin(light->azimuth), ca = lom_double_cos(light->azimuth);
         double se = lom_double_sin(light->elevation), ce = lom_double_cos(light->elevation);

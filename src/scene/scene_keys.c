@@ -84,10 +84,38 @@ static const lom_key light[] = {
     { "intensity", LOM_KEY_NUMBER, AT(lom_light, intensity), .maximum = 1e6, .initial = { 1 },
       .text = "Factor on the colour." },
     { "ambient", LOM_KEY_COLOR, AT(lom_light, ambient), 3, .maximum = 1000, .initial = { 0.15, 0.15, 0.15 },
-      .text = "Light from everywhere; not multiplied by the intensity." },
+      .text = "Light from everywhere; not multiplied by the intensity. With `ground`, the light on what faces up." },
+    { "ground", LOM_KEY_COLOR, AT(lom_light, ground), 3, .maximum = 1000, .initial_text = "as `ambient`",
+      .text = "Light on what faces down; in between the two are mixed by the cosine between the normal and up." },
 };
 static const lom_key_table light_table = { sizeof(lom_light), light, COUNT(light),
                                            "The one directional light of the scene, the sun." };
+
+static const lom_key haze[] = {
+    { "density",
+      LOM_KEY_NUMBER,
+      AT(lom_haze, density),
+      3,
+      LOM_KEY_SPREAD,
+      0,
+      1e3,
+      { 1e-4, 1e-4, 1e-4 },
+      "1/m",
+      .text = "Extinction of the air up to `base`, for red, green and blue. Air scatters blue most: distant snow "
+              "turns warm and distant woods blue." },
+    { "color", LOM_KEY_COLOR, AT(lom_haze, color), 3, .maximum = 1000, .initial = { 0.5, 0.6, 0.7 },
+      .text = "Colour of the air: what a path without end would show. Pictures of the sky have their own haze." },
+    { "base", LOM_KEY_NUMBER, AT(lom_haze, base), .minimum = -1e6, .maximum = 1e6, .unit = "m",
+      .text = "Height (y) above which the air gets thinner." },
+    { "height", LOM_KEY_NUMBER, AT(lom_haze, height), .maximum = 1e6, .unit = "m",
+      .text = "Height over which it falls to 1/e; 0: the same everywhere." },
+    { "glow", LOM_KEY_COLOR, AT(lom_haze, glow), 3, .maximum = 1000,
+      .text = "What is added to the colour in the direction of the sun." },
+    { "glow_exponent", LOM_KEY_NUMBER, AT(lom_haze, glow_exponent), .flags = LOM_KEY_ABOVE, .maximum = 1000,
+      .initial = { 8 }, .text = "Exponent on the cosine between the path and the sun; larger is narrower." },
+};
+static const lom_key_table haze_table = { sizeof(lom_haze), haze, COUNT(haze),
+                                          "Air between the camera and what it sees. Without this table it is clear." };
 
 /* The order makes the bits LOM_MATERIAL_... */
 static const lom_key material[] = {
@@ -147,6 +175,9 @@ static const lom_key terrain_layer[] = {
       .text = "Height over which the layer fades in and out at its bounds." },
     { "slope_blend", LOM_KEY_ANGLE, AT(lom_terrain_layer, slope_blend), .maximum = 90, .initial = { 5 },
       .unit = "degrees", .text = "The same at the bounds of the slope." },
+    { "mapping", LOM_KEY_CHOICE, AT(lom_terrain_layer, mapping), .choices = { "planar", "triplanar" },
+      .text = "`planar` lays the picture on from above, which stretches it on steep ground; `triplanar` from above and "
+              "from the sides, mixed by the normal." },
 };
 static const lom_key_table terrain_layer_table = {
     sizeof(lom_terrain_layer), terrain_layer, COUNT(terrain_layer),
@@ -260,6 +291,12 @@ static const lom_key quality[] = {
       .text =
           "Draw these pictures only where the water can look them up. Changes time alone: off gives the same bytes." },
     { "reference", LOM_KEY_TABLE, AT(lom_quality, reference), .table = &reference_table },
+    { "terrain_error", LOM_KEY_NUMBER, AT(lom_quality, terrain_error), .maximum = 1000, .initial = { 1 },
+      .unit = "pixels",
+      .text = "How far the surface of terrain may be off on the screen where it is drawn with fewer triangles. 0 draws "
+              "every pixel of the height map everywhere." },
+    { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion), .initial = { 1 },
+      .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
 };
 static const lom_key_table quality_table = { sizeof(lom_quality), quality, COUNT(quality),
                                              "The dials that trade accuracy for time." };
@@ -269,6 +306,7 @@ static const lom_key root[] = {
     { "output", LOM_KEY_TABLE, AT(lom_scene, output), .table = &output_table },
     { "camera", LOM_KEY_TABLE, AT(lom_scene, camera), .table = &camera_table },
     { "light", LOM_KEY_TABLE, AT(lom_scene, light), .table = &light_table },
+    { "haze", LOM_KEY_TABLE, AT(lom_scene, haze), .table = &haze_table },
     { "sky", LOM_KEY_TABLE, AT(lom_scene, sky), .table = &lom_sky_keys },
     { "terrain", LOM_KEY_TABLE, AT(lom_scene, terrain), .table = &terrain_table },
     { "water", LOM_KEY_TABLE, AT(lom_scene, water), .table = &lom_water_keys },

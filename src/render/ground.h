@@ -1,0 +1,65 @@
+/* Terrain as it is drawn: square blocks of the height map's grid, each held at several levels of detail, and one
+ * texture with what the surface's light needs. */
+#ifndef LOM_RENDER_GROUND_H
+#define LOM_RENDER_GROUND_H
+
+#include <lom/pipeline.h>
+#include <lom/scene.h>
+
+enum {
+    LOM_GROUND_BLOCK = 32, /* quads along an edge of a block, fewer at the far borders of the map */
+    LOM_GROUND_LEVELS = 6, /* level n joins 2^n quads along each axis into one */
+    LOM_GROUND_PATTERNS = 4 * LOM_GROUND_LEVELS * 16 /* sizes of a block, levels, sets of edges */
+};
+
+/* The edges of a block where the neighbour is one level coarser. */
+enum { LOM_EDGE_LEFT = 1, LOM_EDGE_RIGHT = 2, LOM_EDGE_TOP = 4, LOM_EDGE_BOTTOM = 8 };
+
+struct lom_ground_block {
+    int columns, rows; /* quads at level 0 */
+    lom_box bounds;
+    size_t first[LOM_GROUND_LEVELS]; /* its vertices at each level in lom_ground.position, row by row */
+    float error[LOM_GROUND_LEVELS];  /* metres that the level's surface is off level 0 at most */
+};
+
+/* Triangles of a grid of columns x rows quads whose vertices are numbered row by row. */
+struct lom_ground_pattern {
+    int columns, rows, edges;
+    uint32_t *indices;
+    size_t count;
+};
+
+struct lom_ground {
+    int across, down;  /* blocks */
+    int columns, rows; /* quads of the whole grid */
+    struct lom_ground_block *blocks;
+    float (*position)[3];
+    size_t position_count;
+    float *heights; /* of all vertices, (columns + 1) x (rows + 1) */
+    /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
+    lom_texture *surface;
+    struct lom_ground_pattern *patterns;
+    size_t pattern_count;
+
+    /* What a frame has chosen, the same for all of its passes. */
+    int *level;      /* of each block */
+    int *pattern;    /* of each block: its triangles, without cracks to its neighbours */
+    uint32_t *order; /* blocks from near to far */
+    double *distance;
+};
+
+/* Reads the terrain of a scene; the texture belongs to the device. False on failure; freed with lom_free_ground. */
+bool lom_load_ground(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map, bool occlusion,
+                     lom_device *device, lom_error *error);
+void lom_free_ground(struct lom_ground *ground);
+
+/* The share of the sky (0..1, weighted by the cosine to the vertical) that each vertex sees over the heights around
+ * it, from a grid of at most 256 x 256 of them. share: width x height numbers, `stride` floats apart. */
+bool lom_find_sky_visibility(const float *heights, int width, int height, const double size[2], float *share,
+                             size_t stride, lom_error *error);
+
+/* Chooses every block's level: the coarsest whose error is at most `pixels` on the screen, neighbours at most one level
+ * apart, and sorts the blocks by distance. scale: pixels of 1 m at 1 m distance; pixels 0: full density. */
+bool lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, lom_error *error);
+
+#endif

@@ -1,0 +1,214 @@
+/* Proves terrain's levels of detail: at 0 pixels every quad is drawn; at any error each block is covered exactly once,
+ * neighbours are at most one level apart and share the very vertices of their edge, so there is no crack; a level's
+ * error is what its surface is really off; a plane is as coarse as can be. And the visibility of the sky, against its
+ * closed forms. */
+#include "check.h"
+
+#include "render/ground.h"
+
+enum { SIZE = 150 }; /* vertices: no whole number of blocks */
+
+static lom_device *device;
+static lom_image *map;
+static struct lom_ground ground;
+static const lom_terrain terrain = { .size = { 300, 200 }, .height = 40, .base = -3 };
+
+static uint16_t rough(int x, int y)
+{
+    return (uint16_t)(20000 + 9000 * lom_double_sin(x * 0.13) * lom_double_cos(y * 0.07) +
+                      3000 * lom_random_uniform(7, (uint64_t)(y * SIZE + x)));
+}
+
+static uint16_t tilted(int x, int y)
+{
+    return (uint16_t)(100 * x + 200 * y);
+}
+
+static void load(uint16_t (*height)(int x, int y))
+{
+    lom_error error = { .code = LOM_OK };
+    device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    map = lom_create_image(SIZE, SIZE, 1, LOM_FORMAT_R16, &error);
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++)
+            *(uint16_t *)lom_image_pixel(map, x, y, 0) = height(x, y);
+    CHECK(lom_load_ground(&ground, &terrain, map, true, device, &error), "%s", error.text);
+}
+
+static void release(void)
+{
+    lom_free_ground(&ground);
+    lom_free_image(map);
+    lom_close_device(device);
+}
+
+static void choose(double pixels)
+{
+    lom_error error = { .code = LOM_OK };
+    CHECK(lom_choose_ground(&ground, (lom_vec3){ -160, 30, -90 }, 900, pixels, &error), "%s", error.text);
+}
+
+static const struct lom_ground_pattern *pattern_of(int block)
+{
+    return &ground.patterns[ground.pattern[block]];
+}
+
+static const float *vertex_of(int block, uint32_t index)
+{
+    return ground.position[ground.blocks[block].first[ground.level[block]] + index];
+}
+
+static void full_density_at_zero_pixels(void)
+{
+    size_t count = 0;
+    load(rough);
+    choose(0);
+    for (int i = 0; i < ground.across * ground.down; i++)
+        count += pattern_of(i)->count;
+    CHECK(count == 6 * (SIZE - 1) * (SIZE - 1), "%zu indices", count);
+    release();
+}
+
+static double plan_area(const float *a, const float *b, const float *c)
+{
+    return (((double)b[2] - (double)a[2]) * ((double)c[0] - (double)a[0]) -
+            ((double)b[0] - (double)a[0]) * ((double)c[2] - (double)a[2])) /
+           2;
+}
+
+/* No triangle faces down, and together they have the block's area: nothing is covered twice, nothing is left out. */
+static void every_block_is_covered_once(void)
+{
+    load(rough);
+    for (double pixels = 0.5; pixels < 300; pixels *= 3) {
+        choose(pixels);
+        for (int i = 0; i < ground.across * ground.down; i++) {
+            const struct lom_ground_pattern *p = pattern_of(i);
+            const lom_box *box = &ground.blocks[i].bounds;
+            double sum = 0, whole = (box->high.x - box->low.x) * (box->high.z - box->low.z);
+            for (size_t k = 0; k < p->count; k += 3) {
+                double area = plan_area(vertex_of(i, p->indices[k]), vertex_of(i, p->indices[k + 1]),
+                                        vertex_of(i, p->indices[k + 2]));
+                CHECK(area > -1e-3, "block %d, triangle %zu: %g", i, k / 3, area);
+                sum += area;
+            }
+            CHECK(sum > whole - 1e-2 && sum < whole + 1e-2, "block %d: %g of %g", i, sum, whole);
+        }
+    }
+    release();
+}
+
+/* The vertices of a block on the line where coordinate `axis` is `at`, in order of the other one. */
+static int edge_vertices(int block, int axis, double at, float (*found)[3])
+{
+    const struct lom_ground_pattern *p = pattern_of(block);
+    int count = 0;
+    for (size_t k = 0; k < p->count; k++) {
+        const float *v = vertex_of(block, p->indices[k]);
+        if ((double)v[axis] != at)
+            continue;
+        int place = 0;
+        while (place < count && found[place][2 - axis] < v[2 - axis])
+            place++;
+        if (place < count && found[place][2 - axis] == v[2 - axis])
+            continue;
+        memmove(found + place + 1, found + place, (size_t)(count - place) * sizeof *found);
+        memcpy(found[place], v, sizeof *found);
+        count++;
+    }
+    return count;
+}
+
+static void check_edge(int a, int b, int axis, double at)
+{
+    float here[LOM_GROUND_BLOCK + 2][3], there[LOM_GROUND_BLOCK + 2][3];
+    int n = edge_vertices(a, axis, at, here), m = edge_vertices(b, axis, at, there);
+    int apart = ground.level[a] - ground.level[b];
+    CHECK(apart >= -1 && apart <= 1, "blocks %d and %d: levels %d and %d", a, b, ground.level[a], ground.level[b]);
+    CHECK(n >= 2 && n == m && memcmp(here, there, (size_t)n * sizeof here[0]) == 0, "blocks %d and %d: %d, %d", a, b, n,
+          m);
+}
+
+static void neighbours_share_their_edge(void)
+{
+    int mixed = 0;
+    load(rough);
+    for (double pixels = 0.5; pixels < 300; pixels *= 2) {
+        choose(pixels);
+        for (int i = 0; i < ground.across * ground.down; i++) {
+            if ((i + 1) % ground.across != 0)
+                check_edge(i, i + 1, 0, ground.blocks[i].bounds.high.x);
+            if (i + ground.across < ground.across * ground.down)
+                check_edge(i, i + ground.across, 2, ground.blocks[i].bounds.high.z);
+            mixed += ground.level[i] != ground.level[0];
+        }
+    }
+    CHECK(mixed > 0, "all blocks always had one level");
+    release();
+}
+
+/* One block whose middle vertex alone stands out by 1 m: every level but the finest is off by just that, less the
+ * cosine of the (flat) plane that it is measured from. */
+static uint16_t spike(int x, int y)
+{
+    return x == 16 && y == 16 ? 6554 : 4915; /* 3 m is 4915: y = 0 */
+}
+
+static void errors_are_what_a_level_is_off(void)
+{
+    load(spike);
+    const float *error = ground.blocks[0].error;
+    double high = 6554 / 65535. * 40 - 4915 / 65535. * 40;
+    CHECK(error[0] == 0, "level 0 is off by %g", (double)error[0]);
+    for (int level = 1; level < 5;
+         level++) /* the vertex belongs to levels 1 to 4: their slopes differ from level 0's */
+        CHECK(error[level] > 0 && (double)error[level] < high, "level %d: %g", level, (double)error[level]);
+    CHECK((double)error[5] > high - 1e-4 && (double)error[5] < high + 1e-4, "level 5: %g, not %g", (double)error[5],
+          high);
+    release();
+}
+
+static void planes_are_coarse(void)
+{
+    load(tilted);
+    choose(0.1);
+    for (int i = 0; i < ground.across * ground.down; i++)
+        CHECK(ground.level[i] == LOM_GROUND_LEVELS - 1, "block %d has level %d", i, ground.level[i]);
+    release();
+}
+
+/* Flat ground sees all of the sky. At the foot of a wall so high that its horizon is upright half of it is hidden;
+ * beside a long wall of 45 degrees' height, cos^2 h with tan h = cos(azimuth) over half of the azimuths: the mean is
+ * 1/2 + 1/2 mean of 1 / (1 + cos^2) = 1/2 + 1 / (2 sqrt 2). */
+static float share[64 * 64];
+
+static float seen_beside(float wall, int distance)
+{
+    static float heights[64 * 64];
+    for (int i = 0; i < 64 * 64; i++)
+        heights[i] = i % 64 >= 32 ? wall : 0;
+    CHECK(lom_find_sky_visibility(heights, 64, 64, (double[]){ 64, 64 }, share, 1, NULL), "no memory");
+    return share[32 * 64 + 32 - distance];
+}
+
+static void visibility_of_the_sky(void)
+{
+    CHECK(seen_beside(0, 1) == 1, "flat ground sees %g", (double)seen_beside(0, 1));
+    CHECK(share[0] == 1 && share[63] == 1 && share[64 * 63] == 1, "the corners of flat ground");
+    float half = seen_beside(1e6f, 1), expected = 0.5f + 0.35355339f;
+    CHECK(half > 0.5f && half < 0.57f, "at the wall %g", (double)half); /* two of sixteen azimuths run along it */
+    float beside = seen_beside(8, 8);
+    CHECK(beside > expected - 0.03f && beside < expected + 0.03f, "beside the wall %g, not %g", (double)beside,
+          (double)expected);
+}
+
+int main(int argc, char **argv)
+{
+    RUN(full_density_at_zero_pixels);
+    RUN(every_block_is_covered_once);
+    RUN(neighbours_share_their_edge);
+    RUN(errors_are_what_a_level_is_off);
+    RUN(planes_are_coarse);
+    RUN(visibility_of_the_sky);
+    return check_result();
+}
