@@ -295,7 +295,7 @@ static const lom_key quality[] = {
       .unit = "pixels",
       .text = "How far the surface of terrain may be off on the screen where it is drawn with fewer triangles. 0 draws "
               "every pixel of the height map everywhere." },
-    { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion), .initial = { 1 },
+    { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion),
       .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
 };
 static const lom_key_table quality_table = { sizeof(lom_quality), quality, COUNT(quality),
