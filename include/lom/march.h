@@ -103,8 +103,8 @@ LOM_INLINE void lom_load_volume_corners(const lom_volume *volume, lom_volume_pla
                          &corner[i + 1]);
 }
 
-/* Density and colour at once: the density by the operations of lom_sample_density (a byte that is masked where it stands
- * differs from one that is shifted down by an exact factor), so the same bits. */
+/* Density and colour at once: the density by the operations of lom_sample_density (a byte that is masked where it
+ * stands differs from one that is shifted down by an exact factor), so the same bits. */
 LOM_INLINE lom_float3 lom_sample_volume_all(const lom_volume *volume, lom_volume_place place, lom_float *density)
 {
     lom_int corner[8], high[8];
