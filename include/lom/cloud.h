@@ -112,6 +112,28 @@ typedef enum lom_cloud_model {
     LOM_CLOUDS_OFF
 } lom_cloud_model;
 
+/* ---- quality.impostors and [quality.impostor] ---- */
+
+typedef enum lom_impostor_rule {
+    LOM_IMPOSTORS_OFF = 0,   /* every cloud is marched in every frame */
+    LOM_IMPOSTORS_REFERENCE, /* the reference work's refresh rule and sizes of plates */
+    LOM_IMPOSTORS_BOUNDED    /* a plate is made anew when its error in pixels passes a bound */
+} lom_impostor_rule;
+
+typedef struct lom_impostor_dials {
+    uint32_t given;
+    double bound;                    /* pixels; of the bounded rule */
+    double scale;                    /* texels a pixel of the frame, of the bounded rule, above 0 to 4 */
+    double inside_scale;             /* the same of the plate of a cloud around the eye, above 0 to 1 */
+    double sun;                      /* radians the sun may move before a plate is made anew */
+    int largest;                     /* texels along a plate's edge */
+    int largest_reference, smallest; /* the reference rule's: a plate of `smallest` or less is not drawn */
+    bool two_pass;                   /* plates coarser than the frame are magnified in two passes */
+    bool misting;                    /* clouds near the eye fade to 0.8 of their opacity */
+    bool culling;                    /* clouds outside the view cost nothing; off changes no byte */
+    bool lod;                        /* off: every plate has the largest size */
+} lom_impostor_dials;
+
 #ifdef __cplusplus
 }
 #endif

@@ -42,13 +42,33 @@ typedef struct lom_plan {
 
 /* ---- a frame ---- */
 
+/* What became of the clouds' impostors, over all pictures of a frame (the frame itself, the water's mirror). */
+typedef struct lom_impostor_counters {
+    int plates;    /* shown */
+    int refreshed; /* of them made anew */
+    int reused;    /* of them shown again */
+    int skipped;   /* clouds too small to be seen */
+    int culled;    /* clouds outside the view */
+} lom_impostor_counters;
+
+/* The time of a stage of a frame. */
+enum { LOM_MAX_STAGES = 16 };
+typedef struct lom_stage_time {
+    const char *name;
+    double milliseconds; /* by the clock: the only thing here that differs from run to run */
+} lom_stage_time;
+
 typedef struct lom_frame {
     lom_image *image;      /* the picture, in the scene's output format; freed with lom_free_image */
     lom_plan plan;         /* what was done for it */
     lom_counters counters; /* work of this frame */
+    lom_impostor_counters impostors;
+    lom_stage_time stage[LOM_MAX_STAGES]; /* in their order; name NULL behind the last */
 } lom_frame;
 
-/* Draws one frame; any frame alone gives the bytes that it has in a run. False on failure (image is then NULL). */
+/* Draws one frame; any frame alone gives the bytes that it has in a run, unless quality.impostors is on: then a plate
+ * depends on the frames of the run before. A run goes on when the frame is the one after the last frame that this
+ * renderer drew, at the same size; else every cloud is drawn afresh. False on failure (image is then NULL). */
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *frame, lom_error *error);
 
 /* Empty, or one sentence about what was passed over while loading, such as a material file that is not there. */

@@ -177,11 +177,13 @@ typedef struct lom_quality {
     int cloud_octaves;        /* of multiple scattering, 1..8 */
     bool cloud_jitter;        /* samples are shifted along the ray by a table of blue noise */
     double cloud_light_scale; /* voxels of the light's grid a voxel of the density, along each axis */
-    int shading;              /* lom_shading */
-    int texture_filter;       /* lom_texture_filter */
-    bool mipmaps;             /* false: the finest level alone */
-    double reflection_scale;  /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
-    double refraction_scale;  /* the same of the refraction picture */
+    int impostors;            /* lom_impostor_rule */
+    lom_impostor_dials impostor;
+    int shading;             /* lom_shading */
+    int texture_filter;      /* lom_texture_filter */
+    bool mipmaps;            /* false: the finest level alone */
+    double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
+    double refraction_scale; /* the same of the refraction picture */
     lom_reference_quality reference;
     bool scissor;           /* pictures are drawn only where lookups can reach; changes no byte */
     double terrain_error;   /* pixels that terrain may be off where it is drawn coarser; 0: full density */

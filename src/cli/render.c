@@ -44,7 +44,7 @@ static const lom_command_line line = {
     .arguments = "SCENE -o OUT",
     .summary = "draw a scene",
     .details = "OUT is png, ppm, pgm, pam, pfm or y4m by its ending. -o may be left out with --hash or --stats.\n"
-               "Any frame alone has the bytes that it has in a run.",
+               "Any frame alone has the bytes that it has in a run, unless quality.impostors is on.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
@@ -168,7 +168,12 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
                   { "triangles_binned", c->triangles_binned },
                   { "fragments", c->fragments },
                   { "packets", c->packets },
-                  { "tiles", c->tiles } };
+                  { "tiles", c->tiles },
+                  { "impostors_shown", (uint64_t)frame->impostors.plates },
+                  { "impostors_refreshed", (uint64_t)frame->impostors.refreshed },
+                  { "impostors_reused", (uint64_t)frame->impostors.reused },
+                  { "impostors_skipped", (uint64_t)frame->impostors.skipped },
+                  { "clouds_culled", (uint64_t)frame->impostors.culled } };
     char ran[LOM_MAX_STEPS * 25] = "";
     size_t length = 0;
     lom_json json = lom_json_begin(run->stats);
@@ -180,6 +185,11 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
         if (frame->plan.step[i].runs)
             length += (size_t)snprintf(ran + length, sizeof ran - length, "%s%s", length > 0 ? " " : "",
                                        frame->plan.step[i].name);
+    for (int i = 0; i < LOM_MAX_STAGES && frame->stage[i].name != NULL; i++) {
+        char name[48];
+        snprintf(name, sizeof name, "ms_%s", frame->stage[i].name);
+        lom_json_number(&json, name, frame->stage[i].milliseconds);
+    }
     lom_json_text(&json, "ran", ran);
     lom_json_end(&json);
 }

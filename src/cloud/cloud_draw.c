@@ -25,19 +25,30 @@ lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud)
                       { m.x + half[0], m.y + half[1], m.z + half[2] } };
 }
 
+void lom_cloud_corners(const struct lom_placed_cloud *cloud, lom_vec3 corner[8])
+{
+    for (int c = 0; c < 8; c++) {
+        double at[3] = { 0, 0, 0 };
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                at[k] += cloud->axes[i][k] * ((c >> i & 1) - 0.5) * cloud->cloud->size[i];
+        corner[c] = (lom_vec3){ at[0], at[1], at[2] };
+    }
+}
+
 static double square_distance(const struct lom_placed_cloud *cloud, lom_vec3 eye)
 {
     double x = cloud->middle.x - eye.x, y = cloud->middle.y - eye.y, z = cloud->middle.z - eye.z;
     return x * x + y * y + z * z;
 }
 
-size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, size_t *order)
+size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, bool cull, size_t *order)
 {
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     lom_frustum frustum = lom_view_frustum(&clip_from_world, false);
     size_t count = 0;
     for (size_t n = set->count; n-- > 0;) {
-        if (lom_box_visibility(&frustum, lom_cloud_bounds(&set->clouds[n])) == LOM_OUTSIDE)
+        if (cull && lom_box_visibility(&frustum, lom_cloud_bounds(&set->clouds[n])) == LOM_OUTSIDE)
             continue;
         double distance = square_distance(&set->clouds[n], view->eye);
         size_t at = count++;
@@ -93,9 +104,19 @@ static void set_light(struct lom_cloud_uniforms *u, const struct lom_cloud_set *
     u->haze_rate = p->haze_distance > 0 ? (float)(1 / p->haze_distance) : 0;
 }
 
-static void set_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
-                      const struct lom_cloud_view *view)
+void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
+                         const struct lom_cloud_view *view)
 {
+    u->near_plane = (float)view->near_plane;
+    u->origin[0] = (float)view->origin_x;
+    u->origin[1] = (float)view->origin_y;
+    u->depth = view->depth;
+    u->is_sliced = view->is_sliced;
+    u->slice_from = (float)view->slice_from;
+    u->slice_to = (float)view->slice_to;
+    u->slice_axis[0] = (float)view->slice_axis.x;
+    u->slice_axis[1] = (float)view->slice_axis.y;
+    u->slice_axis[2] = (float)view->slice_axis.z;
     const lom_cloud *cloud = placed->cloud;
     const double from_eye[3] = { placed->middle.x - view->eye.x, placed->middle.y - view->eye.y,
                                  placed->middle.z - view->eye.z };
@@ -104,13 +125,13 @@ static void set_place(struct lom_cloud_uniforms *u, const struct lom_placed_clou
     for (int row = 0; row < 4; row++)
         for (int column = 0; column < 4; column++)
             u->clip_from_offset.m[row][column] = (float)clip.m[row][column];
-    for (int c = 0; c < 8; c++)
-        for (int k = 0; k < 3; k++) {
-            double at = from_eye[k];
-            for (int i = 0; i < 3; i++)
-                at += placed->axes[i][k] * ((c >> i & 1) - 0.5) * cloud->size[i];
-            u->corner[c][k] = (float)at;
-        }
+    lom_vec3 corner[8];
+    lom_cloud_corners(placed, corner);
+    for (int c = 0; c < 8; c++) {
+        u->corner[c][0] = (float)(from_eye[0] + corner[c].x);
+        u->corner[c][1] = (float)(from_eye[1] + corner[c].y);
+        u->corner[c][2] = (float)(from_eye[2] + corner[c].z);
+    }
     for (int i = 0; i < 3; i++) {
         double sum = 0;
         for (int k = 0; k < 3; k++) {
@@ -164,11 +185,8 @@ void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, 
     /* corner c is at (c & 1, c >> 1 & 1, c >> 2); counter-clockwise from outside */
     static const uint16_t faces[36] = { 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                                         2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6 };
-    struct lom_cloud_uniforms u = { .near_plane = (float)view->near_plane,
-                                    .origin = { (float)view->origin_x, (float)view->origin_y },
-                                    .depth = view->depth,
-                                    .jitter = set->jitter };
-    set_place(&u, cloud, view);
+    struct lom_cloud_uniforms u = { .jitter = set->jitter };
+    lom_set_cloud_place(&u, cloud, view);
     set_light(&u, set, view);
     set_march(&u.march, set, cloud, view);
     bool is_flat = set->quality.model == LOM_CLOUDS_BILLBOARD, is_original = set->quality.model == LOM_CLOUDS_ORIGINAL;

@@ -74,13 +74,19 @@ struct lom_cloud_view {
     int origin_x, origin_y;   /* the frame's pixel of the depth's pixel (0, 0) */
     double pixel_angle;       /* radians a pixel covers in the middle of the picture */
     struct lom_light_uniform light;
+    bool is_sliced; /* only what lies between two planes is drawn: metres along slice_axis, a unit vector, from the eye
+                     */
+    lom_vec3 slice_axis;
+    double slice_from, slice_to;
 };
 
 /* The box of a cloud in the world. */
 lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud);
-/* Indices of the clouds that are seen, the farthest first (by the middle's distance; of equals the later one in the
- * file first); order has room for set->count. */
-size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, size_t *order);
+/* Indices of the clouds that are seen (all of them unless cull is set), the farthest first (by the middle's distance;
+ * of equals the later one in the file first); order has room for set->count. */
+size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, bool cull, size_t *order);
+/* The corners of its box less its middle: corner c is at (c & 1, c >> 1 & 1, c >> 2) along its axes. */
+void lom_cloud_corners(const struct lom_placed_cloud *cloud, lom_vec3 corner[8]);
 /* Draws one cloud into the pass that has begun (colour alone; it keeps what it holds). */
 void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
                            const struct lom_cloud_view *view);

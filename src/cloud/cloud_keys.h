@@ -5,5 +5,7 @@
 #include "base/keys.h"
 
 extern const lom_key_table lom_cloud_keys, lom_clouds_keys;
+/* [quality.impostor] */
+extern const lom_key_table lom_impostor_keys;
 
 #endif

@@ -51,6 +51,11 @@ LOM_INLINE lom_medium_rays lom_cloud_rays(const struct lom_cloud_uniforms *cloud
                                         lom_dot3(*direction, lom_uniform3(cloud->box_axis[2])) },
                              .active = in->covered };
     LOM_WIDE(lom_cross_box)(&rays);
+    if (cloud->is_sliced) {
+        lom_float along = 1.0f / lom_max(lom_dot3(*direction, lom_uniform3(cloud->slice_axis)), lom_splat(1e-6f));
+        rays.enter = lom_max(rays.enter, along * cloud->slice_from);
+        rays.leave = lom_min(rays.leave, along * cloud->slice_to);
+    }
     if (cloud->depth != NULL)
         rays.leave = lom_min(rays.leave, lom_scene_distance(cloud, in, length));
     rays.active &= rays.enter < rays.leave;

@@ -13,8 +13,10 @@ struct lom_cloud_uniforms {
     float box_axis[3][3];                       /* rows: parts of the box along axis i a metre */
     float near_plane;
     float origin[2];
-    const lom_texture *depth; /* NULL: nothing hides it */
-    const float *jitter;      /* NULL: none */
+    const lom_texture *depth;                  /* NULL: nothing hides it */
+    const float *jitter;                       /* NULL: none */
+    bool is_sliced;                            /* only what lies between two planes is seen */
+    float slice_axis[3], slice_from, slice_to; /* metres along a unit vector from the eye */
     lom_medium_desc march;
     /* light */
     float to_light[3], sun[3], sky[3], ground[3]; /* radiance where a place sees all of it */
@@ -31,6 +33,14 @@ struct lom_cloud_uniforms {
     float right[3], up[3];      /* half the billboard, metres */
 };
 
+/* A plate with a cloud's picture. */
+struct lom_impostor_uniforms {
+    struct lom_cloud_uniforms cloud; /* its place, the depth and the slice */
+    float corner[4][3];              /* of the plate, less the eye: lower left, lower right, upper left, upper right */
+    const lom_texture *plate;
+    float misting; /* factor on opacity and colour */
+};
+
 /* A cloud's shadow on the plane of the ground's shadow map. */
 struct lom_cloud_shadow_uniforms {
     float plane[4];                   /* x, z of the map's corner and its extent, metres */
@@ -41,7 +51,14 @@ struct lom_cloud_shadow_uniforms {
     lom_medium_desc march;
 };
 
+struct lom_placed_cloud;
+struct lom_cloud_view;
+/* cloud_draw.c: where the cloud is, how it is looked at, and what hides it. */
+void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
+                         const struct lom_cloud_view *view);
+
 extern const lom_shader lom_cloud_original_shader, lom_cloud_picture_shader;
 extern const lom_shader lom_cloud_shader, lom_cloud_shadow_shader;
+extern const lom_shader lom_impostor_shader, lom_magnify_shader;
 
 #endif

@@ -6,16 +6,20 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <time.h>
 
 static bool draw_opaque(struct frame *f, lom_error *error);
 
-static bool (*const stages[])(struct frame *f, lom_error *error) = {
-    lom_prepare_clouds,    /* their light */
-    lom_prepare_sea_stage, /* the waves, and what they do to the light on what follows */
-    draw_opaque,           /* terrain, entities and sky */
-    lom_draw_lake_stage,   /* tinted or planar water over them */
-    lom_draw_sea_stage,    /* or water with waves */
-    lom_draw_cloud_stage,  /* clouds over all */
+static const struct stage {
+    bool (*run)(struct frame *f, lom_error *error);
+    const char *name;
+} stages[] = {
+    { lom_prepare_clouds, "cloud_light" }, /* their light */
+    { lom_prepare_sea_stage, "waves" },    /* the waves, and what they do to the light on what follows */
+    { draw_opaque, "scene" },              /* terrain, entities and sky */
+    { lom_draw_lake_stage, "lake" },       /* tinted or planar water over them */
+    { lom_draw_sea_stage, "sea" },         /* or water with waves */
+    { lom_draw_cloud_stage, "clouds" },    /* clouds over all */
 };
 
 lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
@@ -88,15 +92,27 @@ static lom_counters subtract(lom_counters a, lom_counters b)
                            a.tiles - b.tiles };
 }
 
+static double milliseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
 /* What the stages draw, read back. */
-static lom_image *draw_stages(struct frame *f, lom_error *error)
+static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
         return NULL;
     bool done = choose_detail(f, error);
-    for (size_t i = 0; done && i < sizeof stages / sizeof stages[0]; i++)
-        done = stages[i](f, error);
+    double before = milliseconds();
+    for (size_t i = 0; done && i < sizeof stages / sizeof stages[0]; i++) {
+        done = stages[i].run(f, error);
+        double now = milliseconds();
+        times[i] = (lom_stage_time){ stages[i].name, now - before };
+        before = now;
+    }
     if (done)
         return lom_read_texture(r->color, 0, 0, error);
     const lom_error *failed = lom_device_error(r->device);
@@ -107,11 +123,12 @@ static lom_image *draw_stages(struct frame *f, lom_error *error)
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    struct frame f = { .renderer = renderer, .scene = scene, .plan = &out->plan };
+    struct frame f = { .renderer = renderer, .scene = scene, .plan = &out->plan, .impostors = &out->impostors };
     *out = (lom_frame){ .image = NULL };
     f.width = desc->width != 0 ? desc->width : scene->output.width;
     f.height = desc->height != 0 ? desc->height : scene->output.height;
     f.crop = desc->crop.width != 0 ? desc->crop : (lom_rect){ 0, 0, f.width, f.height };
+    f.number = desc->frame;
     f.time = desc->frame / scene->output.fps;
     if (f.width < 1 || f.height < 1 || f.width > LOM_MAX_SIZE || f.height > LOM_MAX_SIZE || f.crop.x < 0 ||
         f.crop.y < 0 || f.crop.width < 1 || f.crop.height < 1 || f.crop.x > f.width - f.crop.width ||
@@ -122,8 +139,12 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     lom_float_state state;
     lom_enter_float_state(&state);
     look(&f);
-    lom_image *drawn = renderer->reference != NULL ? lom_draw_reference(&f, error) : draw_stages(&f, error);
+    lom_begin_impostors(&f);
+    lom_image *drawn = renderer->reference != NULL ? lom_draw_reference(&f, error) : draw_stages(&f, out->stage, error);
+    double start = milliseconds();
     out->image = lom_output_image(scene, drawn, error);
+    if (drawn != NULL)
+        out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
     lom_leave_float_state(&state);
     out->counters = subtract(lom_device_counters(renderer->device), before);
     return out->image != NULL;

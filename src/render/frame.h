@@ -4,6 +4,7 @@
 #ifndef LOM_RENDER_FRAME_H
 #define LOM_RENDER_FRAME_H
 
+#include "cloud/cloud_draw.h"
 #include "render/renderer.h"
 
 struct frame {
@@ -11,6 +12,7 @@ struct frame {
     const lom_scene *scene;
     int width, height; /* of the whole frame */
     lom_rect crop;     /* the part of it that is drawn: what the targets color, depth and mask hold */
+    int number;        /* of the frame */
     double time;       /* seconds */
     lom_camera_view camera;
     struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
@@ -18,6 +20,7 @@ struct frame {
     struct lom_waves_uniform waves; /* of water with waves, at this time */
     bool below;                     /* the eye is under water with waves */
     lom_plan *plan;
+    lom_impostor_counters *impostors;
 };
 
 /* Adds a step to the plan with its text; the caller sets the size of its target. A plan that is full keeps its last
@@ -38,6 +41,11 @@ bool lom_prepare_sea_stage(struct frame *f, lom_error *error);
 bool lom_draw_sea_stage(struct frame *f, lom_error *error);
 bool lom_prepare_clouds(struct frame *f, lom_error *error); /* makes their light before anything is drawn */
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error);
+
+/* frame_impostor.c: whether this frame goes on with the run's impostors; then lom_draw_clouds by them. */
+void lom_begin_impostors(struct frame *f);
+size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
+                          const lom_pass_desc *pass, lom_error *error);
 
 /* frame_cloud.c: draws the clouds that this view sees over a picture that is finished, in a pass like `pass`; depth is
  * the picture's. The renderer has clouds. Returns how many are in view. */

@@ -161,17 +161,19 @@ size_t lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_p
                        lom_error *error)
 {
     lom_renderer *r = f->renderer;
-    size_t *order = lom_allocate(r->clouds->count, sizeof *order, error);
-    if (order == NULL)
-        return 0;
     int height = pass.frame_height != 0 ? pass.frame_height : lom_texture_height(pass.color[0]);
     struct lom_cloud_view seen = cloud_view(f, view, height);
     seen.depth = depth;
     seen.origin_x = pass.origin_x;
     seen.origin_y = pass.origin_y;
-    size_t count = lom_order_clouds(r->clouds, &seen, order);
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
+    if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
+        return lom_draw_impostors(f, view, &seen, &pass, error);
+    size_t *order = lom_allocate(r->clouds->count, sizeof *order, error);
+    if (order == NULL)
+        return 0;
+    size_t count = lom_order_clouds(r->clouds, &seen, f->scene->quality.impostor.culling, order);
     if (count != 0) {
         lom_begin_pass(r->device, &pass);
         for (size_t i = 0; i < count; i++)
@@ -180,6 +182,24 @@ size_t lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_p
     }
     lom_release(order);
     return count;
+}
+
+static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_impostor_counters *before)
+{
+    const lom_impostor_counters *now = f->impostors;
+    size_t all = f->renderer->clouds->count;
+    if (count == 0)
+        return lom_add_step(f, "clouds", false, "none of %zu clouds is in view", all);
+    if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF)
+        return lom_add_step(f, "clouds", true, "%zu of %zu clouds are in view; each is marched, the farthest first",
+                            count, all);
+    if (!f->renderer->impostors.continues)
+        return lom_add_step(f, "clouds", true,
+                            "%zu of %zu clouds are in view; no frame of a run before this one: each is drawn afresh on "
+                            "its plate",
+                            count, all);
+    return lom_add_step(f, "clouds", true, "%zu of %zu clouds are in view; %d plates made anew, %d shown again", count,
+                        all, now->refreshed - before->refreshed, now->reused - before->reused);
 }
 
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
@@ -192,9 +212,9 @@ bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
                          : "the scene has no cloud");
         return true;
     }
+    lom_impostor_counters before = *f->impostors;
     size_t count = lom_draw_clouds(f, &f->view, lom_frame_pass(f, r->color), r->depth, error);
-    lom_step *step = lom_add_step(f, "clouds", count != 0, "%zu of %zu clouds are in view%s", count, r->clouds->count,
-                                  count != 0 ? "; each is marched, the farthest first" : "");
+    lom_step *step = add_cloud_step(f, count, &before);
     step->width = f->crop.width;
     step->height = f->crop.height;
     return lom_device_error(r->device)->code == LOM_OK;

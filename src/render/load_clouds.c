@@ -21,5 +21,6 @@ bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error)
 
 void lom_free_scene_clouds(lom_renderer *renderer)
 {
+    lom_free_impostors(renderer);
     lom_free_clouds(renderer->clouds);
 }

@@ -2,6 +2,7 @@
 #ifndef LOM_RENDER_RENDERER_H
 #define LOM_RENDER_RENDERER_H
 
+#include "cloud/impostor.h"
 #include "render/ground.h"
 #include "render/surface.h"
 #include "water/surface.h"
@@ -38,6 +39,24 @@ struct lom_ground_shadow {
     uint64_t made_for;
 };
 
+/* A cloud's picture between frames: in one part, or in a far and a near one (the aircraft is between them). */
+struct lom_impostor {
+    struct lom_plate plate;
+    bool is_made, is_small, is_around; /* small: not drawn; around: the cloud is about the eye */
+    int parts;
+    double cut;                             /* of two parts: metres along the plate's axis from its eye */
+    double sun[3];                          /* that lit it */
+    lom_texture *marched[2], *magnified[2]; /* magnified: NULL when the marched picture is shown as it is */
+};
+
+/* The impostors of the frame's eye and of its mirror image in the water, one a cloud; a function of the frames drawn
+ * since the run began. */
+struct lom_impostors {
+    struct lom_impostor *of_eye[2]; /* NULL until needed */
+    bool continues;                 /* this frame follows the one before in a run */
+    int frame, width, height;       /* of the last frame */
+};
+
 struct lom_renderer {
     const lom_scene *scene;
     lom_device *device;
@@ -55,6 +74,7 @@ struct lom_renderer {
     size_t entity_count;
     struct lom_cloud_set *clouds; /* NULL: none */
     struct lom_ground_shadow ground_shadow;
+    struct lom_impostors impostors;
 
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
@@ -89,6 +109,7 @@ double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_unif
 /* load_clouds.c */
 bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error);
 void lom_free_scene_clouds(lom_renderer *renderer);
+void lom_free_impostors(lom_renderer *renderer); /* their textures are the device's */
 
 /* How a pass looks at the scene. */
 struct lom_scene_view {

@@ -277,6 +277,12 @@ static const lom_key quality[] = {
       .text = "Shift samples along the ray by a table of blue noise, which breaks up bands." },
     { "cloud_light_scale", LOM_KEY_NUMBER, AT(lom_quality, cloud_light_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 0.5 }, .text = "Size of the grid of light, in parts of the density's, along each axis." },
+    { "impostors", LOM_KEY_CHOICE, AT(lom_quality, impostors), .choices = { "off", "reference", "bounded" },
+      .text =
+          "Whether a cloud's picture is kept on a plate and shown again while the camera moves: never; by the "
+          "reference work's rule; while its error in pixels is below a bound. In a run of frames a plate depends on "
+          "the frames before; a frame alone draws every cloud afresh." },
+    { "impostor", LOM_KEY_TABLE, AT(lom_quality, impostor), .table = &lom_impostor_keys },
     { "shading", LOM_KEY_CHOICE, AT(lom_quality, shading), .choices = { "phong", "gouraud", "flat" },
       .text = "Light for each fragment, for each vertex, or for each face." },
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),

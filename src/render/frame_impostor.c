@@ -1,0 +1,244 @@
+/* Clouds by impostors. In: the clouds of the set, an eye, what the frames of the run before left. Out: plates, made
+ * anew where the rule says so and shown the farthest first. Invariant: which plates are made anew, and from where,
+ * follows from the places of eye, sun and clouds in the frames of the run; not from crops, tiles, threads or lanes. */
+#include "cloud/impostor_draw.h"
+#include "render/frame.h"
+
+static const double around_on = 0.25, around_off = 0.3; /* distance to the box in parts of its longest side */
+static const double small_on = 1, small_off = 1.25;     /* extent in pixels */
+
+void lom_free_impostors(lom_renderer *renderer)
+{
+    lom_release(renderer->impostors.of_eye[0]);
+    lom_release(renderer->impostors.of_eye[1]);
+}
+
+void lom_begin_impostors(struct frame *f)
+{
+    struct lom_impostors *state = &f->renderer->impostors;
+    if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF || f->renderer->clouds == NULL)
+        return;
+    state->continues = state->width == f->width && state->height == f->height && state->frame + 1 == f->number;
+    state->frame = f->number;
+    state->width = f->width;
+    state->height = f->height;
+    for (int e = 0; e < 2 && !state->continues; e++)
+        for (size_t i = 0; state->of_eye[e] != NULL && i < f->renderer->clouds->count; i++) {
+            struct lom_impostor *impostor = &state->of_eye[e][i];
+            impostor->is_made = impostor->is_small = impostor->is_around = false;
+        }
+}
+
+/* What the decisions about one cloud share. */
+struct looking {
+    struct frame *f;
+    const lom_impostor_dials *dials;
+    bool is_reference;
+    struct lom_impostor_eye eye;
+    struct lom_cloud_view seen; /* by which plates are marched and shown */
+    int width, height;          /* of the picture */
+};
+
+static struct lom_impostor_eye eye_of(const struct lom_scene_view *view, const struct lom_cloud_view *seen, int height)
+{
+    const double(*m)[4] = view->view.m;
+    return (struct lom_impostor_eye){ .right = { m[0][0], m[0][1], m[0][2] },
+                                      .up = { m[1][0], m[1][1], m[1][2] },
+                                      .forward = { -m[2][0], -m[2][1], -m[2][2] },
+                                      .near_plane = seen->near_plane,
+                                      .tangent = { 1 / view->projection.m[0][0], 1 / view->projection.m[1][1] },
+                                      .pixel = seen->pixel_angle,
+                                      .height = height };
+}
+
+static double longest_side(const struct lom_placed_cloud *cloud)
+{
+    const double *size = cloud->cloud->size;
+    double longest = size[0] > size[1] ? size[0] : size[1];
+    return size[2] > longest ? size[2] : longest;
+}
+
+/* From the eye (less the middle) to the cloud's box; 0 inside. */
+static double distance_to_box(const struct lom_placed_cloud *cloud, lom_vec3 eye)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double along = cloud->axes[i][0] * eye.x + cloud->axes[i][1] * eye.y + cloud->axes[i][2] * eye.z;
+        double beyond = (along < 0 ? -along : along) - cloud->cloud->size[i] / 2;
+        sum += beyond > 0 ? beyond * beyond : 0;
+    }
+    return lom_double_sqrt(sum);
+}
+
+static double angle_between(const double a[3], const double b[3])
+{
+    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    double half = lom_double_sqrt(x * x + y * y + z * z) / 2;
+    return 2 * lom_double_asin(half < 1 ? half : 1);
+}
+
+static bool make_plate(const struct looking *l, const lom_vec3 corner[8], lom_vec3 eye, struct lom_plate *plate)
+{
+    const lom_impostor_dials *d = l->dials;
+    if (l->is_reference) {
+        bool done = lom_make_reference_plate(corner, eye, &l->eye, d->largest_reference, plate);
+        if (done && !d->lod)
+            plate->width = plate->height = d->largest_reference;
+        return done;
+    }
+    return lom_make_facing_plate(corner, eye, &l->eye, d->lod ? d->scale : 1e9, d->largest, plate);
+}
+
+/* Whether a plate is so small that the cloud is not drawn. */
+static bool is_small(const struct looking *l, const struct lom_impostor *impostor, const struct lom_plate *plate)
+{
+    if (l->is_reference)
+        return l->dials->lod && plate->width <= l->dials->smallest;
+    return lom_switch(impostor->is_small, plate->extent, small_on, small_off);
+}
+
+static enum lom_refresh why_refresh(const struct looking *l, const struct lom_impostor *impostor,
+                                    const struct lom_placed_cloud *cloud, const lom_vec3 corner[8], lom_vec3 eye)
+{
+    const double sun[3] = { (double)l->seen.light.to_light[0], (double)l->seen.light.to_light[1],
+                            (double)l->seen.light.to_light[2] };
+    if (!impostor->is_made)
+        return LOM_REFRESH_FIRST;
+    if (impostor->is_around)
+        return LOM_REFRESH_NEAR;
+    if (angle_between(sun, impostor->sun) > l->dials->sun)
+        return LOM_REFRESH_SUN;
+    return l->is_reference ? lom_reference_refresh(&impostor->plate, eye, &l->eye, longest_side(cloud))
+                           : lom_bounded_refresh(&impostor->plate, corner, eye, &l->eye, l->dials->bound);
+}
+
+/* A target of this size in *texture, which is kept when it has it. */
+static bool provide_target(lom_device *device, lom_texture **texture, int width, int height)
+{
+    if (*texture != NULL && lom_texture_width(*texture) == width && lom_texture_height(*texture) == height)
+        return true;
+    lom_release_texture(device, *texture);
+    *texture = lom_make_texture(
+        device, &(lom_texture_desc){ .width = width,
+                                     .height = height,
+                                     .format = LOM_FORMAT_RGBA16F,
+                                     .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    return *texture != NULL;
+}
+
+/* Part 0 is all of the cloud, or what lies beyond the cut; part 1 what lies before it. */
+static void set_slice(struct lom_cloud_view *seen, const struct lom_impostor *impostor, int part)
+{
+    seen->is_sliced = impostor->parts == 2;
+    seen->slice_axis = impostor->plate.forward;
+    seen->slice_from = part == 0 ? impostor->cut : 0;
+    seen->slice_to = part == 0 ? 1e30 : impostor->cut;
+}
+
+static bool refresh(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
+{
+    lom_renderer *r = l->f->renderer;
+    const struct lom_plate *plate = &impostor->plate;
+    bool magnifies = l->dials->two_pass && plate->pitch > 1.25, done = true;
+    for (int part = 0; done && part < impostor->parts; part++) {
+        struct lom_cloud_view seen = l->seen;
+        set_slice(&seen, impostor, part);
+        lom_texture **marched = &impostor->marched[part], **magnified = &impostor->magnified[part];
+        done = provide_target(r->device, marched, plate->width, plate->height) &&
+               lom_draw_plate(r->device, r->clouds, cloud, &seen, plate, *marched);
+        if (done && magnifies)
+            done = provide_target(r->device, magnified, 2 * plate->width, 2 * plate->height) &&
+                   lom_magnify_plate(r->device, *marched, *magnified);
+        if (done && !magnifies) {
+            lom_release_texture(r->device, *magnified);
+            *magnified = NULL;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        impostor->sun[i] = (double)l->seen.light.to_light[i];
+    impostor->is_made = done;
+    return done;
+}
+
+/* Brings one cloud's plate up to date. False: the device failed. */
+static bool update(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
+{
+    lom_impostor_counters *counts = l->f->impostors;
+    lom_vec3 corner[8], eye = lom_vec3_subtract(l->seen.eye, cloud->middle);
+    struct lom_plate plate;
+    lom_cloud_corners(cloud, corner);
+    bool was_around = impostor->is_around, fits = make_plate(l, corner, eye, &plate);
+    double away = distance_to_box(cloud, eye) / longest_side(cloud);
+    impostor->is_around =
+        !fits || away == 0 || (!l->is_reference && lom_switch(was_around, away, around_on, around_off));
+    impostor->is_small = !impostor->is_around && is_small(l, impostor, &plate);
+    if (impostor->is_small) {
+        counts->skipped++;
+        return true;
+    }
+    if (was_around != impostor->is_around)
+        impostor->is_made = false;
+    counts->plates++;
+    if (why_refresh(l, impostor, cloud, corner, eye) == LOM_REFRESH_NONE) {
+        counts->reused++;
+        return true;
+    }
+    if (impostor->is_around)
+        lom_make_screen_plate(eye, &l->eye, l->dials->inside_scale, l->width, l->height, &plate);
+    impostor->plate = plate;
+    impostor->parts = 1;
+    counts->refreshed++;
+    return refresh(l, impostor, cloud);
+}
+
+static void show(const struct looking *l, const struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
+{
+    double distance = lom_vec3_length(lom_vec3_subtract(l->seen.eye, cloud->middle));
+    double misting = l->dials->misting ? lom_misting(distance, longest_side(cloud)) : 1;
+    for (int part = 0; part < impostor->parts; part++) {
+        struct lom_cloud_view seen = l->seen;
+        set_slice(&seen, impostor, part);
+        const lom_texture *picture =
+            impostor->magnified[part] != NULL ? impostor->magnified[part] : impostor->marched[part];
+        lom_show_plate(l->f->renderer->device, cloud, &seen, &impostor->plate, picture, misting);
+    }
+}
+
+static struct lom_impostor *provide_impostors(lom_renderer *r, bool mirrored, lom_error *error)
+{
+    struct lom_impostor **all = &r->impostors.of_eye[mirrored];
+    if (*all == NULL)
+        *all = lom_allocate(r->clouds->count, sizeof **all, error);
+    return *all;
+}
+
+size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
+                          const lom_pass_desc *pass, lom_error *error)
+{
+    lom_renderer *r = f->renderer;
+    int width = pass->frame_width != 0 ? pass->frame_width : lom_texture_width(pass->color[0]);
+    int height = pass->frame_height != 0 ? pass->frame_height : lom_texture_height(pass->color[0]);
+    struct looking l = { .f = f,
+                         .dials = &f->scene->quality.impostor,
+                         .is_reference = f->scene->quality.impostors == LOM_IMPOSTORS_REFERENCE,
+                         .eye = eye_of(view, seen, height),
+                         .seen = *seen,
+                         .width = width,
+                         .height = height };
+    size_t *order = lom_allocate(r->clouds->count, sizeof *order, error);
+    struct lom_impostor *all = provide_impostors(r, view->mirrored, error);
+    bool done = order != NULL && all != NULL;
+    size_t count = done ? lom_order_clouds(r->clouds, seen, l.dials->culling, order) : 0;
+    f->impostors->culled += done ? (int)(r->clouds->count - count) : 0;
+    for (size_t i = 0; done && i < count; i++)
+        done = update(&l, &all[order[i]], &r->clouds->clouds[order[i]]);
+    if (done && count != 0) {
+        lom_begin_pass(r->device, pass);
+        for (size_t i = 0; i < count; i++)
+            if (!all[order[i]].is_small)
+                show(&l, &all[order[i]], &r->clouds->clouds[order[i]]);
+        lom_end_pass(r->device);
+    }
+    lom_release(order);
+    return count;
+}
