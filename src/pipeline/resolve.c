@@ -97,9 +97,8 @@ static void load_depth(const struct lom_pass *pass, const struct part *p, float 
         }
 }
 
-void lom_load_tile(const struct lom_pass *pass, int number)
+void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
 {
-    uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
     struct part p = part_of(pass, number);
     if (pass->depth != NULL) {
         fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
@@ -115,30 +114,33 @@ void lom_load_tile(const struct lom_pass *pass, int number)
     }
 }
 
+/* Pixels first to end (one past the last) of a row of tile memory, side by side: two of each block. */
+static void copy_row(uint32_t *restrict to, const uint32_t *restrict from, int first, int end)
+{
+    int x = first;
+    if ((x & 1) != 0 && x < end)
+        *to++ = from[x++ * 2 - 1];
+    for (; x + 1 < end; x += 2, to += 2)
+        memcpy(to, from + x * 2, 2 * sizeof *to);
+    if (x < end)
+        *to = from[x * 2];
+}
+
 /* Channels that the format lacks read as 0, a missing alpha as 1. */
-static void missing_bytes(lom_format format, uint32_t *keep, uint32_t *set)
+static void hide_missing_channels(lom_format format, uint32_t *row, int count)
 {
     int channels = lom_describe_format(format)->channels;
-    *keep = channels == 4 ? UINT32_MAX : (UINT32_C(1) << 8 * channels) - 1;
-    *set = channels == 4 ? 0 : UINT32_C(0xff000000);
+    uint32_t keep = (uint32_t)((UINT64_C(1) << 8 * channels) - 1);
+    for (int x = 0; channels < 4 && x < count; x++)
+        row[x] = (row[x] & keep) | UINT32_C(0xff000000);
 }
 
 static void resolve_bytes(const struct lom_pass *pass, int i, const struct part *p, const uint32_t *memory)
 {
-    uint32_t keep, set;
-    missing_bytes(pass->color[i].format, &keep, &set);
     for (int y = p->y0; y < p->y1; y++) {
         uint32_t *row = lom_texel(pass->color[i].texture, 0, p->x + p->x0, p->y + y, 0);
-        const uint32_t *from = memory + memory_index(pass->tile, 0, y);
-        int x = p->x0;
-        for (; (x & 1) != 0 && x < p->x1; x++)
-            *row++ = (from[(x >> 1) * 4 + 1] & keep) | set;
-        for (; x + 1 < p->x1; x += 2, row += 2) {
-            row[0] = (from[x * 2] & keep) | set;
-            row[1] = (from[x * 2 + 1] & keep) | set;
-        }
-        if (x < p->x1)
-            *row = (from[x * 2] & keep) | set;
+        copy_row(row, memory + memory_index(pass->tile, 0, y), p->x0, p->x1);
+        hide_missing_channels(pass->color[i].format, row, p->x1 - p->x0);
     }
 }
 
@@ -159,33 +161,24 @@ static void resolve_floats(const struct lom_pass *pass, int i, const struct part
 
 static void resolve_depth(const struct lom_pass *pass, const struct part *p, const float *memory)
 {
-    float scale = pass->depth_scale == 0 ? 1.0f : (float)pass->depth_scale;
+    float scale = (float)pass->depth_scale;
     for (int y = p->y0; y < p->y1; y++) {
         float *row = lom_texel(pass->depth, 0, p->x + p->x0, p->y + y, 0);
-        const float *from = memory + memory_index(pass->tile, 0, y);
-        for (int x = p->x0; x < p->x1; x++)
-            *row++ = from[(x >> 1) * 4 + (x & 1)] / scale;
+        copy_row((uint32_t *)(void *)row, (const uint32_t *)(const void *)memory + memory_index(pass->tile, 0, y),
+                 p->x0, p->x1);
+        for (int x = 0; scale != 0 && x < p->x1 - p->x0; x++)
+            row[x] /= scale;
     }
 }
 
-/* A tile that no fragment touched holds its clear values (or what the attachment held before). */
-static bool nothing_to_do(const struct lom_pass *pass, int number)
+static void fill_texels(lom_texture *texture, const struct part *p, uint32_t value)
 {
-    if (pass->tile_touched[number])
-        return false;
-    for (int i = 0; i < pass->colors; i++)
-        if (!pass->color[i].keep)
-            return false;
-    return pass->depth == NULL || pass->desc.depth_load == LOM_LOAD_KEEP;
+    for (int y = p->y0; y < p->y1; y++)
+        fill_words(lom_texel(texture, 0, p->x + p->x0, p->y + y, 0), value, (size_t)(p->x1 - p->x0));
 }
 
-void lom_resolve_tile(const struct lom_pass *pass, int number)
+void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory)
 {
-    if (nothing_to_do(pass, number))
-        return;
-    if (!pass->tile_touched[number])
-        lom_load_tile(pass, number);
-    const uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
     struct part p = part_of(pass, number);
     if (pass->depth != NULL) {
         resolve_depth(pass, &p, (const float *)(const void *)memory);
@@ -197,5 +190,23 @@ void lom_resolve_tile(const struct lom_pass *pass, int number)
         else
             resolve_bytes(pass, i, &p, (const uint32_t *)(const void *)memory);
         memory += color_bytes(pass, i);
+    }
+}
+
+void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory)
+{
+    struct part p = part_of(pass, number);
+    if (pass->depth != NULL && pass->desc.depth_load != LOM_LOAD_KEEP)
+        fill_texels(pass->depth, &p,
+                    bits_of(pass->depth_scale == 0 ? pass->clear_depth : pass->clear_depth / (float)pass->depth_scale));
+    for (int i = 0; i < pass->colors; i++) {
+        const struct lom_color_target *target = &pass->color[i];
+        if (target->keep)
+            continue;
+        clear_color(pass, i, memory);
+        if (target->kind == COLOR_FLOAT)
+            resolve_floats(pass, i, &p, (const float *)(const void *)memory);
+        else
+            resolve_bytes(pass, i, &p, (const uint32_t *)(const void *)memory);
     }
 }

@@ -14,9 +14,15 @@ static void run_chunks(void *context, int worker)
     }
 }
 
-static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
+/* A tile's memory lasts from batch to batch; in a pass of one batch a worker's serves all its tiles, and stays in its
+ * cache. */
+static uint8_t *memory_of(const struct lom_pass *pass, int number, int worker)
 {
-    uint8_t *memory = pass->tile_memory + (size_t)number * pass->tile_bytes;
+    return pass->tile_memory + (size_t)(pass->single_batch ? worker : number) * pass->tile_bytes;
+}
+
+static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
+{
     size_t pixels = (size_t)pass->tile * (size_t)pass->tile;
     tile->pass = pass;
     tile->draw = NULL;
@@ -36,7 +42,8 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
         tile->offset[k] = (k & 7) + (k >> 3) * 2 * pass->tile;
 }
 
-void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
+/* The batch's triangles of one tile. */
+static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
 {
     bool placed = false;
     for (size_t i = 0; i < pass->chunk_count; i++) {
@@ -45,9 +52,9 @@ void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
         if (chunk->failed || first == end)
             continue;
         if (!placed) {
-            place_tile(pass, tile, number);
+            place_tile(pass, tile, number, memory);
             if (!pass->tile_touched[number])
-                lom_load_tile(pass, number);
+                lom_load_tile(pass, number, memory);
             pass->tile_touched[number] = 1;
             placed = true;
         }
@@ -60,6 +67,16 @@ void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number)
         lom_stages_of(tile->draw->variant)->flush(tile);
 }
 
+/* After the last batch a tile is resolved at once; one that no triangle came near holds its clear values, or keeps what
+ * the attachments hold. */
+static void finish_tile(struct lom_pass *pass, int number, uint8_t *memory)
+{
+    if (pass->tile_touched[number])
+        lom_resolve_tile(pass, number, memory);
+    else
+        lom_clear_tile(pass, number, memory);
+}
+
 static void run_tiles(void *context, int worker)
 {
     struct lom_pass *pass = context;
@@ -69,20 +86,10 @@ static void run_tiles(void *context, int worker)
         size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
         if (i >= tiles)
             return;
-        lom_run_tile(pass, tile, (int)i);
-    }
-}
-
-static void resolve_tiles(void *context, int worker)
-{
-    struct lom_pass *pass = context;
-    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    (void)worker;
-    for (;;) {
-        size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
-        if (i >= tiles)
-            return;
-        lom_resolve_tile(pass, (int)i);
+        uint8_t *memory = memory_of(pass, (int)i, worker);
+        run_tile(pass, tile, (int)i, memory);
+        if (pass->last_batch)
+            finish_tile(pass, (int)i, memory);
     }
 }
 
@@ -95,9 +102,10 @@ static void run_all(lom_device *device, lom_work *work)
 static bool run_batch(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
-    if (pass->chunk_count == 0)
-        return true;
-    run_all(device, run_chunks);
+    pass->chunks_left -= pass->chunk_count;
+    pass->last_batch = pass->chunks_left == 0;
+    if (pass->chunk_count > 0)
+        run_all(device, run_chunks);
     for (size_t i = 0; i < pass->chunk_count; i++) {
         const struct lom_chunk *chunk = &pass->chunks[i];
         if (chunk->failed)
@@ -121,7 +129,7 @@ static bool add_chunk(lom_device *device, const struct lom_draw *draw, int insta
     chunk->instance = instance;
     chunk->first = first;
     chunk->count = count;
-    return pass->chunk_count < (size_t)device->desc.batch || run_batch(device);
+    return pass->chunk_count < (size_t)device->desc.batch || pass->chunk_count == pass->chunks_left || run_batch(device);
 }
 
 static bool run_draw(lom_device *device, const struct lom_draw *draw)
@@ -150,11 +158,38 @@ static void count_work(lom_device *device)
     }
 }
 
+/* Chunks that run_draw will make of a draw. */
+static size_t count_chunks(const lom_device *device, const struct lom_draw *draw)
+{
+    size_t limit = (size_t)device->desc.chunk;
+    if (draw->scissor.width == 0 || draw->scissor.height == 0)
+        return 0;
+    return (draw->triangles + limit - 1) / limit * (size_t)draw->desc.instances;
+}
+
+static bool lay_tile_memory(lom_device *device)
+{
+    struct lom_pass *pass = &device->pass;
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    pass->chunks_left = 0;
+    for (size_t i = 0; i < pass->draw_count; i++)
+        pass->chunks_left += count_chunks(device, &device->draws[i]);
+    pass->single_batch = pass->chunks_left <= (size_t)device->desc.batch;
+    size_t count = pass->single_batch ? (size_t)device->desc.threads : tiles;
+    if (!lom_reserve((void **)&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes, 1))
+        return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
+                        pass->width, pass->height);
+    pass->tile_memory = device->tile_memory;
+    return true;
+}
+
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
     pass->chunks = device->chunks;
     pass->chunk_count = 0;
+    if (!lay_tile_memory(device))
+        return false;
     for (int i = 0; i < device->desc.threads; i++)
         device->worker_tiles[i].constant_draw = NULL;
     for (size_t i = 0; i < pass->draw_count; i++) {
@@ -164,7 +199,6 @@ bool lom_run_pass(lom_device *device)
     }
     if (!run_batch(device))
         return false;
-    run_all(device, resolve_tiles);
     count_work(device);
     for (int i = 0; i < pass->colors; i++)
         lom_finish_texture(pass->color[i].texture);

@@ -159,13 +159,15 @@ struct lom_pass {
     float clear_depth;                            /* in tile units */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
     size_t tile_bytes;
-    uint8_t *tile_memory;  /* tile_bytes for each tile */
+    uint8_t *tile_memory;  /* tile_bytes for each tile, or for each worker when there is a single batch */
     uint8_t *tile_touched; /* a flag for each tile */
 
     size_t draw_count; /* recorded in the device */
 
     struct lom_chunk *chunks; /* the batch's */
     size_t chunk_count;
+    size_t chunks_left;            /* of the pass, the batch's included until it runs */
+    bool single_batch, last_batch; /* the pass is one batch; this is its last one */
     atomic_size_t next;
 };
 
@@ -218,10 +220,10 @@ void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 /* What a draw's depth bias adds to the depths of a triangle (draw->biased). */
 double lom_depth_offset(const struct lom_pass *pass, const struct lom_draw *draw, const lom_triangle *t);
 
-/* Second half for one tile of the batch. */
-void lom_run_tile(struct lom_pass *pass, struct lom_tile *tile, int number);
 /* Tile memory from the clear values or the attachments, and to the attachments. */
-void lom_load_tile(const struct lom_pass *pass, int number);
-void lom_resolve_tile(const struct lom_pass *pass, int number);
+void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory);
+void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory);
+/* The clear values to the attachments that do not keep their texels; memory is scratch. */
+void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
 
 #endif
