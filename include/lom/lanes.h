@@ -246,6 +246,51 @@ LOM_INLINE lom_float4 lom_defined_load_rows(const float *const rows[LOM_LANES], 
     return x;
 }
 
+/* Four consecutive floats from from[index[i]] on, transposed: lane i of member k is from[index[i] + k]. */
+LOM_INLINE lom_float4 lom_defined_gather_rows(const float *from, lom_int index)
+{
+    lom_float4 x = { { 0 }, { 0 }, { 0 }, { 0 } };
+    for (int i = 0; i < LOM_LANES; i++) {
+        const float *row = from + index[i];
+        x.x[i] = row[0];
+        x.y[i] = row[1];
+        x.z[i] = row[2];
+        x.w[i] = row[3];
+    }
+    return x;
+}
+
+/* The reverse: to[index[i] + k] from lane i of member k, in the order of the lanes. */
+LOM_INLINE void lom_defined_scatter_rows(float *to, lom_int index, lom_float4 x)
+{
+    for (int i = 0; i < LOM_LANES; i++) {
+        float *row = to + index[i];
+        row[0] = x.x[i];
+        row[1] = x.y[i];
+        row[2] = x.z[i];
+        row[3] = x.w[i];
+    }
+}
+
+/* LOM_LANES / 2 values from each of two places, and back. */
+LOM_INLINE lom_int lom_defined_load_halves(const int32_t *low, const int32_t *high)
+{
+    lom_int x = { 0 };
+    for (int i = 0; i < LOM_LANES / 2; i++) {
+        x[i] = low[i];
+        x[i + LOM_LANES / 2] = high[i];
+    }
+    return x;
+}
+
+LOM_INLINE void lom_defined_store_halves(int32_t *low, int32_t *high, lom_int x)
+{
+    for (int i = 0; i < LOM_LANES / 2; i++) {
+        low[i] = x[i];
+        high[i] = x[i + LOM_LANES / 2];
+    }
+}
+
 /* The lanes whose mask is set, side by side from `to` on, in lane order; up to LOM_LANES floats are written, those
  * after the last set lane with unspecified values. */
 LOM_INLINE void lom_defined_compress(float *to, lom_mask mask, lom_float x)
@@ -296,11 +341,29 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
 {
     return lom_defined_load_rows(rows, offset);
 }
+LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
+{
+    return lom_defined_gather_rows(from, index);
+}
+LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
+{
+    lom_defined_scatter_rows(to, index, x);
+}
 #endif
 #ifndef LOM_OVERRIDES_TO_DOUBLE
 LOM_INLINE lom_double lom_to_double(lom_int x)
 {
     return lom_defined_to_double(x);
+}
+#endif
+#ifndef LOM_OVERRIDES_HALVES
+LOM_INLINE lom_int lom_load_halves(const int32_t *low, const int32_t *high)
+{
+    return lom_defined_load_halves(low, high);
+}
+LOM_INLINE void lom_store_halves(int32_t *low, int32_t *high, lom_int x)
+{
+    lom_defined_store_halves(low, high, x);
 }
 #endif
 #ifndef LOM_OVERRIDES_ROUNDING

@@ -6,6 +6,9 @@
 
 #include <immintrin.h>
 
+/* Keeps indices in memory: gcc would take them out of the vector one by one, which costs more than storing it. */
+#define LOM_IN_MEMORY(array) __asm__("" : "+m"(array))
+
 /* Two pairs of neighbours, each one 64-bit load. */
 LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
 {
@@ -19,6 +22,20 @@ LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
 #define LOM_OVERRIDES_GATHER
 #define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_COMPRESS
+#define LOM_OVERRIDES_HALVES
+
+/* By memory two halves make a store that the load of the whole has to wait for. */
+LOM_INLINE lom_int lom_load_halves(const int32_t *low, const int32_t *high)
+{
+    __m512i x = _mm512_castsi256_si512(_mm256_loadu_si256((const __m256i *)(const void *)low));
+    return (lom_int)_mm512_inserti64x4(x, _mm256_loadu_si256((const __m256i *)(const void *)high), 1);
+}
+
+LOM_INLINE void lom_store_halves(int32_t *low, int32_t *high, lom_int x)
+{
+    _mm256_storeu_si256((__m256i *)(void *)low, _mm512_castsi512_si256((__m512i)x));
+    _mm256_storeu_si256((__m256i *)(void *)high, _mm512_extracti64x4_epi64((__m512i)x, 1));
+}
 
 /* In a register and stored whole: the compressing store to memory is many times slower on AMD. */
 LOM_INLINE void lom_compress(float *to, lom_mask mask, lom_float x)
@@ -96,19 +113,55 @@ LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *fi
 }
 
 /* Quarter q of t[i] holds row 4 q + i; the unpacks transpose each quarter, so rows come out in order within it. */
-LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+LOM_INLINE lom_float4 lom_transpose_quarters(__m512 *t)
 {
-    __m512 t[4];
-    for (int i = 0; i < 4; i++) {
-        t[i] = _mm512_castps128_ps512(_mm_loadu_ps(rows[i] + offset));
-        t[i] = _mm512_insertf32x4(t[i], _mm_loadu_ps(rows[4 + i] + offset), 1);
-        t[i] = _mm512_insertf32x4(t[i], _mm_loadu_ps(rows[8 + i] + offset), 2);
-        t[i] = _mm512_insertf32x4(t[i], _mm_loadu_ps(rows[12 + i] + offset), 3);
-    }
     __m512d a = (__m512d)_mm512_unpacklo_ps(t[0], t[1]), b = (__m512d)_mm512_unpackhi_ps(t[0], t[1]);
     __m512d c = (__m512d)_mm512_unpacklo_ps(t[2], t[3]), d = (__m512d)_mm512_unpackhi_ps(t[2], t[3]);
     return (lom_float4){ (lom_float)_mm512_unpacklo_pd(a, c), (lom_float)_mm512_unpackhi_pd(a, c),
                          (lom_float)_mm512_unpacklo_pd(b, d), (lom_float)_mm512_unpackhi_pd(b, d) };
+}
+
+LOM_INLINE __m512 lom_load_quarters(const float *a, const float *b, const float *c, const float *d)
+{
+    __m512 t = _mm512_insertf32x4(_mm512_castps128_ps512(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(t, _mm_loadu_ps(c), 2), _mm_loadu_ps(d), 3);
+}
+
+LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    __m512 t[4];
+    for (int i = 0; i < 4; i++)
+        t[i] = lom_load_quarters(rows[i] + offset, rows[4 + i] + offset, rows[8 + i] + offset, rows[12 + i] + offset);
+    return lom_transpose_quarters(t);
+}
+
+LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
+{
+    int32_t at[16];
+    __m512 t[4];
+    _mm512_storeu_si512(at, (__m512i)index);
+    LOM_IN_MEMORY(at);
+    for (int i = 0; i < 4; i++)
+        t[i] = lom_load_quarters(from + at[i], from + at[4 + i], from + at[8 + i], from + at[12 + i]);
+    return lom_transpose_quarters(t);
+}
+
+LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
+{
+    __m512 t[4] = { (__m512)x.x, (__m512)x.y, (__m512)x.z, (__m512)x.w };
+    lom_float4 rows = lom_transpose_quarters(t);
+    __m512 row[4] = { (__m512)rows.x, (__m512)rows.y, (__m512)rows.z, (__m512)rows.w };
+    int32_t at[16];
+    _mm512_storeu_si512(at, (__m512i)index);
+    LOM_IN_MEMORY(at);
+    for (int i = 0; i < 4; i++)
+        _mm_storeu_ps(to + at[i], _mm512_castps512_ps128(row[i]));
+    for (int i = 0; i < 4; i++)
+        _mm_storeu_ps(to + at[4 + i], _mm512_extractf32x4_ps(row[i], 1));
+    for (int i = 0; i < 4; i++)
+        _mm_storeu_ps(to + at[8 + i], _mm512_extractf32x4_ps(row[i], 2));
+    for (int i = 0; i < 4; i++)
+        _mm_storeu_ps(to + at[12 + i], _mm512_extractf32x4_ps(row[i], 3));
 }
 
 #elif LOM_LANES == 8 && defined __AVX2__
@@ -195,17 +248,45 @@ LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *fi
     *second = (lom_int)_mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _MM_SHUFFLE(3, 1, 3, 1));
 }
 
-LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+LOM_INLINE lom_float4 lom_transpose_halves(__m256 *t)
 {
-    __m256 t[4];
-    for (int i = 0; i < 4; i++) {
-        t[i] = _mm256_castps128_ps256(_mm_loadu_ps(rows[i] + offset));
-        t[i] = _mm256_insertf128_ps(t[i], _mm_loadu_ps(rows[4 + i] + offset), 1);
-    }
     __m256d a = (__m256d)_mm256_unpacklo_ps(t[0], t[1]), b = (__m256d)_mm256_unpackhi_ps(t[0], t[1]);
     __m256d c = (__m256d)_mm256_unpacklo_ps(t[2], t[3]), d = (__m256d)_mm256_unpackhi_ps(t[2], t[3]);
     return (lom_float4){ (lom_float)_mm256_unpacklo_pd(a, c), (lom_float)_mm256_unpackhi_pd(a, c),
                          (lom_float)_mm256_unpacklo_pd(b, d), (lom_float)_mm256_unpackhi_pd(b, d) };
+}
+
+LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
+{
+    __m256 t[4];
+    for (int i = 0; i < 4; i++)
+        t[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i] + offset)),
+                                    _mm_loadu_ps(rows[4 + i] + offset), 1);
+    return lom_transpose_halves(t);
+}
+
+LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
+{
+    int32_t at[8];
+    __m256 t[4];
+    memcpy(at, &index, sizeof at);
+    for (int i = 0; i < 4; i++)
+        t[i] =
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from + at[i])), _mm_loadu_ps(from + at[4 + i]), 1);
+    return lom_transpose_halves(t);
+}
+
+LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
+{
+    __m256 t[4] = { (__m256)x.x, (__m256)x.y, (__m256)x.z, (__m256)x.w };
+    lom_float4 rows = lom_transpose_halves(t);
+    __m256 row[4] = { (__m256)rows.x, (__m256)rows.y, (__m256)rows.z, (__m256)rows.w };
+    int32_t at[8];
+    memcpy(at, &index, sizeof at);
+    for (int i = 0; i < 4; i++)
+        _mm_storeu_ps(to + at[i], _mm256_castps256_ps128(row[i]));
+    for (int i = 0; i < 4; i++)
+        _mm_storeu_ps(to + at[4 + i], _mm256_extractf128_ps(row[i], 1));
 }
 
 #elif LOM_LANES == 4
@@ -263,6 +344,22 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
     __m128 c = _mm_loadu_ps(rows[2] + offset), d = _mm_loadu_ps(rows[3] + offset);
     _MM_TRANSPOSE4_PS(a, b, c, d);
     return (lom_float4){ (lom_float)a, (lom_float)b, (lom_float)c, (lom_float)d };
+}
+
+LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
+{
+    const float *rows[4] = { from + index[0], from + index[1], from + index[2], from + index[3] };
+    return lom_load_rows(rows, 0);
+}
+
+LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
+{
+    __m128 a = (__m128)x.x, b = (__m128)x.y, c = (__m128)x.z, d = (__m128)x.w;
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    _mm_storeu_ps(to + index[0], a);
+    _mm_storeu_ps(to + index[1], b);
+    _mm_storeu_ps(to + index[2], c);
+    _mm_storeu_ps(to + index[3], d);
 }
 
 #endif

@@ -94,6 +94,46 @@ static void gathers_read_what_their_indices_name(void)
     }
 }
 
+/* Rows that overlap are written in the order of the lanes: the last one stays. */
+static void rows_are_gathered_and_scattered_in_lane_order(void)
+{
+    float table[256], written[2][256];
+    for (int i = 0; i < 256; i++)
+        table[i] = (float)(i * 3 - 100);
+    for (uint64_t n = 0; n < 1000; n++) {
+        lom_int index = pattern(7, n) & (n & 1 ? 127 : 7);
+        lom_float4 a = lom_gather_rows(table, index), b = lom_defined_gather_rows(table, index);
+        CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "gather_rows %d", index[0]);
+        a = (lom_float4){ lom_as_float(pattern(8, n)), lom_as_float(pattern(9, n)), lom_as_float(pattern(10, n)),
+                          lom_as_float(pattern(11, n)) };
+        memcpy(written[0], table, sizeof table);
+        memcpy(written[1], table, sizeof table);
+        lom_scatter_rows(written[0], index, a);
+        lom_defined_scatter_rows(written[1], index, a);
+        CHECK(memcmp(written[0], written[1], sizeof table) == 0, "scatter_rows %d", index[0]);
+    }
+}
+
+static void halves_come_from_and_go_to_two_places(void)
+{
+    enum { HALF = LOM_LANES / 2 };
+    int32_t low[HALF], high[HALF], written[2][HALF + 1];
+    for (uint64_t n = 0; n < 1000; n++) {
+        lom_int x = pattern(12, n);
+        for (int i = 0; i < HALF; i++) {
+            low[i] = x[i];
+            high[i] = x[HALF + i];
+        }
+        CHECK(same_int(lom_load_halves(low, high), x) && same_int(lom_defined_load_halves(low, high), x), "%d", x[0]);
+        written[0][HALF] = written[1][HALF] = 17;
+        lom_store_halves(written[0], written[1], x);
+        CHECK(memcmp(written[0], low, sizeof low) == 0 && memcmp(written[1], high, sizeof high) == 0, "%d", x[0]);
+        CHECK(written[0][HALF] == 17 && written[1][HALF] == 17, "written past a half");
+        lom_defined_store_halves(written[0], written[1], lom_splat_int(0));
+        CHECK(written[0][0] == 0 && written[1][HALF - 1] == 0 && written[0][HALF] == 17, "definition");
+    }
+}
+
 static void compress_keeps_set_lanes_in_order(void)
 {
     for (uint64_t n = 0; n < 70000; n++) {
@@ -131,5 +171,7 @@ int main(int argc, char **argv)
     RUN(overrides_equal_definitions_on_random_bits);
     RUN(compress_keeps_set_lanes_in_order);
     RUN(gathers_read_what_their_indices_name);
+    RUN(rows_are_gathered_and_scattered_in_lane_order);
+    RUN(halves_come_from_and_go_to_two_places);
     return check_result();
 }
