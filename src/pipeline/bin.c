@@ -6,11 +6,12 @@ struct span { /* tiles, inclusive */
     int x0, y0, x1, y1;
 };
 
-static struct span tiles_of(const struct lom_pass *pass, const lom_triangle *t)
+static inline struct span tiles_of(const struct lom_pass *pass, const lom_triangle *t)
 {
     int shift = __builtin_ctz((unsigned)pass->tile);
-    return (struct span){ (t->left - pass->tile_x0) >> shift, (t->top - pass->tile_y0) >> shift,
-                          (t->right - pass->tile_x0) >> shift, (t->bottom - pass->tile_y0) >> shift };
+    struct lom_bounds b = lom_bounds_of(t);
+    return (struct span){ (b.left - pass->tile_x0) >> shift, (b.top - pass->tile_y0) >> shift,
+                          (b.right - pass->tile_x0) >> shift, (b.bottom - pass->tile_y0) >> shift };
 }
 
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)

@@ -3,7 +3,7 @@
  * in order. */
 #include "pipeline/stages.h"
 
-enum { GROUP = 16 }; /* triangles handed to set-up at a time: a whole number of packets at every width */
+enum { GROUP = 16 }; /* triangles that are looked at together: a whole number of packets at every width */
 #define NO_VERTEX UINT32_MAX
 
 bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size)
@@ -27,7 +27,6 @@ bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size)
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
 {
     size_t padded = rows + 16; /* the vertex stage writes whole packets */
-    const float *before = chunk->rows;
     if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats,
                      sizeof(float)) ||
         !lom_reserve((void **)&chunk->clip, &chunk->clip_capacity, padded * 4, sizeof(float)) ||
@@ -35,10 +34,6 @@ bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
         chunk->failed = true;
         return false;
     }
-    if (chunk->rows != before)
-        for (size_t i = 0; i < chunk->triangle_count; i++)
-            for (int k = 0; k < 3; k++)
-                chunk->triangles[i].row[k] = chunk->rows + (chunk->triangles[i].row[k] - before);
     return true;
 }
 
@@ -134,14 +129,16 @@ static bool copy_plain_corners(struct lom_chunk *chunk, uint32_t *low, uint32_t 
     return largest < desc->vertex_count;
 }
 
-static void find_extremes(const struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
+static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
 {
     *low = UINT32_MAX;
     *high = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
         uint32_t number = chunk->corners[i];
-        if (chunk->corners[i - i % 3] == NO_VERTEX)
+        if (chunk->corners[i - i % 3] == NO_VERTEX) {
+            chunk->has_gaps = true;
             continue;
+        }
         *low = number < *low ? number : *low;
         *high = number > *high ? number : *high;
     }
@@ -163,12 +160,21 @@ static bool list_vertices(struct lom_chunk *chunk)
     return true;
 }
 
+/* Corners become numbers of rows. */
+static void rebase_corners(struct lom_chunk *chunk)
+{
+    uint32_t base = chunk->vertex_base;
+    for (size_t i = 0; i < 3 * chunk->count && base != 0; i++)
+        chunk->corners[i] = chunk->has_gaps && chunk->corners[i] == NO_VERTEX ? NO_VERTEX : chunk->corners[i] - base;
+}
+
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
 static bool choose_vertices(struct lom_chunk *chunk)
 {
     uint32_t low, high;
     if (!lom_reserve((void **)&chunk->corners, &chunk->corners_capacity, 3 * chunk->count, sizeof(uint32_t)))
         return false;
+    chunk->has_gaps = false;
     if (!copy_plain_corners(chunk, &low, &high)) {
         resolve_all_corners(chunk);
         find_extremes(chunk, &low, &high);
@@ -176,7 +182,10 @@ static bool choose_vertices(struct lom_chunk *chunk)
     chunk->vertex_count = low > high ? 0 : (size_t)(high - low) + 1;
     chunk->vertex_base = low;
     chunk->listed = chunk->vertex_count > 6 * chunk->count;
-    return !chunk->listed || list_vertices(chunk);
+    if (chunk->listed)
+        return list_vertices(chunk);
+    rebase_corners(chunk);
+    return true;
 }
 
 struct group { /* triangles on their way to set-up */
@@ -187,7 +196,7 @@ struct group { /* triangles on their way to set-up */
 static void send(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group)
 {
     if (group->count > 0 && !chunk->failed)
-        lom_stages_of(chunk->draw->variant)->set_up(pass, chunk, (const uint32_t(*)[3])group->corner, group->count);
+        lom_stages_of(chunk->draw->variant)->set_up(pass, chunk, group->corner[0], (size_t)group->count);
     group->count = 0;
 }
 
@@ -226,23 +235,51 @@ static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, st
     }
 }
 
+/* One triangle on its way: dropped when it lies outside one plane or holds a position that is no number, cut when it
+ * crosses a plane. */
+static void sort_out(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group, const uint32_t *corner)
+{
+    if (corner[0] == NO_VERTEX)
+        return;
+    unsigned a = chunk->codes[corner[0]], b = chunk->codes[corner[1]], c = chunk->codes[corner[2]];
+    unsigned any = a | b | c;
+    if ((a & b & c & CODE_REJECT) != 0 || (any & CODE_INVALID) != 0)
+        return;
+    if ((any & CODE_CLIP) != 0)
+        add_clipped(pass, chunk, group, corner, any);
+    else
+        add(pass, chunk, group, corner);
+}
+
+/* Whether no vertex of `count` triangles has an outcode. */
+static bool are_inside(const struct lom_chunk *chunk, const uint32_t *corners, size_t count)
+{
+    unsigned any = 0;
+    for (size_t i = 0; i < 3 * count; i++)
+        any |= chunk->codes[corners[i]];
+    return any == 0;
+}
+
+/* Triangles without outcodes go to set-up as they stand; the others one by one, in order. */
 static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
+    const struct lom_stages *stages = lom_stages_of(chunk->draw->variant);
     struct group group = { .count = 0 };
-    for (size_t t = 0; t < chunk->count; t++) {
-        const uint32_t *number = chunk->corners + 3 * t;
-        if (number[0] == NO_VERTEX)
+    if (chunk->any_code == 0 && !chunk->has_gaps) {
+        stages->set_up(pass, chunk, chunk->corners, chunk->count);
+        return;
+    }
+    for (size_t first = 0; first < chunk->count; first += GROUP) {
+        size_t count = chunk->count - first < GROUP ? chunk->count - first : GROUP;
+        const uint32_t *corners = chunk->corners + 3 * first;
+        if (!chunk->has_gaps && are_inside(chunk, corners, count)) {
+            send(pass, chunk, &group);
+            if (!chunk->failed)
+                stages->set_up(pass, chunk, corners, count);
             continue;
-        uint32_t base = chunk->vertex_base;
-        uint32_t corner[3] = { number[0] - base, number[1] - base, number[2] - base };
-        unsigned a = chunk->codes[corner[0]], b = chunk->codes[corner[1]], c = chunk->codes[corner[2]];
-        unsigned any = a | b | c;
-        if ((a & b & c & CODE_REJECT) != 0 || (any & CODE_INVALID) != 0)
-            continue;
-        if ((any & CODE_CLIP) != 0)
-            add_clipped(pass, chunk, &group, corner, any);
-        else
-            add(pass, chunk, &group, corner);
+        }
+        for (size_t i = 0; i < count; i++)
+            sort_out(pass, chunk, &group, corners + 3 * i);
     }
     send(pass, chunk, &group);
 }
@@ -251,6 +288,7 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk)
 {
     chunk->triangle_count = 0;
     chunk->triangles_clipped = 0;
+    chunk->any_code = 0;
     chunk->failed = !choose_vertices(chunk) || !lom_reserve_rows(chunk, chunk->vertex_count);
     if (chunk->failed)
         return;

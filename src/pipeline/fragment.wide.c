@@ -7,31 +7,52 @@
 #include "pipeline/packet.h"
 
 struct rows { /* the vertices of the packet's triangles */
-    const float *row[3][LOM_LANES];
-    bool uniform; /* all lanes are of one triangle */
+    const float *base;
+    lom_int row[3];
+    uint32_t shared[3]; /* of the one triangle when uniform */
+    bool uniform;
 };
 
-LOM_INLINE lom_float4 load_rows(const struct rows *rows, int k, size_t offset)
+static struct rows find_rows(const struct lom_chunk *chunk, const struct lom_packet *packet)
+{
+    struct rows rows = { .base = chunk->rows, .uniform = packet->uniform };
+    if (packet->uniform) {
+        memcpy(rows.shared, chunk->triangles[packet->triangle[0]].row, sizeof rows.shared);
+        return rows;
+    }
+    const float *last = (const float *)(const void *)chunk->triangles + 12; /* row[3] and state */
+    lom_float4 words = lom_gather_rows(last, packet->triangle * (int)(sizeof(lom_triangle) / sizeof(float)));
+    rows.row[0] = lom_as_int(words.x);
+    rows.row[1] = lom_as_int(words.y);
+    rows.row[2] = lom_as_int(words.z);
+    return rows;
+}
+
+LOM_INLINE lom_float4 load_rows(const struct rows *rows, int k, int offset)
 {
     if (!rows->uniform)
-        return lom_load_rows(rows->row[k], offset);
-    const float *row = rows->row[k][0] + offset;
+        return lom_gather_rows(rows->base + offset, rows->row[k]);
+    const float *row = rows->base + rows->shared[k] + offset;
     return (lom_float4){ lom_splat(row[0]), lom_splat(row[1]), lom_splat(row[2]), lom_splat(row[3]) };
 }
 
+LOM_INLINE lom_float load_one(const struct rows *rows, int k, int offset)
+{
+    return rows->uniform ? lom_splat(rows->base[rows->shared[k] + (uint32_t)offset])
+                         : lom_gather(rows->base + offset, rows->row[k]);
+}
+
 struct weights { /* of the three vertices, screen-space times 1/w; b1 and b2 perspective-correct */
-    lom_float l[3], one_over_w[3], sum, b1, b2;
+    lom_float one_over_w[3], sum, b1, b2;
 };
 
-static struct weights find_weights(const struct lom_queue *q, const struct rows *rows, bool quads)
+static struct weights find_weights(const struct lom_packet *packet, const struct rows *rows, bool quads)
 {
     struct weights p;
-    for (int k = 0; k < 3; k++) {
-        p.l[k] = lom_load(q->l[k]);
-        p.one_over_w[k] = load_rows(rows, k, 0).w;
-    }
-    lom_float p1 = p.l[1] * p.one_over_w[1], p2 = p.l[2] * p.one_over_w[2];
-    p.sum = p.l[0] * p.one_over_w[0] + p1 + p2;
+    for (int k = 0; k < 3; k++)
+        p.one_over_w[k] = load_one(rows, k, ROW_HEADER - 1);
+    lom_float p1 = packet->l[1] * p.one_over_w[1], p2 = packet->l[2] * p.one_over_w[2];
+    p.sum = packet->l[0] * p.one_over_w[0] + p1 + p2;
     if (quads) { /* helpers lie outside the triangle, where 1/w may pass through 0 */
         lom_float least = lom_min(p.one_over_w[0], lom_min(p.one_over_w[1], p.one_over_w[2]));
         p.sum = lom_max(p.sum, least);
@@ -41,26 +62,37 @@ static struct weights find_weights(const struct lom_queue *q, const struct rows 
     return p;
 }
 
-/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. The slope of an edge function is exact in
- * float: differences of positions are below 2^24 and SUBPIXELS is a power of two. */
-static void find_slopes(const struct lom_queue *q, const struct weights *p, bool uniform, lom_varyings *in)
+/* The steps of the weights l1 and l2, a pixel right and down: the steps of the edge functions over the area. */
+static void find_steps(const struct lom_chunk *chunk, const struct lom_packet *packet, lom_float4 *step)
 {
-    const float *record[LOM_LANES];
-    for (int i = 0; i < LOM_LANES; i++)
-        record[i] = (const float *)(const void *)q->triangle[uniform ? 0 : i];
-    lom_float4 low = lom_load_rows(record, 0), high = lom_load_rows(record, 4);
-    lom_int x0 = lom_as_int(low.x), x1 = lom_as_int(low.y), x2 = lom_as_int(low.z), y0 = lom_as_int(low.w);
-    lom_int y1 = lom_as_int(high.x), y2 = lom_as_int(high.y), sign = lom_as_int(high.w);
-    lom_float scale = high.z * lom_to_float(sign) * (float)SUBPIXELS;
-    lom_float l1x = lom_to_float(y2 - y0) * scale, l1y = lom_to_float(x0 - x2) * scale;
-    lom_float l2x = lom_to_float(y0 - y1) * scale, l2y = lom_to_float(x1 - x0) * scale;
-    lom_float a = l1x * p->one_over_w[1], b = l2x * p->one_over_w[2];
-    lom_float sum_x = a + b - (l1x + l2x) * p->one_over_w[0];
+    const lom_triangle *t = &chunk->triangles[packet->triangle[0]];
+    lom_float inverse;
+    if (packet->uniform) {
+        *step =
+            (lom_float4){ lom_splat(t->step_x1), lom_splat(t->step_y1), lom_splat(t->step_x2), lom_splat(t->step_y2) };
+        inverse = lom_splat(t->inverse_area);
+    } else {
+        const float *words = (const float *)(const void *)chunk->triangles;
+        lom_int at = packet->triangle * (int)(sizeof(lom_triangle) / sizeof(float));
+        *step = lom_gather_rows(words, at);
+        inverse = lom_gather(words + 4, at);
+    }
+    *step = (lom_float4){ step->x * inverse, step->y * inverse, step->z * inverse, step->w * inverse };
+}
+
+/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. */
+static void find_slopes(const struct lom_chunk *chunk, const struct lom_packet *packet, const struct weights *p,
+                        lom_varyings *in)
+{
+    lom_float4 step;
+    find_steps(chunk, packet, &step);
+    lom_float a = step.x * p->one_over_w[1], b = step.z * p->one_over_w[2];
+    lom_float sum_x = a + b - (step.x + step.z) * p->one_over_w[0];
     in->dx[0] = (a - p->b1 * sum_x) / p->sum;
     in->dx[1] = (b - p->b2 * sum_x) / p->sum;
-    a = l1y * p->one_over_w[1];
-    b = l2y * p->one_over_w[2];
-    lom_float sum_y = a + b - (l1y + l2y) * p->one_over_w[0];
+    a = step.y * p->one_over_w[1];
+    b = step.w * p->one_over_w[2];
+    lom_float sum_y = a + b - (step.y + step.w) * p->one_over_w[0];
     in->dy[0] = (a - p->b1 * sum_y) / p->sum;
     in->dy[1] = (b - p->b2 * sum_y) / p->sum;
 }
@@ -83,7 +115,7 @@ static void interpolate_varyings(const lom_shader *shader, const struct rows *ro
     for (int v = 0; v < shader->varyings; v += 4) {
         if ((shader->reads >> v & 15) == 0)
             continue;
-        size_t offset = ROW_HEADER + (size_t)v;
+        int offset = ROW_HEADER + v;
         lom_float4 f0 = load_rows(rows, 0, offset), f1 = load_rows(rows, 1, offset), f2 = load_rows(rows, 2, offset);
         interpolate(f0.x, f1.x, f2.x, p, v, shader->differentiates >> v & 1, in);
         interpolate(f0.y, f1.y, f2.y, p, v + 1, shader->differentiates >> v & 2, in);
@@ -92,60 +124,34 @@ static void interpolate_varyings(const lom_shader *shader, const struct rows *ro
     }
 }
 
-static void copy_flat_varyings(const lom_shader *shader, const struct lom_queue *q, lom_varyings *in)
+static void copy_flat_varyings(const lom_shader *shader, const struct lom_chunk *chunk, const struct lom_packet *packet,
+                               lom_varyings *in)
 {
     for (int v = 0; v < shader->varyings; v++) {
         if (!(shader->flat >> v & 1))
             continue;
         for (int i = 0; i < LOM_LANES; i++) {
-            const lom_triangle *t = q->triangle[i];
-            in->varying[v][i] = t->row[t->provoking][ROW_HEADER + v];
+            const lom_triangle *t = &chunk->triangles[packet->triangle[i]];
+            in->varying[v][i] = chunk->rows[t->row[t->state >> TRIANGLE_PROVOKING & 3] + ROW_HEADER + (uint32_t)v];
         }
         in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
     }
 }
 
 /* The window position from the place in tile memory: blocks of 2x2, edge / 2 of them a row. */
-static void find_position(const struct lom_tile *tile, const struct weights *p, lom_varyings *in)
+static void find_position(const struct lom_tile *tile, const struct lom_packet *packet, const struct weights *p,
+                          lom_varyings *in)
 {
-    const struct lom_queue *q = &tile->queue;
-    lom_int place = lom_load_int(q->pixel);
+    lom_int place = lom_load_int(packet->places.pixel);
     int shift = __builtin_ctz((unsigned)tile->edge) - 1;
     lom_int block = place >> 2;
     lom_int bx = block & (tile->edge / 2 - 1), by = block >> shift;
     in->x = lom_to_float(bx * 2 + (place & 1) + tile->x) + 0.5f;
     in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
-    in->z = lom_load(q->depth);
+    in->z = packet->depth;
     in->w = 1.0f / p->sum;
     for (int i = 0; i < LOM_LANES; i++)
-        in->front[i] = -q->triangle[i]->front;
-}
-
-/* Copies entry 0 into the unused ones, so that every lane computes with finite, harmless values. */
-static void pad_packet(struct lom_queue *q, int count)
-{
-    for (int i = count; i < LOM_LANES; i++) {
-        for (int k = 0; k < 3; k++)
-            q->l[k][i] = q->l[k][0];
-        q->depth[i] = q->depth[0];
-        q->pixel[i] = q->pixel[0];
-        q->covered[i] = 0;
-        q->triangle[i] = q->triangle[0];
-    }
-}
-
-static void drop_packet(struct lom_queue *q, int count)
-{
-    int rest = q->count - count;
-    q->count = rest;
-    if (rest == 0)
-        return;
-    for (int k = 0; k < 3; k++)
-        memcpy(q->l[k], q->l[k] + LOM_LANES, LOM_LANES * sizeof(float));
-    memcpy(q->depth, q->depth + LOM_LANES, LOM_LANES * sizeof(float));
-    memcpy(q->pixel, q->pixel + LOM_LANES, LOM_LANES * sizeof(int32_t));
-    memcpy(q->covered, q->covered + LOM_LANES, LOM_LANES * sizeof(int32_t));
-    memcpy(q->triangle, q->triangle + LOM_LANES, LOM_LANES * sizeof q->triangle[0]);
+        in->front[i] = -(int32_t)(tile->chunk->triangles[packet->triangle[i]].state >> TRIANGLE_FRONT & 1);
 }
 
 /* The lanes of pending that are the first at their pixel. */
@@ -192,37 +198,31 @@ static void write_in_order(struct lom_tile *tile, const struct lom_places *place
     }
 }
 
-void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count)
+void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet)
 {
-    struct lom_queue *q = &tile->queue;
     const struct lom_draw *draw = tile->draw;
+    const struct lom_chunk *chunk = tile->chunk;
     const lom_shader *shader = draw->desc.shader;
     lom_varyings in;
     lom_fragment out;
-    struct rows rows;
-    struct lom_places places = { .block = q->block };
-    pad_packet(q, count);
-    rows.uniform = q->triangle[0] == q->triangle[count - 1];
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < LOM_LANES; i++)
-            rows.row[k][i] = q->triangle[i]->row[k];
-    struct weights p = find_weights(q, &rows, shader->quads);
-    in.covered = lom_load_int(q->covered);
-    interpolate_varyings(shader, &rows, &p, &in);
-    if (shader->differentiates != 0)
-        find_slopes(q, &p, rows.uniform, &in);
-    if (shader->flat != 0)
-        copy_flat_varyings(shader, q, &in);
-    if (shader->reads_position)
-        find_position(tile, &p, &in);
-    out.depth = lom_load(q->depth);
+    if (shader->reads != 0 || shader->reads_position) {
+        struct rows rows = find_rows(chunk, packet);
+        struct weights p = find_weights(packet, &rows, shader->quads);
+        interpolate_varyings(shader, &rows, &p, &in);
+        if (shader->differentiates != 0)
+            find_slopes(chunk, packet, &p, &in);
+        if (shader->flat != 0)
+            copy_flat_varyings(shader, chunk, packet, &in);
+        if (shader->reads_position)
+            find_position(tile, packet, &p, &in);
+    }
+    in.covered = packet->covered;
+    out.depth = packet->depth;
     out.discard = (lom_mask){ 0 };
     shader->fragment[draw->variant](&out, &in, draw->uniforms);
     tile->packets++;
-    memcpy(places.pixel, q->pixel, sizeof places.pixel);
     lom_mask mask = shader->discards ? in.covered & ~out.discard : in.covered;
-    write_in_order(tile, &places, mask, rows.uniform, &out);
-    drop_packet(q, count);
+    write_in_order(tile, &packet->places, mask, packet->uniform, &out);
 }
 
 void LOM_WIDE(lom_find_constant)(struct lom_tile *tile)

@@ -11,38 +11,52 @@ struct lom_places {
     bool block; /* LOM_LANES pixels of a 4x4 window in memory order, from pixel[0] */
 };
 
-/* The fragment stage: shades the first LOM_LANES entries of the queue, of which `count` are fragments, and writes them.
- */
-void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, int count);
+/* LOM_LANES fragments; lanes that are none repeat one that is, and are not covered. */
+struct lom_packet {
+    struct lom_places places;
+    lom_float l[3], depth; /* depth only with draw->queues_depth */
+    lom_int triangle;      /* numbers in the chunk's triangles */
+    lom_mask covered;
+    bool uniform; /* all lanes are of one triangle */
+};
+
+/* A part of a window on its way to the queue. */
+struct lom_fragments {
+    int32_t number; /* of the triangle in the chunk */
+    int base;       /* place of the window in tile memory */
+    int part;       /* of the window: its pixels from part * LOM_LANES on */
+    lom_mask covered;
+    lom_float l[3], depth;
+};
+
+/* On to the fragment stage, or into the queue on the way there. `alone`: the queue holds no fragment of an earlier
+ * triangle. */
+void LOM_WIDE(lom_deliver)(struct lom_tile *tile, const struct lom_fragments *fragments, bool alone);
+/* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
+void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
 /* The constant colour of a draw whose fragment shader reads nothing, into tile->constant. */
 void LOM_WIDE(lom_find_constant)(struct lom_tile *tile);
 /* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
                                 const lom_float4 *color);
 
+/* Whether the constant colour can go to whole windows at once, and doing so: `count` windows side by side, of which the
+ * first begins at `base` in tile memory. */
+bool LOM_WIDE(lom_can_fill)(const struct lom_tile *tile);
+void LOM_WIDE(lom_fill_windows)(struct lom_tile *tile, int base, int count);
+
 /* LOM_LANES values of a window in memory order: two runs of 8 pixels, the second two rows of blocks below. */
 LOM_INLINE lom_int lom_load_block(const int32_t *memory, const struct lom_tile *tile)
 {
-#if LOM_LANES == 16
-    lom_int x;
-    memcpy(&x, memory, 32);
-    memcpy((char *)&x + 32, memory + 2 * tile->edge, 32);
-    return x;
-#else
-    (void)tile;
-    return lom_load_int(memory);
-#endif
+    return LOM_LANES == 16 ? lom_load_halves(memory, memory + 2 * tile->edge) : lom_load_int(memory);
 }
 
 LOM_INLINE void lom_store_block(int32_t *memory, const struct lom_tile *tile, lom_int x)
 {
-#if LOM_LANES == 16
-    memcpy(memory, &x, 32);
-    memcpy(memory + 2 * tile->edge, (const char *)&x + 32, 32);
-#else
-    (void)tile;
-    lom_store_int(memory, x);
-#endif
+    if (LOM_LANES == 16)
+        lom_store_halves(memory, memory + 2 * tile->edge, x);
+    else
+        lom_store_int(memory, x);
 }
 
 LOM_INLINE lom_int lom_load_places(const int32_t *memory, const struct lom_tile *tile, const struct lom_places *places)

@@ -129,7 +129,8 @@ static bool add_chunk(lom_device *device, const struct lom_draw *draw, int insta
     chunk->instance = instance;
     chunk->first = first;
     chunk->count = count;
-    return pass->chunk_count < (size_t)device->desc.batch || pass->chunk_count == pass->chunks_left || run_batch(device);
+    return pass->chunk_count < (size_t)device->desc.batch || pass->chunk_count == pass->chunks_left ||
+           run_batch(device);
 }
 
 static bool run_draw(lom_device *device, const struct lom_draw *draw)

@@ -1,38 +1,97 @@
 /* Stage 3 of 7: setup. In: triangles of projected vertices, in order. Out: a record for each that may cover a pixel
- * centre. LOM_LANES triangles at a time, in exact integers (areas in double, which holds them exactly).
+ * centre. LOM_LANES triangles at a time, in exact integers (large areas in double, which holds them exactly); records
+ * leave by rows of four words, transposed.
  *
  * Invariant: the record is the same for every order of the three vertices; only facing and the provoking vertex
  * remember it. Triangles that fit a 4x4 window get their exact coverage here, and the empty ones end here. */
 #include "pipeline/stages.h"
 
 struct vertices { /* one corner of LOM_LANES triangles */
-    lom_int x, y, row;
+    lom_int x, y;
+    lom_int row; /* where its row begins (a multiple of 4), plus 1 for the provoking vertex */
     lom_float depth;
 };
 
 struct packet {
     struct vertices v[3];
-    lom_int provoking; /* 0, 1, 2 */
-    lom_double area;   /* twice the area, exact; positive clockwise on the screen (y down) */
-    lom_int left, top, right, bottom, kind, cut, sign, mask;
-    lom_mask alive, front;
+    lom_int x0, y0, x1, y1; /* bounds of the vertices, in units */
+    lom_float area;         /* |twice the area|, correctly rounded */
+    lom_int sign;           /* of the area of v[0], v[1], v[2] in their order: 1, -1, or 0 */
+    lom_int left, top, right, bottom, kind, cut, clip;
+    lom_mask alive, front, small;
 };
 
-static void load_corner(const struct lom_chunk *chunk, const uint32_t (*corner)[3], int k, struct vertices *v)
+/* Edge functions 0, 1, 2 at a pixel, without the top-left rule; exact where the triangle is small. */
+struct edge_lanes {
+    lom_int start[3], dx[3], dy[3]; /* changes a pixel right and down */
+    lom_int ex[3], ey[3];           /* along the edge, so that the inside is positive */
+};
+
+/* Corner k of LOM_LANES triangles. */
+LOM_INLINE void load_corner(const struct lom_chunk *chunk, const uint32_t *corners, int k, struct vertices *v)
 {
     const float *rows[LOM_LANES];
     size_t pitch = (size_t)chunk->draw->row_floats;
-    for (int i = 0; i < LOM_LANES; i++) {
-        v->row[i] = (int32_t)corner[i][k];
-        rows[i] = chunk->rows + corner[i][k] * pitch;
-    }
+    for (int i = 0; i < LOM_LANES; i++)
+        rows[i] = chunk->rows + corners[3 * i + k] * pitch;
     lom_float4 header = lom_load_rows(rows, 0);
+    lom_int number = lom_gather_int((const int32_t *)corners + k, lom_lane_index() * 3);
     v->x = lom_as_int(header.x);
     v->y = lom_as_int(header.y);
     v->depth = header.z;
+    v->row = number * (int32_t)pitch + (k == 2 ? 1 : 0);
 }
 
-/* Vertices a and b in the order of (y, x); tracks where the provoking vertex goes. */
+/* The bounds of the vertices in units, and which triangles have edge functions in int32. */
+LOM_INLINE void measure(struct packet *p)
+{
+    const struct vertices *v = p->v;
+    p->x0 = lom_min_int(v[0].x, lom_min_int(v[1].x, v[2].x));
+    p->x1 = lom_max_int(v[0].x, lom_max_int(v[1].x, v[2].x));
+    p->y0 = lom_min_int(v[0].y, lom_min_int(v[1].y, v[2].y));
+    p->y1 = lom_max_int(v[0].y, lom_max_int(v[1].y, v[2].y));
+    p->small = (p->x1 - p->x0 < SMALL_EXTENT) & (p->y1 - p->y0 < SMALL_EXTENT);
+}
+
+/* Twice the area of v[0], v[1], v[2], positive clockwise on the screen (y down): its sign, and its size rounded once.
+ */
+LOM_INLINE void find_area(struct packet *p)
+{
+    const struct vertices *v = p->v;
+    lom_int ax = v[1].x - v[0].x, ay = v[1].y - v[0].y, bx = v[2].x - v[0].x, by = v[2].y - v[0].y;
+    lom_int area = ax * by - ay * bx;
+    p->sign = ((area > 0) & 1) | (area < 0);
+    p->area = lom_abs(lom_to_float(area));
+}
+
+/* The same where it does not fit int32; exact in double. */
+static __attribute__((noinline)) void find_large_area(struct packet *p)
+{
+    const struct vertices *v = p->v;
+    for (int i = 0; i < LOM_LANES; i++) {
+        double area = (double)(v[1].x[i] - v[0].x[i]) * (v[2].y[i] - v[0].y[i]) -
+                      (double)(v[1].y[i] - v[0].y[i]) * (v[2].x[i] - v[0].x[i]);
+        p->sign[i] = (area > 0) - (area < 0);
+        p->area[i] = (float)__builtin_fabs(area);
+    }
+}
+
+/* Facing and culling: positive areas are back faces for the usual counter-clockwise fronts. */
+LOM_INLINE void cull(const struct lom_draw *draw, struct packet *p)
+{
+    if (lom_all(p->small))
+        find_area(p);
+    else
+        find_large_area(p);
+    p->front = draw->desc.front_clockwise ? p->sign > 0 : p->sign < 0;
+    p->alive &= p->sign != 0;
+    if (draw->desc.cull == LOM_CULL_BACK)
+        p->alive &= p->front;
+    if (draw->desc.cull == LOM_CULL_FRONT)
+        p->alive &= ~p->front;
+}
+
+/* Vertices a and b in the order of (y, x); each exchange turns the sign of the area. */
 LOM_INLINE void order(struct packet *p, int a, int b)
 {
     struct vertices *u = &p->v[a], *v = &p->v[b];
@@ -46,54 +105,17 @@ LOM_INLINE void order(struct packet *p, int a, int b)
     v->y = lom_select_int(swap, s.y, v->y);
     v->row = lom_select_int(swap, s.row, v->row);
     v->depth = lom_select(swap, s.depth, v->depth);
-    lom_mask was_a = p->provoking == a, was_b = p->provoking == b;
-    p->provoking =
-        lom_select_int(swap & was_a, lom_splat_int(b), lom_select_int(swap & was_b, lom_splat_int(a), p->provoking));
-}
-
-static lom_double twice_area(const struct packet *p)
-{
-    lom_double ax = lom_to_double(p->v[1].x - p->v[0].x), ay = lom_to_double(p->v[1].y - p->v[0].y);
-    lom_double bx = lom_to_double(p->v[2].x - p->v[0].x), by = lom_to_double(p->v[2].y - p->v[0].y);
-    return ax * by - ay * bx;
-}
-
-/* A lane mask of a comparison in double. */
-LOM_INLINE lom_mask is_positive(lom_double x)
-{
-    return __builtin_convertvector(x > 0.0, lom_int);
-}
-
-LOM_INLINE lom_mask is_negative(lom_double x)
-{
-    return __builtin_convertvector(x < 0.0, lom_int);
-}
-
-/* Facing, culling and orientation. Twice the area is positive clockwise on the screen, where y points down: so positive
- * is back for the usual counter-clockwise fronts. */
-static void cull(const struct lom_draw *draw, struct packet *p)
-{
-    p->area = twice_area(p);
-    lom_mask positive = is_positive(p->area), negative = is_negative(p->area);
-    p->front = draw->desc.front_clockwise ? positive : negative;
-    p->alive &= positive | negative;
-    if (draw->desc.cull == LOM_CULL_BACK)
-        p->alive &= p->front;
-    if (draw->desc.cull == LOM_CULL_FRONT)
-        p->alive &= ~p->front;
+    p->sign = lom_select_int(swap, -p->sign, p->sign);
 }
 
 /* The pixels whose centres may be inside, cut by the scissor. */
-static void bound(const struct lom_pass *pass, const struct lom_draw *draw, struct packet *p)
+LOM_INLINE void bound(const struct lom_pass *pass, const struct lom_draw *draw, struct packet *p)
 {
     const lom_rect *s = &draw->scissor;
-    lom_int x0 = lom_min_int(p->v[0].x, lom_min_int(p->v[1].x, p->v[2].x));
-    lom_int x1 = lom_max_int(p->v[0].x, lom_max_int(p->v[1].x, p->v[2].x));
-    lom_int y0 = p->v[0].y, y1 = p->v[2].y;
-    lom_int left = ((x0 + (SUBPIXELS / 2 - 1)) >> SUBPIXEL_BITS) + pass->viewport.x;
-    lom_int top = ((y0 + (SUBPIXELS / 2 - 1)) >> SUBPIXEL_BITS) + pass->viewport.y;
-    lom_int right = ((x1 - SUBPIXELS / 2) >> SUBPIXEL_BITS) + pass->viewport.x;
-    lom_int bottom = ((y1 - SUBPIXELS / 2) >> SUBPIXEL_BITS) + pass->viewport.y;
+    lom_int left = ((p->x0 + (SUBPIXELS / 2 - 1)) >> SUBPIXEL_BITS) + pass->viewport.x;
+    lom_int top = ((p->y0 + (SUBPIXELS / 2 - 1)) >> SUBPIXEL_BITS) + pass->viewport.y;
+    lom_int right = ((p->x1 - SUBPIXELS / 2) >> SUBPIXEL_BITS) + pass->viewport.x;
+    lom_int bottom = ((p->y1 - SUBPIXELS / 2) >> SUBPIXEL_BITS) + pass->viewport.y;
     p->cut = (left < s->x) | (top < s->y) | (right > s->x + s->width - 1) | (bottom > s->y + s->height - 1);
     p->left = lom_max_int(left, lom_splat_int(s->x));
     p->top = lom_max_int(top, lom_splat_int(s->y));
@@ -104,10 +126,26 @@ static void bound(const struct lom_pass *pass, const struct lom_draw *draw, stru
     lom_int wx = p->left & ~1, wy = p->top & ~1;
     lom_mask window =
         (p->right - wx < 4) & (p->bottom - wy < 4) & ((wx & edge) <= edge - 3) & ((wy & edge) <= edge - 3);
-    lom_mask small = (x1 - x0 < SMALL_EXTENT) & (y1 - y0 < SMALL_EXTENT);
     p->kind =
-        lom_select_int(small, lom_select_int(window, lom_splat_int(TRIANGLE_WINDOW), lom_splat_int(TRIANGLE_SMALL)),
+        lom_select_int(p->small, lom_select_int(window, lom_splat_int(TRIANGLE_WINDOW), lom_splat_int(TRIANGLE_SMALL)),
                        lom_splat_int(TRIANGLE_LARGE));
+}
+
+/* The edge functions at the centre of pixel (left & ~1, top & ~1). */
+LOM_INLINE struct edge_lanes find_edges(const struct lom_pass *pass, const struct packet *p)
+{
+    struct edge_lanes e;
+    lom_int px = (((p->left & ~1) - pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    lom_int py = (((p->top & ~1) - pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    for (int i = 0; i < 3; i++) {
+        const struct vertices *a = &p->v[i == 2 ? 0 : i + 1], *b = &p->v[i == 0 ? 2 : i - 1];
+        e.ex[i] = (b->x - a->x) * p->sign;
+        e.ey[i] = (b->y - a->y) * p->sign;
+        e.start[i] = e.ex[i] * (py - a->y) - e.ey[i] * (px - a->x);
+        e.dx[i] = -e.ey[i] * SUBPIXELS;
+        e.dy[i] = e.ex[i] * SUBPIXELS;
+    }
+    return e;
 }
 
 /* Columns first..last of 4 as bits 0..3. */
@@ -117,112 +155,139 @@ LOM_INLINE lom_int span(lom_int first, lom_int last)
 }
 
 /* Exact coverage of the even-aligned 4x4 window at (left & ~1, top & ~1), a bit a pixel, in the order of tile memory:
- * blocks of 2x2. Edge i of the ordered triangle runs so that the inside is positive; the top-left rule adds -1 to the
- * edges whose own points are outside. */
-static void cover_window(const struct lom_pass *pass, struct packet *p)
+ * blocks of 2x2. The top-left rule adds -1 to the edges whose own points are outside. */
+LOM_INLINE lom_int cover_window(const struct packet *p, const struct edge_lanes *e)
 {
+    lom_int row[3], mask = { 0 };
+    for (int i = 0; i < 3; i++)
+        row[i] = e->start[i] + ~((e->ey[i] < 0) | ((e->ey[i] == 0) & (e->ex[i] > 0)));
+    for (int y = 0; y < 4; y++) {
+        lom_int at[3] = { row[0], row[1], row[2] };
+        for (int x = 0; x < 4; x++) {
+            int bit = (x & 1) | (y & 1) << 1 | (x >> 1) << 2 | (y >> 1) << 3;
+            mask |= ((at[0] | at[1] | at[2]) >= 0) & (1 << bit);
+            for (int i = 0; i < 3; i++)
+                at[i] += e->dx[i];
+        }
+        for (int i = 0; i < 3; i++)
+            row[i] += e->dy[i];
+    }
     lom_int wx = p->left & ~1, wy = p->top & ~1;
-    lom_int px = ((wx - pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    lom_int py = ((wy - pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    lom_int start[3], dx[3], dy[3];
-    for (int i = 0; i < 3; i++) {
-        const struct vertices *a = &p->v[i == 2 ? 0 : i + 1], *b = &p->v[i == 0 ? 2 : i - 1];
-        lom_int ex = (b->x - a->x) * p->sign, ey = (b->y - a->y) * p->sign;
-        lom_mask inclusive = (ey < 0) | ((ey == 0) & (ex > 0));
-        start[i] = ex * (py - a->y) - ey * (px - a->x) + (~inclusive & -1);
-        dx[i] = -ey * SUBPIXELS;
-        dy[i] = ex * SUBPIXELS;
-    }
-    lom_int mask = { 0 };
-    for (int k = 0; k < 16; k++) {
-        int x = (k & 1) + ((k >> 2) & 1) * 2, y = ((k >> 1) & 1) + (k >> 3) * 2;
-        lom_int e0 = start[0] + dx[0] * x + dy[0] * y, e1 = start[1] + dx[1] * x + dy[1] * y,
-                e2 = start[2] + dx[2] * x + dy[2] * y;
-        mask |= ((e0 | e1 | e2) >= 0) & (1 << k);
-    }
     lom_int columns = span(p->left - wx, p->right - wx), rows = span(p->top - wy, p->bottom - wy);
     lom_int left_half = columns & 3, right_half = columns >> 2;
     lom_int two_rows = left_half * 5 | right_half * 5 << 4; /* both rows of a pair of 2x2 blocks */
     lom_int top_rows = ((rows & 1) * 0x33) | ((rows >> 1 & 1) * 0xcc);
     lom_int low_rows = ((rows >> 2 & 1) * 0x33) | ((rows >> 3 & 1) * 0xcc);
     lom_int allowed = (two_rows & top_rows) | (two_rows & low_rows) << 8;
-    p->mask = mask & allowed;
+    return mask & allowed;
 }
 
-static uint8_t crossing_distances(const struct lom_chunk *chunk, uint32_t a, uint32_t b, uint32_t c)
+/* Clip distances that change sign inside: the outcodes of the corners differ from 0 in their bits. */
+static lom_int crossing_distances(const struct lom_chunk *chunk, const uint32_t *corners)
 {
     unsigned clips = (1u << chunk->draw->desc.shader->clip_distances) - 1;
-    return (uint8_t)((chunk->codes[a] | chunk->codes[b] | chunk->codes[c]) & clips);
+    int32_t crossing[LOM_LANES];
+    for (int i = 0; i < LOM_LANES; i++, corners += 3)
+        crossing[i] =
+            (int32_t)((chunk->codes[corners[0]] | chunk->codes[corners[1]] | chunk->codes[corners[2]]) & clips);
+    return lom_load_int(crossing);
 }
 
-static void append(struct lom_chunk *chunk, const struct packet *p, lom_float inverse, int i)
+/* The third row of the record: what each kind keeps of the area and the edge functions, and the first pixel. */
+LOM_INLINE lom_float4 pack_edges(const struct packet *p, const struct edge_lanes *e)
 {
-    const float *rows = chunk->rows;
-    size_t pitch = (size_t)chunk->draw->row_floats;
-    lom_triangle *t = &chunk->triangles[chunk->triangle_count++];
-    for (int k = 0; k < 3; k++) {
-        t->x[k] = p->v[k].x[i];
-        t->y[k] = p->v[k].y[i];
-        t->row[k] = rows + (size_t)(uint32_t)p->v[k].row[i] * pitch;
+    lom_mask window = p->kind == TRIANGLE_WINDOW, large = p->kind == TRIANGLE_LARGE;
+    lom_int area = e->start[0] + e->start[1] + e->start[2], back_x = p->left & 2, back_y = p->top & 2;
+    lom_int word[3] = { area, e->start[1] - e->dx[1] * back_x - e->dy[1] * back_y,
+                        e->start[2] - e->dx[2] * back_x - e->dy[2] * back_y };
+    const lom_int exact[3] = { area, e->start[1], e->start[2] }, ends[3] = { p->right, p->bottom, { 0 } };
+    for (int i = 0; i < 3; i++) {
+        word[i] = lom_select_int(window, lom_as_int(lom_to_float(exact[i])), word[i]);
+        word[i] = lom_select_int(large, ends[i], word[i]);
     }
-    t->inverse_area = inverse[i];
-    t->sign = p->sign[i];
-    t->depth[0] = p->v[0].depth[i];
-    t->depth[1] = p->v[1].depth[i] - p->v[0].depth[i];
-    t->depth[2] = p->v[2].depth[i] - p->v[0].depth[i];
-    t->left = (int16_t)p->left[i];
-    t->top = (int16_t)p->top[i];
-    t->right = (int16_t)p->right[i];
-    t->bottom = (int16_t)p->bottom[i];
-    t->mask = (uint16_t)p->mask[i];
-    t->kind = (uint8_t)p->kind[i];
-    t->front = (uint8_t)(p->front[i] & 1);
-    t->provoking = (uint8_t)p->provoking[i];
-    t->cut = (uint8_t)(p->cut[i] & 1);
-    t->clip = crossing_distances(chunk, (uint32_t)p->v[0].row[i], (uint32_t)p->v[1].row[i], (uint32_t)p->v[2].row[i]);
+    return (lom_float4){ lom_as_float(word[0]), lom_as_float(word[1]), lom_as_float(word[2]),
+                         lom_as_float(p->left | p->top << 16) };
 }
 
-static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t (*corner)[3],
-                          lom_mask alive)
+/* The last row: where the vertices' rows are, and the state. */
+LOM_INLINE lom_float4 pack_state(const struct packet *p, lom_int mask)
+{
+    lom_int extent = (p->right - p->left) | (p->bottom - p->top) << 8;
+    lom_int state = lom_select_int(p->kind == TRIANGLE_WINDOW, mask, extent & 0xffff);
+    lom_int provoking = (p->v[1].row & 1) | (p->v[2].row & 1) << 1;
+    state |= p->kind << TRIANGLE_KIND | (p->front & 1) << TRIANGLE_FRONT | (p->cut & 1) << TRIANGLE_CUT |
+             provoking << TRIANGLE_PROVOKING | p->clip << TRIANGLE_CLIP;
+    return (lom_float4){ lom_as_float(p->v[0].row & ~3), lom_as_float(p->v[1].row & ~3), lom_as_float(p->v[2].row & ~3),
+                         lom_as_float(state) };
+}
+
+/* Appends the lanes that are alive. The record of a lane that is not goes where the next one that is will be written.
+ */
+static void append(struct lom_chunk *chunk, const struct packet *p, const struct edge_lanes *e, lom_int mask)
+{
+    enum { WORDS = sizeof(lom_triangle) / sizeof(float) };
+    int32_t place[LOM_LANES], next = 0;
+    uint32_t bits = lom_bits(p->alive);
+    for (int i = 0; i < LOM_LANES; i++) {
+        place[i] = next;
+        next += (int32_t)(bits >> i & 1) * WORDS;
+    }
+    lom_int at = lom_load_int(place);
+    float *to = (float *)(void *)(chunk->triangles + chunk->triangle_count);
+    lom_float scale = lom_splat(SUBPIXELS);
+    lom_scatter_rows(to, at,
+                     (lom_float4){ lom_to_float(-e->ey[1]) * scale, lom_to_float(e->ex[1]) * scale,
+                                   lom_to_float(-e->ey[2]) * scale, lom_to_float(e->ex[2]) * scale });
+    lom_scatter_rows(
+        to + 4, at,
+        (lom_float4){ 1.0f / p->area, p->v[0].depth, p->v[1].depth - p->v[0].depth, p->v[2].depth - p->v[0].depth });
+    lom_scatter_rows(to + 8, at, pack_edges(p, e));
+    lom_scatter_rows(to + 12, at, pack_state(p, mask));
+    chunk->triangle_count += (size_t)(next / WORDS);
+}
+
+static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, lom_mask alive)
 {
     struct packet p;
     for (int k = 0; k < 3; k++)
-        load_corner(chunk, corner, k, &p.v[k]);
+        load_corner(chunk, corners, k, &p.v[k]);
     p.alive = alive;
-    p.provoking = lom_splat_int(2);
+    measure(&p);
     cull(chunk->draw, &p);
+    if (!lom_any(p.alive))
+        return;
     order(&p, 0, 1);
     order(&p, 1, 2);
     order(&p, 0, 1);
     bound(pass, chunk->draw, &p);
     if (!lom_any(p.alive))
         return;
-    p.area = twice_area(&p);
-    p.sign = (is_positive(p.area) & 1) | is_negative(p.area);
-    cover_window(pass, &p);
-    p.alive &= (p.kind != TRIANGLE_WINDOW) | (p.mask != 0);
-    lom_float area = lom_abs(__builtin_convertvector(p.area, lom_float));
-    lom_float inverse = 1.0f / area;
-    for (uint32_t bits = lom_bits(p.alive); bits != 0; bits &= bits - 1)
-        append(chunk, &p, inverse, __builtin_ctz(bits));
+    struct edge_lanes e = find_edges(pass, &p);
+    lom_int mask = cover_window(&p, &e);
+    p.alive &= (p.kind != TRIANGLE_WINDOW) | (mask != 0);
+    p.clip = (lom_int){ 0 };
+    if (chunk->any_code != 0)
+        p.clip = crossing_distances(chunk, corners);
+    if (lom_any(p.alive))
+        append(chunk, &p, &e, mask);
 }
 
-void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t (*corner)[3], int count)
+void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count)
 {
-    if (!lom_reserve((void **)&chunk->triangles, &chunk->triangles_capacity, chunk->triangle_count + (size_t)count,
-                     sizeof(lom_triangle))) {
+    size_t room = chunk->triangle_count + count + 1; /* append writes one more */
+    if (!lom_reserve((void **)&chunk->triangles, &chunk->triangles_capacity, room, sizeof(lom_triangle))) {
         chunk->failed = true;
         return;
     }
-    uint32_t padded[LOM_LANES][3];
-    for (int first = 0; first < count; first += LOM_LANES) {
-        int live = count - first < LOM_LANES ? count - first : LOM_LANES;
-        if (live == LOM_LANES) {
-            set_up_packet(pass, chunk, corner + first, lom_splat_int(-1));
+    for (size_t first = 0; first < count; first += LOM_LANES, corners += 3 * LOM_LANES) {
+        size_t live = count - first;
+        if (live >= LOM_LANES) {
+            set_up_packet(pass, chunk, corners, lom_splat_int(-1));
             continue;
         }
-        for (int i = 0; i < LOM_LANES; i++)
-            memcpy(padded[i], corner[first + (i < live ? i : 0)], sizeof padded[i]);
-        set_up_packet(pass, chunk, (const uint32_t(*)[3])padded, lom_lane_index() < live);
+        uint32_t padded[3 * LOM_LANES];
+        for (size_t i = 0; i < LOM_LANES; i++)
+            memcpy(padded + 3 * i, corners + 3 * (i < live ? i : 0), 3 * sizeof padded[0]);
+        set_up_packet(pass, chunk, padded, lom_lane_index() < (int32_t)live);
     }
 }

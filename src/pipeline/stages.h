@@ -45,24 +45,59 @@ typedef enum lom_triangle_kind {
     TRIANGLE_LARGE       /* edge functions in 64 bits, rebased for each tile */
 } lom_triangle_kind;
 
-/* A triangle after set-up; vertices in the order of snapped (y, x), so nothing depends on the order they came in. The
- * first 8 words are read as two rows of four by the fragment stage. */
+/* A triangle after set-up, 16 words (four rows of four, written and read by lanes). Its vertices are in the order of
+ * snapped (y, x), so nothing depends on the order they came in. Edge function i is that of the edge opposite to vertex
+ * i, positive inside; the three of them add up to twice the area. */
 typedef struct lom_triangle {
-    int32_t x[3], y[3];
-    float inverse_area;    /* 1 / |twice the area|, both in units^2 */
-    int32_t sign;          /* of the area: 1 or -1 */
-    const float *row[3];   /* the vertices' rows */
-    float depth[3];        /* of vertex 0, then differences of 1 and 2 to it */
-    int16_t left, top;     /* first pixel (frame, inclusive) */
-    int16_t right, bottom; /* last pixel, inclusive */
-    uint16_t mask;         /* TRIANGLE_WINDOW: bit k for pixel k of the window at (left & ~1, top & ~1) */
-    uint8_t kind;
-    uint8_t clip;      /* bit i: clip distance i changes sign inside */
-    uint8_t front;     /* 1: front facing */
-    uint8_t provoking; /* which of the three rows is the provoking vertex's */
-    uint8_t cut;       /* 1: left..bottom were cut by the scissor, so coverage must be tested against them */
-    uint8_t reserved;
+    float step_x1, step_y1, step_x2, step_y2; /* edge functions 1 and 2: their change a pixel right and down, exact */
+    float inverse_area;                       /* 1 / |twice the area|, both in units^2 */
+    float depth[3];                           /* of vertex 0, then differences of 1 and 2 to it */
+    union {
+        struct { /* TRIANGLE_WINDOW: twice the area, edge functions 1 and 2 at the window's first pixel; exact */
+            float area, start[2];
+        } window;
+        struct { /* TRIANGLE_SMALL: the same at pixel (left & ~3, top & ~3) */
+            int32_t area, start[2];
+        } small;
+        struct { /* TRIANGLE_LARGE: the last pixel, inclusive */
+            int32_t right, bottom, unused;
+        } large;
+    };
+    uint32_t first;  /* first pixel (frame, inclusive): left | top << 16 */
+    uint32_t row[3]; /* where the vertices' rows begin in the chunk's */
+    uint32_t state;  /* TRIANGLE_WINDOW: bit k for pixel k of the window at (left & ~1, top & ~1); TRIANGLE_SMALL:
+                        right - left | (bottom - top) << 8; then the bits of TRIANGLE_... */
 } lom_triangle;
+
+enum {                          /* lom_triangle.state */
+       TRIANGLE_KIND = 16,      /* 2 bits: lom_triangle_kind */
+       TRIANGLE_FRONT = 18,     /* front facing */
+       TRIANGLE_CUT = 19,       /* its bounds were cut by the scissor, so coverage must be tested against them */
+       TRIANGLE_PROVOKING = 20, /* 2 bits: which row is the provoking vertex's */
+       TRIANGLE_CLIP = 24       /* 8 bits: bit i for a clip distance i that changes sign inside */
+};
+
+struct lom_bounds { /* pixels of the frame, inclusive */
+    int left, top, right, bottom;
+};
+
+static inline lom_triangle_kind lom_kind_of(const lom_triangle *t)
+{
+    return (lom_triangle_kind)(t->state >> TRIANGLE_KIND & 3);
+}
+
+static inline struct lom_bounds lom_bounds_of(const lom_triangle *t)
+{
+    int left = (int)(t->first & 0xffff), top = (int)(t->first >> 16);
+    switch (lom_kind_of(t)) {
+    case TRIANGLE_LARGE:
+        return (struct lom_bounds){ left, top, t->large.right, t->large.bottom };
+    case TRIANGLE_SMALL:
+        return (struct lom_bounds){ left, top, left + (int)(t->state & 255), top + (int)(t->state >> 8 & 255) };
+    default: /* lies within one tile, which its first pixel names */
+        return (struct lom_bounds){ left, top, left, top };
+    }
+}
 
 /* A draw as recorded. */
 struct lom_draw {
@@ -77,6 +112,7 @@ struct lom_draw {
     size_t triangles;    /* of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool depth_write, late_depth, blends, constant, biased;
+    bool queues_depth; /* the fragment stage needs the depth */
 };
 
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
@@ -85,7 +121,7 @@ struct lom_chunk {
     int instance;
     size_t first, count; /* triangles */
 
-    uint32_t *corners;     /* three vertex numbers a triangle */
+    uint32_t *corners;     /* three row numbers a triangle, or NO_VERTEX in the first */
     uint32_t vertex_base;  /* index of row 0 when vertex_list is empty */
     uint32_t *vertex_list; /* or the index of each row */
     size_t vertex_count;   /* rows that were shaded (clipping appends) */
@@ -98,22 +134,23 @@ struct lom_chunk {
     uint32_t *tile_first; /* tile_count + 1: where a tile's list begins */
     uint32_t *tile_list;  /* triangle numbers */
     size_t row_count, triangle_count;
+    unsigned any_code; /* all outcodes together */
+    bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
     size_t rows_capacity, clip_capacity, codes_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity,
         vertex_list_capacity, corners_capacity; /* in elements */
     uint64_t triangles_clipped;
     bool failed; /* memory ran out */
 };
 
-/* Fragments on their way into packets; all of one draw. Entry i of every array is one fragment. */
+/* Fragments on their way into packets; all of one draw and chunk. Entry i of every array is one fragment. */
 enum { QUEUE_SIZE = 64 };
 struct lom_queue {
-    float l[3][QUEUE_SIZE]; /* screen-space barycentric weights */
-    float depth[QUEUE_SIZE];
-    int32_t pixel[QUEUE_SIZE];   /* index into the tile's memory */
-    int32_t covered[QUEUE_SIZE]; /* -1, or 0 for a helper of a quad */
-    const lom_triangle *triangle[QUEUE_SIZE];
+    float l[3][QUEUE_SIZE];       /* screen-space barycentric weights */
+    float depth[QUEUE_SIZE];      /* only with draw->queues_depth */
+    int32_t pixel[QUEUE_SIZE];    /* index into the tile's memory */
+    int32_t covered[QUEUE_SIZE];  /* -1, or 0 for a helper; only in shaders that ask for quads */
+    int32_t triangle[QUEUE_SIZE]; /* number in the chunk's triangles */
     int count;
-    bool block; /* the packet is LOM_LANES pixels of one 4x4 window in memory order, from pixel[0] */
 };
 
 struct lom_pass;
@@ -121,8 +158,10 @@ struct lom_pass;
 /* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
 struct lom_tile {
     struct lom_pass *pass;
-    const struct lom_draw *draw; /* of the fragments in the queue */
-    int x, y;                    /* frame pixel of the tile's first pixel */
+    const struct lom_draw *draw;   /* of the fragments in the queue */
+    const struct lom_chunk *chunk; /* likewise */
+    bool tests_early;              /* the draw's depth test comes before its fragment shader */
+    int x, y;                      /* frame pixel of the tile's first pixel */
     int edge;
     int32_t offset[16];                   /* of the pixels of a 4x4 window to its first, in tile memory */
     float *depth;                         /* attachment units; NULL without depth */
@@ -175,9 +214,9 @@ struct lom_pass {
 struct lom_stages {
     /* Shades the chunk's vertices: rows, clip positions and outcodes of vertex_count vertices. */
     void (*shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk);
-    /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are row
-     * numbers; the third is the provoking vertex. */
-    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t (*corner)[3], int count);
+    /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are three row
+     * numbers a triangle; the third is the provoking vertex. */
+    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count);
     /* Draws the chunk's triangles of one tile. */
     void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
     /* Shades what is left in the queue. */
@@ -189,8 +228,8 @@ const struct lom_stages *lom_stages_of(int variant);
 
 #define LOM_DECLARE_STAGES(variant)                                                                                    \
     void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
-    void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t(*corner)[3],        \
-                              int count);                                                                              \
+    void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners,           \
+                              size_t count);                                                                           \
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
                               size_t count);                                                                           \
     void lom_flush_##variant(struct lom_tile *tile);
@@ -203,8 +242,7 @@ LOM_DECLARE_STAGES(16_plain)
 /* Grows *array to at least `needed` elements of `size` bytes, keeping its content; false when memory runs out. */
 bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size);
 
-/* Room for `rows` vertex rows in the chunk (rows, clip, codes); triangles already set up keep pointing at their rows.
- */
+/* Room for `rows` vertex rows in the chunk (rows, clip, codes). */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
@@ -218,7 +256,7 @@ int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, cons
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 
 /* What a draw's depth bias adds to the depths of a triangle (draw->biased). */
-double lom_depth_offset(const struct lom_pass *pass, const struct lom_draw *draw, const lom_triangle *t);
+double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_triangle *t);
 
 /* Tile memory from the clear values or the attachments, and to the attachments. */
 void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory);

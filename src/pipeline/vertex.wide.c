@@ -3,27 +3,18 @@
 #include "pipeline/project.h"
 #include "pipeline/stages.h"
 
-/* LOM_LANES rows of four floats at from + i stride: lane i of (x, y, z, w). */
-LOM_INLINE void store_rows(float *to, size_t stride, lom_float4 x)
-{
-    for (int i = 0; i < LOM_LANES; i++) {
-        float *row = to + (size_t)i * stride;
-        row[0] = x.x[i];
-        row[1] = x.y[i];
-        row[2] = x.z[i];
-        row[3] = x.w[i];
-    }
-}
-
-/* The vertices at `numbers` as four floats each; every read stays inside attribute->size. */
-static void fetch_floats(const lom_attribute *attribute, const uint32_t *numbers, int components, lom_float4 *out)
+/* The vertices at `numbers`, of which `largest` is the largest, as four floats each; every read stays inside
+ * attribute->size. */
+static void fetch_floats(const lom_attribute *attribute, const uint32_t *numbers, uint32_t largest, int components,
+                         lom_float4 *out)
 {
     float copies[LOM_LANES][4];
     const float *rows[LOM_LANES];
+    const uint8_t *data = attribute->data;
+    bool aligned = (uintptr_t)data % 4 == 0 && attribute->stride % 4 == 0;
+    bool whole = aligned && (size_t)largest * attribute->stride + 16 <= attribute->size;
     for (int i = 0; i < LOM_LANES; i++) {
-        size_t offset = (size_t)numbers[i] * attribute->stride;
-        const uint8_t *source = (const uint8_t *)attribute->data + offset;
-        bool whole = offset + 16 <= attribute->size && (uintptr_t)source % 4 == 0;
+        const uint8_t *source = data + (size_t)numbers[i] * attribute->stride;
         if (!whole) {
             memset(copies[i], 0, sizeof copies[i]);
             memcpy(copies[i], source, (size_t)components * 4);
@@ -52,6 +43,9 @@ static void fetch_bytes(const lom_attribute *attribute, const uint32_t *numbers,
 
 static void fetch(const struct lom_draw *draw, const uint32_t *numbers, lom_attributes *in)
 {
+    uint32_t largest = 0;
+    for (int i = 0; i < LOM_LANES; i++)
+        largest = numbers[i] > largest ? numbers[i] : largest;
     for (int a = 0; a < draw->desc.shader->attributes; a++) {
         const lom_attribute *attribute = &draw->desc.attribute[a];
         lom_float4 *out = &in->attribute[a];
@@ -63,7 +57,7 @@ static void fetch(const struct lom_draw *draw, const uint32_t *numbers, lom_attr
             fetch_bytes(attribute, numbers, out);
             break;
         default:
-            fetch_floats(attribute, numbers, (int)attribute->kind - LOM_ATTRIBUTE_FLOAT1 + 1, out);
+            fetch_floats(attribute, numbers, largest, (int)attribute->kind - LOM_ATTRIBUTE_FLOAT1 + 1, out);
         }
     }
 }
@@ -108,7 +102,7 @@ static lom_float4 project(const struct lom_pass *pass, lom_float4 p, lom_int cod
                          one_over_w };
 }
 
-static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, float *row, size_t pitch, lom_int *codes)
+static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, float *row, lom_int at, lom_int *codes)
 {
     lom_float bound = lom_splat(LOM_LARGEST_DISTANCE);
     for (int i = 0; i < draw->distances; i++) {
@@ -118,26 +112,37 @@ static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, flo
         vertex->distance[i] = lom_clamp(d, -bound, bound);
     }
     for (int i = 0; i < draw->distances; i += 4)
-        store_rows(row + draw->distance_offset + i, pitch,
-                   (lom_float4){ vertex->distance[i], vertex->distance[i + 1], vertex->distance[i + 2],
-                                 vertex->distance[i + 3] });
+        lom_scatter_rows(row + draw->distance_offset + i, at,
+                         (lom_float4){ vertex->distance[i], vertex->distance[i + 1], vertex->distance[i + 2],
+                                       vertex->distance[i + 3] });
+}
+
+static void write_codes(struct lom_chunk *chunk, size_t first, lom_int codes)
+{
+    if (!lom_any(codes != 0)) {
+        memset(chunk->codes + first, 0, LOM_LANES * sizeof chunk->codes[0]);
+        return;
+    }
+    for (int i = 0; i < LOM_LANES; i++) {
+        chunk->codes[first + (size_t)i] = (uint16_t)codes[i];
+        chunk->any_code |= (unsigned)codes[i];
+    }
 }
 
 static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, size_t first, lom_vertex *vertex)
 {
     const struct lom_draw *draw = chunk->draw;
-    size_t pitch = (size_t)draw->row_floats;
-    float *row = chunk->rows + first * pitch;
+    lom_int at = lom_lane_index() * draw->row_floats;
+    float *row = chunk->rows + first * (size_t)draw->row_floats;
     lom_int codes = classify(pass, vertex->position);
-    store_rows(chunk->clip + first * 4, 4, vertex->position);
-    store_rows(row, pitch, project(pass, vertex->position, codes));
+    lom_scatter_rows(chunk->clip + first * 4, lom_lane_index() * 4, vertex->position);
+    lom_scatter_rows(row, at, project(pass, vertex->position, codes));
     for (int v = 0; v < draw->desc.shader->varyings; v += 4)
-        store_rows(
-            row + ROW_HEADER + v, pitch,
+        lom_scatter_rows(
+            row + ROW_HEADER + v, at,
             (lom_float4){ vertex->varying[v], vertex->varying[v + 1], vertex->varying[v + 2], vertex->varying[v + 3] });
-    write_distances(draw, vertex, row, pitch, &codes);
-    for (int i = 0; i < LOM_LANES; i++)
-        chunk->codes[first + (size_t)i] = (uint16_t)codes[i];
+    write_distances(draw, vertex, row, at, &codes);
+    write_codes(chunk, first, codes);
 }
 
 void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk)
