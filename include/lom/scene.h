@@ -39,6 +39,11 @@ typedef struct lom_camera_key { /* [[camera.key]]; times rise strictly from key 
     double field_of_view; /* radians, vertical */
 } lom_camera_key;
 
+typedef enum lom_person {
+    LOM_PERSON_THIRD, /* behind the entity, turned by its heading alone */
+    LOM_PERSON_FIRST  /* in it: turned as it is, and it is not drawn */
+} lom_person;
+
 typedef enum lom_interpolation { LOM_INTERPOLATION_LINEAR, LOM_INTERPOLATION_SMOOTH } lom_interpolation;
 
 typedef struct lom_camera {
@@ -49,7 +54,11 @@ typedef struct lom_camera {
     double near_plane;             /* metres, above 0 */
     int interpolation;             /* lom_interpolation, between the keys */
     lom_camera_key *keys;
-    size_t key_count; /* 0: a camera that stands still */
+    size_t key_count;   /* 0: a camera that stands still */
+    const char *follow; /* name of an entity, or NULL: position, target, up and keys are then in its coordinates, whose
+                           -z is ahead */
+    size_t followed;    /* 1 + its index; 0: none */
+    int person;         /* lom_person */
 } lom_camera;
 
 /* The camera at one moment: the arguments of lom_look_at and lom_perspective. */
@@ -60,6 +69,13 @@ typedef struct lom_camera_view {
 
 /* ---- [light] ---- */
 
+typedef struct lom_light_key { /* [[light.key]]; times rise strictly from key to key */
+    uint32_t given;
+    double time;               /* seconds */
+    double azimuth, elevation; /* radians */
+    double color[3], intensity;
+} lom_light_key;
+
 typedef struct lom_light {
     uint32_t given;
     lom_vec3 direction;        /* unit vector, the way the light travels: from the sun towards the scene */
@@ -68,6 +84,8 @@ typedef struct lom_light {
     double intensity;
     double ambient[3]; /* linear, ambient light on what faces up, not multiplied by intensity */
     double ground[3];  /* linear, ambient light on what faces down; between them by the cosine to up */
+    lom_light_key *keys;
+    size_t key_count; /* 0: a sun that stands still */
 } lom_light;
 
 /* ---- [haze] ---- */
@@ -133,6 +151,12 @@ typedef struct lom_terrain {
 
 /* ---- [[entity]] ---- */
 
+typedef struct lom_entity_key { /* [[entity.key]]; times rise strictly from key to key */
+    uint32_t given;
+    double time; /* seconds */
+    lom_vec3 position, rotation;
+} lom_entity_key;
+
 typedef struct lom_entity {
     uint32_t given;
     const char *name;  /* NULL when it has none; unique in the scene */
@@ -142,7 +166,15 @@ typedef struct lom_entity {
     lom_vec3 scale;    /* no component is 0 */
     lom_scene_material material;
     bool on_ground, visible;
+    int interpolation; /* lom_interpolation, between the keys */
+    lom_entity_key *keys;
+    size_t key_count; /* 0: it stands still */
 } lom_entity;
+
+/* Where an entity is at one moment. */
+typedef struct lom_entity_place {
+    lom_vec3 position, rotation;
+} lom_entity_place;
 
 /* ---- [quality]: the dials ---- */
 
@@ -229,6 +261,12 @@ const char *const *lom_scene_files(const lom_scene *scene, size_t *count);
  * Smooth is the cubic Hermite curve whose slope at a key is that of the parabola through it and its two neighbours
  * (Catmull-Rom when the times are equally far apart); it reproduces any motion that is quadratic in time. */
 lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time);
+/* The light at a time: azimuth, elevation, colour and intensity go straight from key to key. */
+lom_light lom_scene_light_at(const lom_scene *scene, double time);
+/* An entity at a time; smooth as of the camera. */
+lom_entity_place lom_scene_entity_at(const lom_entity *entity, double time);
+/* The way sunlight travels from where the sun stands. */
+lom_vec3 lom_sunlight_direction(double azimuth, double elevation);
 
 /* docs/scene.md, made from the tables of keys; data is NULL on failure. */
 lom_bytes lom_write_scene_documentation(lom_error *error);

@@ -139,7 +139,7 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
         uniform.plane[i] = (float)view->plane[i];
     lom_draw_ground(renderer, &culler, &uniform, view->mirrored);
     for (size_t i = 0; i < renderer->entity_count; i++)
-        if (lom_is_visible(&culler, &renderer->entities[i].bounds))
+        if (!renderer->entities[i].is_hidden && lom_is_visible(&culler, &renderer->entities[i].bounds))
             draw_entity(renderer, &renderer->entities[i], &uniform, view->mirrored);
     if (view->sky)
         lom_draw_sky(renderer->device, &scene->sky, renderer->sky, &view->projection, &view->view);
@@ -154,7 +154,7 @@ bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *
         if (lom_is_visible(&culler, &ground->blocks[i].bounds))
             return true;
     for (size_t i = 0; i < renderer->entity_count; i++)
-        if (lom_is_visible(&culler, &renderer->entities[i].bounds))
+        if (!renderer->entities[i].is_hidden && lom_is_visible(&culler, &renderer->entities[i].bounds))
             return true;
     return false;
 }

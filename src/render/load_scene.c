@@ -58,17 +58,24 @@ bool lom_load_water(lom_renderer *renderer, lom_error *error)
     return renderer->flow_map != NULL;
 }
 
-/* T Rz Ry Rx S */
-static lom_mat4 place(const lom_renderer *renderer, const lom_entity *entity, const lom_image *ground)
+/* T Rz Ry Rx S, and what follows from it. False when it is singular. */
+static bool place(struct lom_loaded_entity *loaded, lom_vec3 position, lom_vec3 rotation)
 {
-    const lom_terrain *t = &renderer->scene->terrain;
-    lom_vec3 position = entity->position;
-    if (entity->on_ground && ground != NULL)
-        position.y += lom_terrain_height(ground, t->size[0], t->size[1], t->height, t->base, position.x, position.z);
-    lom_mat4 scale = lom_scaling(entity->scale), turn = lom_rotation(entity->rotation),
-             move = lom_translation(position);
-    lom_mat4 turned = lom_multiply(&turn, &scale);
-    return lom_multiply(&move, &turned);
+    loaded->world_from_model = lom_model_matrix(position, rotation, loaded->entity->scale);
+    loaded->bounds = lom_transform_box(&loaded->world_from_model, lom_mesh_bounds(loaded->drawn));
+    return lom_normal_matrix(&loaded->world_from_model, &loaded->normal_from_model);
+}
+
+void lom_move_scene(lom_renderer *renderer, double time)
+{
+    lom_scene *scene = &renderer->moment;
+    scene->light = lom_scene_light_at(scene, time);
+    for (size_t i = 0; i < renderer->entity_count; i++) {
+        struct lom_loaded_entity *loaded = &renderer->entities[i];
+        lom_entity_place at = lom_scene_entity_at(loaded->entity, time);
+        if (loaded->entity->key_count != 0)
+            place(loaded, at.position, at.rotation);
+    }
 }
 
 static void copy3(float out[3], const double in[3])
@@ -146,10 +153,15 @@ static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const 
         return false;
     if (renderer->warning[0] == 0)
         memcpy(renderer->warning, loaded->drawn->warning, sizeof renderer->warning);
-    loaded->world_from_model = place(renderer, entity, ground);
-    if (!lom_normal_matrix(&loaded->world_from_model, &loaded->normal_from_model))
+    const lom_terrain *t = &renderer->scene->terrain;
+    lom_vec3 position = entity->position;
+    if (entity->on_ground && ground != NULL)
+        position.y += lom_terrain_height(ground, t->size[0], t->size[1], t->height, t->base, position.x, position.z);
+    if (!place(loaded, position, entity->rotation))
         return lom_fail(error, LOM_ERROR_INPUT, "%s: an entity's scale makes its matrix singular.", entity->mesh);
-    loaded->bounds = lom_transform_box(&loaded->world_from_model, lom_mesh_bounds(loaded->drawn));
+    const lom_camera *camera = &renderer->scene->camera;
+    loaded->is_hidden = camera->person == LOM_PERSON_FIRST && camera->followed != 0 &&
+                        entity == &renderer->scene->entities[camera->followed - 1];
     return load_parts(renderer, loaded, error);
 }
 

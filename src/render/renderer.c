@@ -23,7 +23,8 @@ lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc 
     if (renderer == NULL)
         return NULL;
     lom_enter_float_state(&state);
-    renderer->scene = scene;
+    renderer->moment = *scene;
+    renderer->scene = &renderer->moment;
     renderer->device = lom_open_device(desc);
     if (renderer->device == NULL)
         lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for a device.");

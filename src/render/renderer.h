@@ -29,6 +29,7 @@ struct lom_loaded_entity {
     struct lom_loaded_part *parts;
     lom_mat4 world_from_model, normal_from_model;
     lom_box bounds; /* in the world */
+    bool is_hidden; /* the camera is in it */
 };
 
 /* What clouds let through of the sun, over a plane: the shadows that fall on the ground and the water. */
@@ -58,7 +59,8 @@ struct lom_impostors {
 };
 
 struct lom_renderer {
-    const lom_scene *scene;
+    lom_scene moment;       /* the scene at the time of the frame: its light moves */
+    const lom_scene *scene; /* moment, for those who read it */
     lom_device *device;
     char warning[256];        /* of the first mesh that has one */
     lom_reference *reference; /* instead of all that follows, where the water's model is the reference */
@@ -95,6 +97,8 @@ lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool col
 /* Terrain, entities with their materials, the water's maps. */
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error);
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
+/* Puts the light and the entities that move where they are at a time. */
+void lom_move_scene(lom_renderer *renderer, double time);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
 /* The terrain's heights as a texture, where caustics need them. */
 bool lom_load_bed(lom_renderer *renderer, lom_error *error);

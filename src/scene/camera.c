@@ -1,110 +1,94 @@
-/* The camera at a time. In: the scene's key frames and a time. Out: position, target, angle. Invariant: the result
- * depends on the time alone, so any frame can be made without the ones before it. */
+/* The camera, the light and the entities at a time. In: the scene's key frames and a time. Out: position, target and
+ * angle; direction and colour; position and rotation. Invariant: functions of the time alone. */
+#include "key_frames.h"
+
 #include <lom/scene.h>
 
 static const double radians_per_degree = 0.017453292519943295;
 
-typedef struct sample { /* what is interpolated: 0..2 position, 3..5 target, 6 field of view */
+lom_entity_place lom_scene_entity_at(const lom_entity *entity, double time)
+{
+    lom_entity_place place = { entity->position, entity->rotation };
+    if (entity->key_count == 0)
+        return place;
+    double v[6];
+    lom_follow_keys(&(struct lom_key_frames){ entity->keys, sizeof *entity->keys, entity->key_count,
+                                              offsetof(lom_entity_key, time), 6,
+                                              entity->interpolation == LOM_INTERPOLATION_SMOOTH },
+                    time, v);
+    return (lom_entity_place){ { v[0], v[1], v[2] }, { v[3], v[4], v[5] } };
+}
+
+lom_light lom_scene_light_at(const lom_scene *scene, double time)
+{
+    lom_light light = scene->light;
+    if (light.key_count == 0)
+        return light;
+    double v[6];
+    lom_follow_keys(&(struct lom_key_frames){ light.keys, sizeof *light.keys, light.key_count,
+                                              offsetof(lom_light_key, time), 6, false },
+                    time, v);
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    light.azimuth = v[0];
+    light.elevation = v[1];
+    light.direction = lom_sunlight_direction(v[0], v[1]);
+    lom_leave_float_state(&state);
+    for (int i = 0; i < 3; i++)
+        light.color[i] = v[2 + i];
+    light.intensity = v[5];
+    return light;
+}
+
+lom_vec3 lom_sunlight_direction(double azimuth, double elevation)
+{
+    double sa = lom_double_sin(azimuth), ca = lom_double_cos(azimuth);
+    double se = lom_double_sin(elevation), ce = lom_double_cos(elevation);
+    return (lom_vec3){ -sa * ce, -se, ca * ce };
+}
+
+/* From the coordinates of an entity to the world: all of its rotation, or the heading of its nose (-z) alone. A nose
+ * that points straight up or down heads along -z. */
+static lom_mat4 follow(const lom_entity *entity, double time, bool all)
+{
+    lom_entity_place place = lom_scene_entity_at(entity, time);
+    lom_mat4 turn = lom_rotation(place.rotation), move = lom_translation(place.position);
+    if (!all) {
+        double x = -turn.m[0][2], z = -turn.m[2][2], length = lom_double_sqrt(x * x + z * z);
+        x = length > 1e-9 ? x / length : 0;
+        z = length > 1e-9 ? z / length : -1;
+        turn = (lom_mat4){ { { -z, 0, -x, 0 }, { 0, 1, 0, 0 }, { x, 0, -z, 0 }, { 0, 0, 0, 1 } } };
+    }
+    return lom_multiply(&move, &turn);
+}
+
+static void follow_keys(const lom_camera *camera, double time, lom_camera_view *view)
+{
     double v[7];
-} sample;
-
-static sample key_sample(const lom_camera_key *key)
-{
-    return (sample){ { key->position.x, key->position.y, key->position.z, key->target.x, key->target.y, key->target.z,
-                       key->field_of_view } };
-}
-
-static double interval(const lom_camera *camera, size_t i)
-{
-    return camera->keys[i + 1].time - camera->keys[i].time;
-}
-
-/* Slope of the straight line from key i to the next. */
-static sample chord(const lom_camera *camera, size_t i)
-{
-    sample a = key_sample(&camera->keys[i]), b = key_sample(&camera->keys[i + 1]);
-    for (int n = 0; n < 7; n++)
-        a.v[n] = (b.v[n] - a.v[n]) / interval(camera, i);
-    return a;
-}
-
-/* Slope at key i of the parabola through it and its neighbours: with intervals h0, h1 and chords d0, d1 on both sides
- * it is (h1 d0 + h0 d1) / (h0 + h1) in the middle (Newton's divided differences), and 2 d0 - that at an end. */
-static sample slope(const lom_camera *camera, size_t i)
-{
-    size_t last = camera->key_count - 1;
-    if (last == 1)
-        return chord(camera, 0);
-    size_t middle = i == 0 ? 1 : i == last ? last - 1 : i;
-    sample d0 = chord(camera, middle - 1), d1 = chord(camera, middle);
-    double h0 = interval(camera, middle - 1), h1 = interval(camera, middle);
-    for (int n = 0; n < 7; n++) {
-        double inner = (h1 * d0.v[n] + h0 * d1.v[n]) / (h0 + h1);
-        double outer = i == 0 ? d0.v[n] : d1.v[n];
-        d0.v[n] = i == middle ? inner : 2 * outer - inner;
-    }
-    return d0;
-}
-
-/* Cubic Hermite basis at s in 0..1 of an interval of length h. */
-static sample smooth(const lom_camera *camera, size_t i, double s)
-{
-    sample a = key_sample(&camera->keys[i]), b = key_sample(&camera->keys[i + 1]);
-    sample da = slope(camera, i), db = slope(camera, i + 1);
-    double h = interval(camera, i), r = 1 - s;
-    for (int n = 0; n < 7; n++)
-        a.v[n] = r * r * (1 + 2 * s) * a.v[n] + s * s * (3 - 2 * s) * b.v[n] +
-                 h * (s * r * r * da.v[n] - s * s * r * db.v[n]);
-    return a;
-}
-
-static sample linear(const lom_camera *camera, size_t i, double s)
-{
-    sample a = key_sample(&camera->keys[i]), b = key_sample(&camera->keys[i + 1]);
-    for (int n = 0; n < 7; n++)
-        a.v[n] = (1 - s) * a.v[n] + s * b.v[n];
-    return a;
-}
-
-/* The last of the keys that are not after time, by bisection; time is not before the first. */
-static size_t find_interval(const lom_camera *camera, double time)
-{
-    size_t low = 0, high = camera->key_count;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (camera->keys[middle].time <= time)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static sample path_sample(const lom_camera *camera, double time)
-{
-    size_t last = camera->key_count - 1;
-    if (!(time > camera->keys[0].time))
-        return key_sample(&camera->keys[0]);
-    if (time >= camera->keys[last].time)
-        return key_sample(&camera->keys[last]);
-    size_t i = find_interval(camera, time);
-    double s = (time - camera->keys[i].time) / interval(camera, i);
-    return camera->interpolation == LOM_INTERPOLATION_SMOOTH ? smooth(camera, i, s) : linear(camera, i, s);
+    lom_follow_keys(&(struct lom_key_frames){ camera->keys, sizeof *camera->keys, camera->key_count,
+                                              offsetof(lom_camera_key, time), 7,
+                                              camera->interpolation == LOM_INTERPOLATION_SMOOTH },
+                    time, v);
+    view->position = (lom_vec3){ v[0], v[1], v[2] };
+    view->target = (lom_vec3){ v[3], v[4], v[5] };
+    double least = 0.01 * radians_per_degree, greatest = 179 * radians_per_degree; /* a smooth curve may overshoot */
+    view->field_of_view = v[6] < least ? least : v[6] > greatest ? greatest : v[6];
 }
 
 lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time)
 {
     const lom_camera *camera = &scene->camera;
     lom_camera_view view = { camera->position, camera->target, camera->up, camera->field_of_view, camera->near_plane };
-    if (camera->key_count == 0)
-        return view;
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    sample at = path_sample(camera, time);
-    lom_leave_float_state(&state);
-    view.position = (lom_vec3){ at.v[0], at.v[1], at.v[2] };
-    view.target = (lom_vec3){ at.v[3], at.v[4], at.v[5] };
-    double least = 0.01 * radians_per_degree, greatest = 179 * radians_per_degree; /* a smooth curve may overshoot */
-    view.field_of_view = at.v[6] < least ? least : at.v[6] > greatest ? greatest : at.v[6];
+    if (camera->key_count != 0)
+        follow_keys(camera, time, &view);
+    if (camera->followed != 0) {
+        lom_float_state state;
+        lom_enter_float_state(&state);
+        lom_mat4 m = follow(&scene->entities[camera->followed - 1], time, camera->person == LOM_PERSON_FIRST);
+        view.position = lom_transform_point(&m, view.position);
+        view.target = lom_transform_point(&m, view.target);
+        view.up = lom_transform_direction(&m, view.up);
+        lom_leave_float_state(&state);
+    }
     return view;
 }

@@ -90,6 +90,13 @@ static void roll(lom_camera *camera)
     camera->up = combine(-lom_double_sin(camera->roll), side, lom_double_cos(camera->roll), cross(side, forward));
 }
 
+static bool check_time(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *place, double before,
+                       double time)
+{
+    return time - before >= least_interval ||
+           fail_at(reader, root, place, "time", "the times of keys must rise, by a millionth of a second or more.");
+}
+
 static bool check_camera_keys(lom_reader *reader, const lom_toml_value *root)
 {
     lom_camera *camera = &reader->scene->camera;
@@ -102,9 +109,8 @@ static bool check_camera_keys(lom_reader *reader, const lom_toml_value *root)
             key->target = camera->target;
         if (child(place, "field_of_view") == NULL)
             key->field_of_view = camera->field_of_view;
-        if (i > 0 && key->time - camera->keys[i - 1].time < least_interval)
-            return fail_at(reader, root, place, "time",
-                           "the times of the camera's keys must rise, by a millionth of a second or more.");
+        if (i > 0 && !check_time(reader, root, place, camera->keys[i - 1].time, key->time))
+            return false;
         if (!can_look(key->position, key->target, camera->up))
             return fail_at(reader, root, place, "target",
                            "the camera cannot look there: target is its position, or lies along up.");
@@ -135,6 +141,28 @@ static bool check_camera(lom_reader *reader, const lom_toml_value *root)
 
 /* ---- [light] ---- */
 
+static bool check_light_keys(lom_reader *reader, const lom_toml_value *root)
+{
+    const lom_light *light = &reader->scene->light;
+    for (size_t i = 0; i < light->key_count; i++) {
+        const lom_toml_value *place = element(child(root, "light"), "key", i);
+        lom_light_key *key = &light->keys[i];
+        if (child(place, "azimuth") == NULL)
+            key->azimuth = light->azimuth;
+        if (child(place, "elevation") == NULL)
+            key->elevation = light->elevation;
+        if (child(place, "color") == NULL)
+            memcpy(key->color, light->color, sizeof key->color);
+        if (child(place, "intensity") == NULL)
+            key->intensity = light->intensity;
+        if (i > 0 && !check_time(reader, root, place, light->keys[i - 1].time, key->time))
+            return false;
+    }
+    if (light->key_count != 0 && reader->scene->quality.water == LOM_WATER_REFERENCE)
+        return fail_at(reader, root, child(root, "light"), "key", "the reference needs a sun that stands still.");
+    return true;
+}
+
 static bool check_light(lom_reader *reader, const lom_toml_value *root)
 {
     lom_light *light = &reader->scene->light;
@@ -143,16 +171,14 @@ static bool check_light(lom_reader *reader, const lom_toml_value *root)
     if (child(table, "ground") == NULL)
         memcpy(light->ground, light->ambient, sizeof light->ground);
     if (child(table, "direction") == NULL) {
-        double sa = lom_double_sin(light->azimuth), ca = lom_double_cos(light->azimuth);
-        double se = lom_double_sin(light->elevation), ce = lom_double_cos(light->elevation);
-        light->direction = (lom_vec3){ -sa * ce, -se, ca * ce };
+        light->direction = lom_sunlight_direction(light->azimuth, light->elevation);
     } else if (stands) {
         return fail_at(reader, root, table, "direction",
                        "the light has either a direction or azimuth and elevation, not both.");
     }
     if (!normalize(&light->direction))
         return fail_at(reader, root, table, "direction", "the light's direction must not be zero.");
-    return true;
+    return check_light_keys(reader, root);
 }
 
 /* ---- [sky] ---- */
@@ -233,6 +259,38 @@ static bool check_water(lom_reader *reader, const lom_toml_value *root)
     return true;
 }
 
+static bool check_entity_keys(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *table,
+                              lom_entity *entity)
+{
+    for (size_t i = 0; i < entity->key_count; i++) {
+        const lom_toml_value *place = element(table, "key", i);
+        lom_entity_key *key = &entity->keys[i];
+        if (child(place, "position") == NULL)
+            key->position = entity->position;
+        if (child(place, "rotation") == NULL)
+            key->rotation = entity->rotation;
+        if (i > 0 && !check_time(reader, root, place, entity->keys[i - 1].time, key->time))
+            return false;
+    }
+    if (entity->key_count != 0 && entity->on_ground)
+        return fail_at(reader, root, table, "on_ground", "an entity with keys does not stand on the ground.");
+    if (entity->key_count != 0 && reader->scene->quality.water == LOM_WATER_REFERENCE)
+        return fail_at(reader, root, table, "key", "the reference needs entities that stand still.");
+    return true;
+}
+
+static bool check_follow(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_scene *scene = reader->scene;
+    lom_camera *camera = &scene->camera;
+    for (size_t i = 0; camera->follow != NULL && i < scene->entity_count; i++)
+        if (scene->entities[i].name != NULL && strcmp(scene->entities[i].name, camera->follow) == 0)
+            camera->followed = i + 1;
+    if (camera->follow != NULL && camera->followed == 0)
+        return fail_at(reader, root, child(root, "camera"), "follow", "no entity has this name.");
+    return true;
+}
+
 static bool check_entities(lom_reader *reader, const lom_toml_value *root)
 {
     const lom_scene *scene = reader->scene;
@@ -246,8 +304,10 @@ static bool check_entities(lom_reader *reader, const lom_toml_value *root)
         for (size_t j = 0; j < i && entity->name != NULL; j++)
             if (scene->entities[j].name != NULL && strcmp(scene->entities[j].name, entity->name) == 0)
                 return fail_at(reader, root, place, "name", "another entity has this name already.");
+        if (!check_entity_keys(reader, root, place, &scene->entities[i]))
+            return false;
     }
-    return true;
+    return check_follow(reader, root);
 }
 
 /* ---- [[cloud]] ---- */

@@ -66,9 +66,30 @@ static const lom_key camera[] = {
       .text = "Between the keys of a path: straight lines, or a Catmull-Rom curve through them." },
     { "key", LOM_KEY_TABLES, AT(lom_camera, keys), .table = &camera_key_table,
       .length_offset = AT(lom_camera, key_count), .text = "Key frames of a path." },
+    { "follow", LOM_KEY_STRING, AT(lom_camera, follow),
+      .text = "Name of an entity: `position`, `target`, `up` and the keys are then in its coordinates, whose -z is "
+              "ahead." },
+    { "person", LOM_KEY_CHOICE, AT(lom_camera, person), .choices = { "third", "first" },
+      .text = "With `follow`: behind the entity, turned by its heading alone; or in it, turned as it is, without "
+              "drawing it." },
 };
 static const lom_key_table camera_table = { sizeof(lom_camera), camera, COUNT(camera),
                                             "Where the picture is taken from." };
+
+static const lom_key light_key[] = {
+    { "time", LOM_KEY_NUMBER, AT(lom_light_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6,
+      .unit = "s", .text = "When the sun is here; later than the key before." },
+    { "azimuth", LOM_KEY_ANGLE, AT(lom_light_key, azimuth), .minimum = -36000, .maximum = 36000, .unit = "degrees",
+      .text = "Where it stands.", .initial_text = "the light's" },
+    { "elevation", LOM_KEY_ANGLE, AT(lom_light_key, elevation), .minimum = -90, .maximum = 90, .unit = "degrees",
+      .text = "Its height above the horizon.", .initial_text = "the light's" },
+    { "color", LOM_KEY_COLOR, AT(lom_light_key, color), 3, .maximum = 1000, .text = "Colour of the light.",
+      .initial_text = "the light's" },
+    { "intensity", LOM_KEY_NUMBER, AT(lom_light_key, intensity), .maximum = 1e6, .text = "Factor on the colour.",
+      .initial_text = "the light's" },
+};
+static const lom_key_table light_key_table = { sizeof(lom_light_key), light_key, COUNT(light_key),
+                                               "A key frame of the sun's path, with straight lines between." };
 
 static const lom_key light[] = {
     { "direction", LOM_KEY_NUMBER, AT(lom_light, direction), 3,
@@ -87,6 +108,8 @@ static const lom_key light[] = {
       .text = "Light from everywhere; not multiplied by the intensity. With `ground`, the light on what faces up." },
     { "ground", LOM_KEY_COLOR, AT(lom_light, ground), 3, .maximum = 1000, .initial_text = "as `ambient`",
       .text = "Light on what faces down; in between the two are mixed by the cosine between the normal and up." },
+    { "key", LOM_KEY_TABLES, AT(lom_light, keys), .table = &light_key_table, .length_offset = AT(lom_light, key_count),
+      .text = "Key frames of a sun that moves." },
 };
 static const lom_key_table light_table = { sizeof(lom_light), light, COUNT(light),
                                            "The one directional light of the scene, the sun." };
@@ -217,6 +240,17 @@ static const lom_key terrain[] = {
 static const lom_key_table terrain_table = { sizeof(lom_terrain), terrain, COUNT(terrain),
                                              "Ground from a height map. Without this table there is none." };
 
+static const lom_key entity_key[] = {
+    { "time", LOM_KEY_NUMBER, AT(lom_entity_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6,
+      .unit = "s", .text = "When the entity is here; later than the key before." },
+    { "position", LOM_KEY_NUMBER, AT(lom_entity_key, position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .text = "Where its origin is.", .initial_text = "the entity's" },
+    { "rotation", LOM_KEY_ANGLE, AT(lom_entity_key, rotation), 3, .minimum = -36000, .maximum = 36000,
+      .unit = "degrees", .text = "About x, then y, then z.", .initial_text = "the entity's" },
+};
+static const lom_key_table entity_key_table = { sizeof(lom_entity_key), entity_key, COUNT(entity_key),
+                                                "A key frame of the entity's path." };
+
 static const lom_key entity[] = {
     { "name", LOM_KEY_STRING, AT(lom_entity, name), .text = "A name of its own, for overrides and messages." },
     { "mesh", LOM_KEY_FILE, AT(lom_entity, mesh), .flags = LOM_KEY_REQUIRED, .text = "Wavefront OBJ file." },
@@ -237,6 +271,10 @@ static const lom_key entity[] = {
     { "on_ground", LOM_KEY_BOOL, AT(lom_entity, on_ground),
       .text = "Measure the position's y from the terrain below instead of from 0." },
     { "visible", LOM_KEY_BOOL, AT(lom_entity, visible), .initial = { 1 }, .text = "Whether it is drawn." },
+    { "interpolation", LOM_KEY_CHOICE, AT(lom_entity, interpolation), .choices = { "linear", "smooth" },
+      .text = "Between the keys of a path, as of the camera." },
+    { "key", LOM_KEY_TABLES, AT(lom_entity, keys), .table = &entity_key_table,
+      .length_offset = AT(lom_entity, key_count), .text = "Key frames of an entity that moves." },
 };
 static const lom_key_table entity_table = { sizeof(lom_entity), entity, COUNT(entity),
                                             "A mesh that stands in the scene. There may be 16384 of them." };

@@ -243,7 +243,7 @@ static void contradictions(void)
         { "[camera]\nposition = [0,5,0]", NULL,
           "lake.toml:2:12: the camera cannot look there: target is its position, or lies along up." },
         { "[[camera.key]]\ntime = 1\n[[camera.key]]\ntime = 1", NULL,
-          "lake.toml:4:8: the times of the camera's keys must rise, by a millionth of a second or more." },
+          "lake.toml:4:8: the times of keys must rise, by a millionth of a second or more." },
         { "[[camera.key]]\ntime = 1\nposition=[1,1,1]\ntarget=[1,0,1]", NULL,
           "lake.toml:4:8: the camera cannot look there: target is its position, or lies along up." },
         { "[light]\ndirection=[1,0,0]\nazimuth=3", NULL,
