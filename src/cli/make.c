@@ -209,6 +209,7 @@ static const recipe recipes[] = {
     { "entity", "boulder", "entities/boulder.obj", make_entity, { .seed = 1 } },
     { "entity", "stones", "entities/stones.obj", make_entity, { .seed = 1 } },
     { "entity", "reeds", "entities/reeds.obj", make_entity, { .seed = 1 } },
+    { "entity", "aircraft", "entities/aircraft.obj", make_entity, { .seed = 1 } },
 };
 enum { RECIPE_COUNT = sizeof recipes / sizeof recipes[0] };
 

@@ -48,6 +48,7 @@ void lom_paint_shore(lom_canvas *canvas);
 void lom_paint_snow(lom_canvas *canvas);
 void lom_paint_planks(lom_canvas *canvas);
 void lom_paint_paint(lom_canvas *canvas);
+void lom_paint_livery(lom_canvas *canvas);
 void lom_paint_log(lom_canvas *canvas);
 void lom_paint_shingles(lom_canvas *canvas);
 void lom_paint_bark(lom_canvas *canvas);

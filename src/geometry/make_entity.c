@@ -11,7 +11,7 @@ static const struct entity {
 } entities[] = {
     { "boat", lom_build_boat, 1000 },     { "jetty", lom_build_jetty, 1000 }, { "cabin", lom_build_cabin, 1000 },
     { "spruce", lom_build_spruce, 100 },  { "pine", lom_build_pine, 100 },    { "boulder", lom_build_boulder, 1000 },
-    { "stones", lom_build_stones, 1000 }, { "reeds", lom_build_reeds, 1000 },
+    { "stones", lom_build_stones, 1000 }, { "reeds", lom_build_reeds, 1000 }, { "aircraft", lom_build_aircraft, 1000 },
 };
 
 const char *lom_entity_name(size_t index)

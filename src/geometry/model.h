@@ -49,6 +49,7 @@ double lom_model_random(uint64_t seed, uint64_t index, double low, double high);
 
 /* The things, by file. Each is made at the origin with y = 0 at the ground or at the water's surface. */
 void lom_build_boat(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
+void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
 void lom_build_jetty(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
 void lom_build_cabin(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
 void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
