@@ -86,6 +86,15 @@ typedef enum lom_cloud_original_light {
     LOM_ORIGINAL_NONE
 } lom_cloud_original_light;
 
+typedef struct lom_cloud_wind { /* [[clouds.wind]]: heights rise strictly */
+    uint32_t given;
+    double height;    /* metres */
+    double speed;     /* m/s */
+    double direction; /* radians, where it blows to: 0 is +x, a quarter turn +z */
+    double gust;      /* m/s, amplitude of a sine that is added to the speed */
+    double gust_period;
+} lom_cloud_wind;
+
 typedef struct lom_clouds {
     uint32_t given;
     int phase;                           /* lom_cloud_phase */
@@ -99,6 +108,8 @@ typedef struct lom_clouds {
     double shadow_strength;              /* 0..1, of those on the ground and the water */
     int original_light;                  /* lom_cloud_original_light */
     double lighter, dark_light;          /* the original's constants of lighting in advance */
+    lom_cloud_wind *winds;               /* by height; between two their ways are mixed */
+    size_t wind_count;                   /* 0: calm */
 } lom_clouds;
 
 /* ---- quality.clouds ---- */

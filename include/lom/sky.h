@@ -17,7 +17,16 @@ typedef struct lom_sky_params {
     double intensity;     /* factor on the pictures and on color */
     double color[3];      /* linear */
     const char *pattern;  /* as in the file; the reader has resolved it into faces */
+    bool gradient;        /* instead of color: from horizon to zenith, with haze low down and a glow around the sun */
+    double zenith[3], horizon[3], haze[3], glow[3]; /* linear */
+    double haze_height;                             /* sine of the elevation where the haze ends */
+    bool sun;                                       /* its picture is drawn on a square that faces the eye */
+    double sun_size;                                /* radians across that square */
+    double sun_rays;                                /* 0..1, how strong its rays are */
 } lom_sky_params;
+
+/* The picture of the sun, R32F: 1 is the light's colour, 0 at the edge. NULL on failure. */
+lom_image *lom_make_sun_picture(int size, double rays, lom_error *error);
 
 /* ---- made: a sky box ---- */
 

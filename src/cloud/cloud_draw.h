@@ -52,6 +52,9 @@ struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, con
                                       const struct lom_cloud_quality *quality, lom_error *error);
 void lom_free_clouds(struct lom_cloud_set *set);
 
+/* cloud_wind.c: puts the clouds where the wind has taken them at a time. */
+void lom_move_clouds(struct lom_cloud_set *set, double time);
+
 /* cloud_light.c: makes every cloud's light that of a sun in this direction (towards it, unit length); what already is
  * stays. *swept counts the grids that were made again. False when memory runs out. */
 bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error);

@@ -41,6 +41,22 @@ static const lom_key cloud[] = {
 const lom_key_table lom_cloud_keys = { sizeof(lom_cloud), cloud, sizeof cloud / sizeof *cloud,
                                        "A cloud: a box of density. Boxes should not overlap." };
 
+#define OF_WIND(member) offsetof(lom_cloud_wind, member)
+static const lom_key wind[] = {
+    { "height", LOM_KEY_NUMBER, OF_WIND(height), .minimum = -1e5, .maximum = 1e5, .unit = "m",
+      .text = "Where it blows (y); above the height of the wind before." },
+    { "speed", LOM_KEY_NUMBER, OF_WIND(speed), .maximum = 1000, .unit = "m/s", .text = "How fast." },
+    { "direction", LOM_KEY_ANGLE, OF_WIND(direction), .minimum = -360, .maximum = 360, .unit = "degrees",
+      .text = "Where it blows to: 0 is +x, 90 is +z." },
+    { "gust", LOM_KEY_NUMBER, OF_WIND(gust), .maximum = 1000, .unit = "m/s",
+      .text = "How much the speed swings about that, as a sine of the time." },
+    { "gust_period", LOM_KEY_NUMBER, OF_WIND(gust_period), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 20 },
+      .unit = "s", .text = "Period of that sine." },
+};
+static const lom_key_table wind_table = { sizeof(lom_cloud_wind), wind, sizeof wind / sizeof *wind,
+                                          "The wind at a height: it takes the clouds there along. Between two heights "
+                                          "their ways are mixed." };
+
 static const lom_key clouds[] = {
     { "phase", LOM_KEY_CHOICE, OF_ALL(phase), .choices = { "dual", "henyey_greenstein", "rayleigh", "isotropic" },
       .text = "Where light goes that is scattered: two Henyey-Greenstein lobes, the forward one alone, Rayleigh's "
@@ -81,6 +97,8 @@ static const lom_key clouds[] = {
     { "dark_light", LOM_KEY_NUMBER, OF_ALL(dark_light), .flags = LOM_KEY_ABOVE, .maximum = 1000, .initial = { 0.17 },
       .text = "The original's factor on the number of voxels met when their sum is above 250. Its value was never "
               "published; with ours a voxel behind ten of full density gets the gray 105 of 255." },
+    { "wind", LOM_KEY_TABLES, OF_ALL(winds), .table = &wind_table, .length_offset = OF_ALL(wind_count),
+      .text = "Winds by height, the lowest first." },
 };
 const lom_key_table lom_clouds_keys = { sizeof(lom_clouds), clouds, sizeof clouds / sizeof *clouds,
                                         "What all clouds share: how they scatter, and the light of sky and ground." };

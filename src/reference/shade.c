@@ -146,9 +146,25 @@ lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, co
     return reflect_light(&in, m, s.normal, to_eye, albedo);
 }
 
+/* pipeline/sky_gradient.h in double; d of unit length. */
+static lom_vec3 gradient_light(const lom_sky_params *sky, lom_vec3 to_light, lom_vec3 d)
+{
+    double y = d.y > 0 ? d.y : 0, up = 1 - (1 - y) * (1 - y) * (1 - y);
+    double low = 1 - y / sky->haze_height, c = dot(d, to_light), out[3];
+    low = low > 0 ? low * low : 0;
+    double c4 = c > 0 ? c * c * c * c : 0, c16 = c4 * c4 * c4 * c4;
+    for (int i = 0; i < 3; i++) {
+        double color = sky->horizon[i] + (sky->zenith[i] - sky->horizon[i]) * up;
+        out[i] = color + (sky->haze[i] - color) * low + sky->glow[i] * (0.3 * c4 + 0.7 * c16 * c16);
+    }
+    return (lom_vec3){ out[0], out[1], out[2] };
+}
+
 lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 d)
 {
     const lom_sky_params *sky = &world->scene->sky;
+    if (world->sky.image == NULL && sky->gradient)
+        return scaled(gradient_light(sky, world->to_light, d), sky->intensity);
     if (world->sky.image == NULL)
         return scaled((lom_vec3){ sky->color[0], sky->color[1], sky->color[2] }, sky->intensity);
     lom_vec3 turned = { world->sky_cosine * d.x + world->sky_sine * d.z, d.y,

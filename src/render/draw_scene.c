@@ -142,7 +142,10 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
         if (!renderer->entities[i].is_hidden && lom_is_visible(&culler, &renderer->entities[i].bounds))
             draw_entity(renderer, &renderer->entities[i], &uniform, view->mirrored);
     if (view->sky)
-        lom_draw_sky(renderer->device, &scene->sky, renderer->sky, &view->projection, &view->view);
+        lom_draw_sky(renderer->device, &scene->sky, renderer->sky, uniform.light.to_light, &view->projection,
+                     &view->view);
+    if (view->sky && renderer->sun != NULL)
+        lom_draw_sun(renderer->device, &scene->sky, renderer->sun, &uniform.light, &view->projection, &view->view);
 }
 
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)

@@ -147,6 +147,7 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     int swept = 0;
     if (f->renderer->clouds == NULL)
         return true;
+    lom_move_clouds(f->renderer->clouds, f->time);
     if (!lom_light_clouds(f->renderer->clouds, to_light, &swept, error))
         return false;
     if (swept != 0)

@@ -5,6 +5,7 @@
  *
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
 #include "render/frame_water.h"
+#include "sky/sky_draw.h"
 #include "water/underwater.h"
 
 struct sea {
@@ -51,8 +52,10 @@ static void set_sky(struct lom_sky_uniform *sky, const lom_renderer *renderer)
     sky->cosine = (float)lom_double_cos(-params->rotation);
     sky->sine = (float)lom_double_sin(-params->rotation);
     sky->size = renderer->sky != NULL ? (float)lom_texture_width(renderer->sky) : 0;
+    sky->gradient = lom_sky_gradient_of(params, renderer->sky, lom_scene_light(renderer->scene).to_light);
+    bool is_factor = renderer->sky != NULL || sky->gradient.on;
     for (int i = 0; i < 3; i++)
-        sky->color[i] = (float)(params->intensity * (renderer->sky != NULL ? 1 : params->color[i]));
+        sky->color[i] = (float)(params->intensity * (is_factor ? 1 : params->color[i]));
 }
 
 static void set_foam(struct lom_foam_uniform *foam, const struct frame *f)

@@ -2,6 +2,23 @@
 #include "render/renderer.h"
 #include "sky/sky_draw.h"
 
+static bool load_sun(lom_renderer *renderer, lom_error *error)
+{
+    enum { SIZE = 256 };
+    if (!renderer->scene->sky.sun)
+        return true;
+    lom_image *picture = lom_make_sun_picture(SIZE, renderer->scene->sky.sun_rays, error);
+    if (picture != NULL)
+        renderer->sun = lom_make_texture(
+            renderer->device, &(lom_texture_desc){ .width = SIZE,
+                                                   .height = SIZE,
+                                                   .format = LOM_FORMAT_R32F,
+                                                   .pixels = picture->pixels,
+                                                   .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    lom_free_image(picture);
+    return renderer->sun != NULL;
+}
+
 static bool load(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
@@ -12,8 +29,8 @@ static bool load(lom_renderer *renderer, lom_error *error)
     renderer->sky = lom_load_sky(renderer->device, &scene->sky, scene->output.transfer == LOM_TRANSFER_SRGB, error);
     if (renderer->sky == NULL && scene->sky.given != 0 && scene->sky.faces[0] != NULL)
         return false;
-    return lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) && lom_load_water(renderer, error) &&
-           lom_load_waves(renderer, error) && lom_load_scene_clouds(renderer, error);
+    return load_sun(renderer, error) && lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) &&
+           lom_load_water(renderer, error) && lom_load_waves(renderer, error) && lom_load_scene_clouds(renderer, error);
 }
 
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)

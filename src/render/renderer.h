@@ -70,7 +70,7 @@ struct lom_renderer {
     char **paths; /* made for materials' maps */
     size_t path_count, path_capacity;
 
-    lom_texture *sky, *normal_map, *flow_map;
+    lom_texture *sky, *sun, *normal_map, *flow_map;
     struct lom_ground ground; /* blocks are NULL when the scene has no terrain */
     struct lom_loaded_entity *entities;
     size_t entity_count;

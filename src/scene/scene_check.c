@@ -341,6 +341,10 @@ static bool fill_cloud(lom_reader *reader, const lom_toml_value *root, const lom
 static bool check_clouds(lom_reader *reader, const lom_toml_value *root)
 {
     const lom_scene *scene = reader->scene;
+    for (size_t i = 1; i < scene->clouds.wind_count; i++)
+        if (!(scene->clouds.winds[i].height > scene->clouds.winds[i - 1].height))
+            return fail_at(reader, root, element(child(root, "clouds"), "wind", i), "height",
+                           "the heights of winds must rise.");
     for (size_t i = 0; i < scene->cloud_count; i++) {
         lom_cloud *cloud = &scene->cloud[i];
         const lom_toml_value *place = element(root, "cloud", i);

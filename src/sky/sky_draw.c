@@ -70,18 +70,66 @@ static void find_direction(const lom_sky_params *sky, const lom_mat4 *projection
     }
 }
 
-void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const lom_mat4 *projection,
-                  const lom_mat4 *view)
+struct lom_gradient_uniform lom_sky_gradient_of(const lom_sky_params *sky, const lom_texture *box,
+                                                const float to_light[3])
+{
+    struct lom_gradient_uniform u = { .on = sky->gradient && box == NULL,
+                                      .inverse_haze = (float)(1 / (sky->haze_height > 0 ? sky->haze_height : 1)) };
+    for (int i = 0; i < 3; i++) {
+        u.zenith[i] = (float)sky->zenith[i];
+        u.horizon[i] = (float)sky->horizon[i];
+        u.haze[i] = (float)sky->haze[i];
+        u.glow[i] = (float)sky->glow[i];
+        u.to_light[i] = to_light[i];
+    }
+    return u;
+}
+
+void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const float to_light[3],
+                  const lom_mat4 *projection, const lom_mat4 *view)
 {
     static const float corners[3][2] = { { -1, -1 }, { 3, -1 }, { -1, 3 } };
-    struct lom_sky_uniforms uniforms = { .box = box };
+    struct lom_sky_uniforms uniforms = { .box = box, .gradient = lom_sky_gradient_of(sky, box, to_light) };
     find_direction(sky, projection, view, uniforms.direction);
     for (int i = 0; i < 3; i++)
-        uniforms.color[i] = (float)(sky->intensity * (box != NULL ? 1 : sky->color[i]));
-    lom_draw(device, &(lom_draw_desc){ .shader = box != NULL ? &lom_sky_box_shader : &lom_sky_color_shader,
+        uniforms.color[i] = (float)(sky->intensity * (box != NULL || uniforms.gradient.on ? 1 : sky->color[i]));
+    lom_draw(device, &(lom_draw_desc){ .shader = box != NULL            ? &lom_sky_box_shader
+                                                 : uniforms.gradient.on ? &lom_sky_gradient_shader
+                                                                        : &lom_sky_color_shader,
                                        .uniforms = &uniforms,
                                        .attribute = { { corners, sizeof corners, 8, LOM_ATTRIBUTE_FLOAT2 } },
                                        .count = 3,
                                        .depth_compare = LOM_COMPARE_EQUAL,
                                        .depth_write_off = true });
+}
+
+void lom_draw_sun(lom_device *device, const lom_sky_params *sky, const lom_texture *picture,
+                  const struct lom_light_uniform *light, const lom_mat4 *projection, const lom_mat4 *view)
+{
+    struct lom_sun_uniforms u = { .picture = picture };
+    lom_mat4 clip = lom_multiply(projection, view);
+    lom_vec3 to = { (double)light->to_light[0], (double)light->to_light[1], (double)light->to_light[2] };
+    lom_mat4 look = lom_look_at((lom_vec3){ 0, 0, 0 }, to, (lom_vec3){ 0, 1, 0 });
+    double half = lom_double_sin(sky->sun_size / 2) / lom_double_cos(sky->sun_size / 2);
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++)
+            u.clip_from_direction.m[row][column] = (float)clip.m[row][column];
+    for (int c = 0; c < 4; c++)
+        for (int k = 0; k < 3; k++)
+            u.corner[c][k] =
+                (float)((c & 1 ? half : -half) * look.m[0][k] + (c >> 1 ? half : -half) * look.m[1][k] - look.m[2][k]);
+    for (int i = 0; i < 3; i++)
+        u.color[i] = light->color[i];
+    lom_draw(device, &(lom_draw_desc){ .shader = &lom_sun_shader,
+                                       .uniforms = &u,
+                                       .count = 4,
+                                       .vertex_count = 4,
+                                       .topology = LOM_TRIANGLE_STRIP,
+                                       .depth_compare = LOM_COMPARE_EQUAL,
+                                       .depth_write_off = true,
+                                       .blend = { { .enabled = true,
+                                                    .source_color = LOM_FACTOR_ONE,
+                                                    .target_color = LOM_FACTOR_ONE,
+                                                    .source_alpha = LOM_FACTOR_ZERO,
+                                                    .target_alpha = LOM_FACTOR_ONE } } });
 }

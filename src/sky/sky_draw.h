@@ -2,7 +2,7 @@
 #ifndef LOM_SKY_DRAW_H
 #define LOM_SKY_DRAW_H
 
-#include "pipeline/uniforms.h"
+#include "pipeline/sky_gradient.h"
 
 #include <lom/geometry.h>
 #include <lom/sky.h>
@@ -11,9 +11,16 @@
  * without where the sky is a colour. */
 lom_texture *lom_load_sky(lom_device *device, const lom_sky_params *sky, bool srgb, lom_error *error);
 
+/* What the shaders get of a sky that is a gradient; off where it is not. */
+struct lom_gradient_uniform lom_sky_gradient_of(const lom_sky_params *sky, const lom_texture *box,
+                                                const float to_light[3]);
+
 /* Draws the sky where nothing has been drawn (reversed depth is still 0) as seen through projection * view; box may be
- * NULL: one colour. */
-void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const lom_mat4 *projection,
-                  const lom_mat4 *view);
+ * NULL: a gradient or one colour. */
+void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const float to_light[3],
+                  const lom_mat4 *projection, const lom_mat4 *view);
+/* Adds the sun's picture there, in the light's colour. */
+void lom_draw_sun(lom_device *device, const lom_sky_params *sky, const lom_texture *picture,
+                  const struct lom_light_uniform *light, const lom_mat4 *projection, const lom_mat4 *view);
 
 #endif

@@ -18,7 +18,24 @@ static const lom_key keys[] = {
       .text = "Factor on the pictures, or on `color`." },
     { "color", LOM_KEY_COLOR, AT(color), 3, .maximum = 1000, .initial = { 0.25, 0.45, 0.8 },
       .text = "The whole sky's colour when there are no pictures." },
+    { "gradient", LOM_KEY_BOOL, AT(gradient),
+      .text = "Instead of one colour, from `horizon` to `zenith`, with haze low down and a glow towards the sun." },
+    { "zenith", LOM_KEY_COLOR, AT(zenith), 3, .maximum = 1000, .initial = { 0.061, 0.119, 0.271 },
+      .text = "Colour straight above (the default is the reference work's)." },
+    { "horizon", LOM_KEY_COLOR, AT(horizon), 3, .maximum = 1000, .initial = { 0.287, 0.407, 0.645 },
+      .text = "Colour at the horizon, behind the haze." },
+    { "haze", LOM_KEY_COLOR, AT(haze), 3, .maximum = 1000, .initial = { 0.539, 0.645, 0.730 },
+      .text = "Colour of the haze at the horizon, and of everything below it." },
+    { "haze_height", LOM_KEY_NUMBER, AT(haze_height), .flags = LOM_KEY_ABOVE, .maximum = 1, .initial = { 0.25 },
+      .text = "Sine of the elevation at which the haze ends." },
+    { "glow", LOM_KEY_COLOR, AT(glow), 3, .maximum = 1000, .text = "What is added towards the sun." },
+    { "sun", LOM_KEY_BOOL, AT(sun),
+      .text = "Draw the sun: a picture on a square that faces the camera, where the light "
+              "comes from." },
+    { "sun_size", LOM_KEY_ANGLE, AT(sun_size), .minimum = 0.1, .maximum = 120, .initial = { 20 }, .unit = "degrees",
+      .text = "How wide the square is; the disc is a 20th of it." },
+    { "sun_rays", LOM_KEY_NUMBER, AT(sun_rays), .maximum = 1, .initial = { 0.4 }, .text = "How strong its rays are." },
 };
 
 const lom_key_table lom_sky_keys = { sizeof(lom_sky_params), keys, sizeof keys / sizeof *keys,
-                                     "What is behind everything: a box of six pictures, or one colour." };
+                                     "What is behind everything: a box of six pictures, a gradient, or one colour." };

@@ -3,6 +3,7 @@
 #ifndef LOM_WATER_SURFACE_H
 #define LOM_WATER_SURFACE_H
 
+#include "pipeline/sky_gradient.h"
 #include "water/waves.h"
 
 #include <lom/geometry.h>
@@ -29,6 +30,7 @@ struct lom_sky_uniform {
     float color[3];         /* factor on the box */
     float cosine, sine;     /* of its turn about y */
     float size;             /* texels a side */
+    struct lom_gradient_uniform gradient;
 };
 
 struct lom_foam_uniform {

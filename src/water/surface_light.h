@@ -27,6 +27,8 @@ struct lom_surface_point {
 LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_float3 d, lom_float variance)
 {
     lom_float3 color = lom_uniform3(sky->color);
+    if (sky->gradient.on)
+        return lom_mul3(color, lom_sky_gradient(&sky->gradient, d));
     if (sky->box == NULL)
         return color;
     lom_float3 turned = { sky->cosine * d.x + sky->sine * d.z, d.y, sky->cosine * d.z - sky->sine * d.x };

@@ -186,8 +186,91 @@ static void angles_stay_possible(void)
     lom_free_scene(scene);
 }
 
+/* A file is needed to name a mesh; this test's own will do, since nothing loads it. */
+static lom_scene *decode_flight(const char *camera)
+{
+    char text[1600];
+    snprintf(text, sizeof text,
+             "[camera]\nfollow='plane'\n%s\n[[entity]]\nname='tree'\nmesh='%s'\n[[entity]]\nname='plane'\nmesh='%s'\n"
+             "[[entity.key]]\ntime=1\nposition=[10,20,30]\nrotation=[0,90,0]\n"
+             "[[entity.key]]\ntime=3\nposition=[30,20,30]\nrotation=[20,90,40]\n",
+             camera, __FILE__, __FILE__);
+    return decode(text);
+}
+
+static void entities_follow_their_keys(void)
+{
+    lom_scene *scene = decode_flight("position=[0,2,10]");
+    if (scene == NULL)
+        return;
+    lom_entity_place place = lom_scene_entity_at(&scene->entities[1], 2);
+    CHECK(distance(place.position, (lom_vec3){ 20, 20, 30 }) < 1e-12, "x %g", place.position.x);
+    CHECK(distance(place.rotation, (lom_vec3){ 10 * PI / 180, PI / 2, 20 * PI / 180 }) < 1e-12, "y %g",
+          place.rotation.y);
+    place = lom_scene_entity_at(&scene->entities[1], 9);
+    CHECK(distance(place.position, (lom_vec3){ 30, 20, 30 }) == 0, "after the last key");
+    lom_free_scene(scene);
+}
+
+/* Turned by 90 degrees about y the nose (-z) points along -x: what is 10 behind is at +x. */
+static void third_person_turns_with_the_heading_alone(void)
+{
+    lom_scene *scene = decode_flight("position=[0,2,10]\ntarget=[1,0,-5]");
+    if (scene == NULL)
+        return;
+    for (double t = 1; t <= 3; t += 1) {
+        lom_camera_view view = lom_scene_camera_at(scene, t);
+        double x = 10 * t;
+        CHECK(view.position.y == 22 && view.up.x == 0 && view.up.y == 1 && view.up.z == 0, "upright at %g", t);
+        if (t == 1) {
+            CHECK(distance(view.position, (lom_vec3){ x + 10, 22, 30 }) < 1e-12, "behind: %g %g", view.position.x,
+                  view.position.z);
+            CHECK(distance(view.target, (lom_vec3){ x - 5, 20, 29 }) < 1e-12, "ahead: %g %g", view.target.x,
+                  view.target.z);
+        }
+        double dx = view.position.x - x, dz = view.position.z - 30;
+        CHECK(lom_double_sqrt(dx * dx + dz * dz) - 10 < 1e-12, "ten metres behind at %g", t);
+    }
+    lom_free_scene(scene);
+}
+
+static void first_person_turns_with_all_of_it(void)
+{
+    lom_scene *scene = decode_flight("position=[0,1,0]\ntarget=[0,1,-1]\nperson='first'");
+    if (scene == NULL)
+        return;
+    lom_camera_view view = lom_scene_camera_at(scene, 3);
+    lom_mat4 m = lom_model_matrix((lom_vec3){ 30, 20, 30 }, (lom_vec3){ 20 * PI / 180, PI / 2, 40 * PI / 180 },
+                                  (lom_vec3){ 1, 1, 1 });
+    CHECK(distance(view.position, lom_transform_point(&m, (lom_vec3){ 0, 1, 0 })) < 1e-12, "the eye");
+    CHECK(distance(view.target, lom_transform_point(&m, (lom_vec3){ 0, 1, -1 })) < 1e-12, "ahead");
+    CHECK(distance(view.up, lom_transform_direction(&m, (lom_vec3){ 0, 1, 0 })) < 1e-12, "rolled");
+    lom_free_scene(scene);
+}
+
+/* The reference work's sun: an angle of 0.01 rad a step in the plane of x and y. */
+static void the_sun_goes_straight_from_key_to_key(void)
+{
+    lom_scene *scene = decode("[light]\nazimuth=90\ncolor=[1,0.5,0.25]\n[[light.key]]\ntime=0\nelevation=0\n"
+                              "[[light.key]]\ntime=10\nelevation=90\nintensity=3\n");
+    if (scene == NULL)
+        return;
+    for (int i = 0; i <= 10; i++) {
+        lom_light light = lom_scene_light_at(scene, i);
+        double angle = i * PI / 20;
+        lom_vec3 expected = { -lom_double_cos(angle), -lom_double_sin(angle), 0 };
+        CHECK(distance(light.direction, expected) < 1e-12, "at %d", i);
+        CHECK(light.color[1] == 0.5 && light.intensity - (1 + 0.2 * i) < 1e-12, "at %d: %g", i, light.intensity);
+    }
+    lom_free_scene(scene);
+}
+
 int main(int argc, char **argv)
 {
+    RUN(entities_follow_their_keys);
+    RUN(third_person_turns_with_the_heading_alone);
+    RUN(first_person_turns_with_all_of_it);
+    RUN(the_sun_goes_straight_from_key_to_key);
     RUN(yaw_pitch_roll);
     RUN(roll_with_target);
     RUN(sun);

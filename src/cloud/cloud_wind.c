@@ -1,0 +1,46 @@
+/* Clouds that move with the wind. In: the wind at heights, a time. Out: where each cloud is. Invariant: a closed form
+ * of the time, so any frame alone has its clouds where a run has them. */
+#include "cloud/cloud_draw.h"
+
+static const double two_pi = 6.283185307179586;
+
+/* The way in metres from time 0 on: speed t, and the integral of gust sin(two_pi t / gust_period). */
+static void find_way(const lom_cloud_wind *wind, double time, double way[2])
+{
+    double length = wind->speed * time;
+    if (wind->gust > 0) {
+        double turns = time / wind->gust_period;
+        turns -= lom_double_floor(turns);
+        length += wind->gust * wind->gust_period / two_pi * (1 - lom_double_cos(two_pi * turns));
+    }
+    way[0] = length * lom_double_cos(wind->direction);
+    way[1] = length * lom_double_sin(wind->direction);
+}
+
+/* Heights rise from entry to entry; between two the ways are mixed, beyond the ends the end's holds. */
+static void way_at(const lom_clouds *params, double height, double time, double way[2])
+{
+    const lom_cloud_wind *wind = params->winds;
+    size_t last = params->wind_count - 1, i = 0;
+    while (i < last && height >= wind[i + 1].height)
+        i++;
+    find_way(&wind[i], time, way);
+    if (i == last || height <= wind[i].height)
+        return;
+    double above[2], part = (height - wind[i].height) / (wind[i + 1].height - wind[i].height);
+    find_way(&wind[i + 1], time, above);
+    for (int k = 0; k < 2; k++)
+        way[k] += (above[k] - way[k]) * part;
+}
+
+void lom_move_clouds(struct lom_cloud_set *set, double time)
+{
+    for (size_t i = 0; set->params->wind_count != 0 && i < set->count; i++) {
+        struct lom_placed_cloud *placed = &set->clouds[i];
+        const lom_cloud *cloud = placed->cloud;
+        double way[2];
+        way_at(set->params, cloud->position.y + cloud->size[1] / 2, time, way);
+        placed->middle.x = cloud->position.x + way[0];
+        placed->middle.z = cloud->position.z + way[1];
+    }
+}
