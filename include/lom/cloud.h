@@ -120,7 +120,8 @@ typedef enum lom_cloud_model {
     LOM_CLOUDS_SINGLE,      /* marched; light that was scattered once */
     LOM_CLOUDS_ORIGINAL,    /* the reference work's fixed steps and light */
     LOM_CLOUDS_BILLBOARD,   /* a flat picture */
-    LOM_CLOUDS_OFF
+    LOM_CLOUDS_OFF,
+    LOM_CLOUDS_REFERENCE /* random paths in double precision, as part of the reference's picture */
 } lom_cloud_model;
 
 /* ---- quality.impostors and [quality.impostor] ---- */

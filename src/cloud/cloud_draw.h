@@ -52,7 +52,8 @@ struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, con
                                       const struct lom_cloud_quality *quality, lom_error *error);
 void lom_free_clouds(struct lom_cloud_set *set);
 
-/* cloud_wind.c: puts the clouds where the wind has taken them at a time. */
+/* cloud_wind.c: how far the wind has taken a cloud at a time; puts all clouds there. */
+lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time);
 void lom_move_clouds(struct lom_cloud_set *set, double time);
 
 /* cloud_light.c: makes every cloud's light that of a sun in this direction (towards it, unit length); what already is

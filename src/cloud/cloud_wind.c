@@ -33,14 +33,20 @@ static void way_at(const lom_clouds *params, double height, double time, double 
         way[k] += (above[k] - way[k]) * part;
 }
 
+lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time)
+{
+    double way[2] = { 0, 0 };
+    if (params->wind_count != 0)
+        way_at(params, cloud->position.y + cloud->size[1] / 2, time, way);
+    return (lom_vec3){ way[0], 0, way[1] };
+}
+
 void lom_move_clouds(struct lom_cloud_set *set, double time)
 {
     for (size_t i = 0; set->params->wind_count != 0 && i < set->count; i++) {
         struct lom_placed_cloud *placed = &set->clouds[i];
-        const lom_cloud *cloud = placed->cloud;
-        double way[2];
-        way_at(set->params, cloud->position.y + cloud->size[1] / 2, time, way);
-        placed->middle.x = cloud->position.x + way[0];
-        placed->middle.z = cloud->position.z + way[1];
+        lom_vec3 way = lom_cloud_way(set->params, placed->cloud, time);
+        placed->middle.x = placed->cloud->position.x + way.x;
+        placed->middle.z = placed->cloud->position.z + way.z;
     }
 }

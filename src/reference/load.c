@@ -276,6 +276,7 @@ static void set_light(lom_reference *world)
     world->to_light = scaled(light->direction, -1);
     world->light = scaled(vector(light->color), light->intensity);
     world->ambient = vector(light->ambient);
+    world->ground_light = vector(light->ground);
 }
 
 static bool load_sky(lom_reference *world, lom_error *error)
@@ -348,7 +349,8 @@ static bool load_water(lom_reference *world, lom_error *error)
 bool lom_load_world(lom_reference *world, lom_error *error)
 {
     set_light(world);
-    if (!load_triangles(world, error) || !load_sky(world, error) || !load_water(world, error))
+    if (!load_triangles(world, error) || !load_sky(world, error) || !load_water(world, error) ||
+        !lom_load_ray_clouds(world, error))
         return false;
     world->opaque = (struct lom_ray_triangles){ .points = world->points,
                                                 .triangles = world->triangles,

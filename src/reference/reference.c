@@ -25,6 +25,7 @@ void lom_free_reference(lom_reference *reference)
         lom_free_picture(&reference->pictures[i].picture);
         lom_release(reference->pictures[i].path);
     }
+    lom_free_ray_clouds(reference);
     lom_free_picture(&reference->sky);
     lom_free_ray_triangles(&reference->opaque);
     lom_release(reference->pictures);

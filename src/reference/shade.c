@@ -38,7 +38,8 @@ static struct surface find_surface(const lom_reference *world, const struct lom_
 /* ---- light ---- */
 
 struct incident {
-    lom_vec3 to_light, light, ambient;
+    lom_vec3 to_light, light;
+    lom_vec3 ambient, ground; /* on what faces up and down */
 };
 
 /* Beer and Lambert: what is left behind a path of this length. */
@@ -54,7 +55,7 @@ static lom_vec3 transmitted(const double absorption[3], double path)
  * down. */
 static struct incident find_light(const lom_reference *world, double depth)
 {
-    struct incident in = { world->to_light, world->light, world->ambient };
+    struct incident in = { world->to_light, world->light, world->ambient, world->ground_light };
     if (!(depth > 0))
         return in;
     const lom_reference_water *water = &world->water;
@@ -68,16 +69,18 @@ static struct incident find_light(const lom_reference *world, double depth)
     }
     in.light = scaled(product(in.light, transmitted(water->absorption, beam_path)), beam);
     in.ambient = scaled(product(in.ambient, transmitted(water->absorption, depth)), 1 - 0.066);
+    in.ground = scaled(product(in.ground, transmitted(water->absorption, depth)), 1 - 0.066);
     return in;
 }
 
-/* ambient m.ambient + light (m.diffuse N.L + m.specular (R.E)^s), the first two terms times albedo. */
+/* ambient m.ambient + light (m.diffuse N.L + m.specular (R.E)^s), the first two terms times albedo; the ambient
+ * light goes from the ground's to the sky's with the cosine to up. */
 static lom_vec3 reflect_light(const struct incident *in, const struct lom_ray_material *m, lom_vec3 normal,
                               lom_vec3 to_eye, lom_vec3 albedo)
 {
     double facing = dot(normal, in->to_light);
-    lom_vec3 textured =
-        sum(product(in->ambient, m->ambient), scaled(product(in->light, m->diffuse), at_least(facing, 0)));
+    lom_vec3 ambient = along(in->ground, difference(in->ambient, in->ground), 0.5 + 0.5 * normal.y);
+    lom_vec3 textured = sum(product(ambient, m->ambient), scaled(product(in->light, m->diffuse), at_least(facing, 0)));
     lom_vec3 color = product(textured, albedo);
     double mirrored = dot(lom_reference_mirror(scaled(in->to_light, -1), normal), to_eye);
     if (facing > 0 && mirrored > 0)
@@ -135,6 +138,8 @@ lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, co
 {
     struct surface s = find_surface(world, hit);
     struct incident in = find_light(world, lom_water_above(world, s.place, time));
+    if (world->cloud_count > 0)
+        in.light = scaled(in.light, lom_cloud_shadow(world, s.place, time));
     lom_vec3 to_eye = scaled(ray->direction, -1);
     uint32_t material = world->opaque.triangles[hit->triangle].material;
     if (material == LOM_TERRAIN_MATERIAL)

@@ -4,6 +4,7 @@
 
 #include "reference/textures.h"
 #include "reference/triangles.h"
+#include "reference/volume.h"
 
 #include <lom/reference.h>
 
@@ -36,6 +37,7 @@ struct lom_ray_layer {
 };
 
 struct lom_wave_surface;
+struct lom_ray_cloud;
 
 struct lom_reference {
     const lom_scene *scene;
@@ -54,11 +56,14 @@ struct lom_reference {
     struct lom_ray_layer ground_texture, ground_detail, ground_normals, *layers;
     struct lom_picture sky;      /* no image: one colour */
     double sky_sine, sky_cosine; /* of the angle that turns directions back into the box */
-    lom_vec3 to_light, light, ambient;
+    lom_vec3 to_light, light, ambient, ground_light;
     double slant; /* metres that sunlight goes in the water for each metre down */
 
     lom_reference_water water; /* bounds empty (low > high): there is none */
     int normal_map, flow_map;
+
+    struct lom_ray_cloud *clouds;
+    size_t cloud_count;
     const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
 };
 
@@ -74,6 +79,15 @@ lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 direction);
 /* Rays (trace.c): lom_trace_ray in the float state that the caller has set. */
 lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,
                             int depth, bool in_water);
+
+/* Clouds (clouds.c). */
+bool lom_load_ray_clouds(lom_reference *world, lom_error *error);
+void lom_free_ray_clouds(lom_reference *world);
+/* Light that comes from `far` along a ray, as it is before the clouds that stand nearer. */
+lom_vec3 lom_light_through_clouds(const lom_reference *world, const struct lom_ray *ray, double far, double time,
+                                  lom_vec3 light);
+/* The share of the sun's light that clouds let through to a place. */
+double lom_cloud_shadow(const lom_reference *world, lom_vec3 place, double time);
 
 /* Water (surface.c). */
 struct lom_crossing {

@@ -22,7 +22,7 @@ static bool load_sun(lom_renderer *renderer, lom_error *error)
 static bool load(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    if (scene->quality.water == LOM_WATER_REFERENCE) {
+    if (scene->quality.water == LOM_WATER_REFERENCE || scene->quality.clouds == LOM_CLOUDS_REFERENCE) {
         renderer->reference = lom_create_reference(scene, error);
         return renderer->reference != NULL;
     }

@@ -300,9 +300,10 @@ static const lom_key quality[] = {
           "the waves of `[water.waves]`: as normals on two triangles; as a mesh; met by a ray for each pixel. "
           "Reference: rays in double precision, for the whole frame; what the others are measured against." },
     { "clouds", LOM_KEY_CHOICE, AT(lom_quality, clouds),
-      .choices = { "octaves", "forward", "single", "original", "billboard", "off" },
+      .choices = { "octaves", "forward", "single", "original", "billboard", "off", "reference" },
       .text = "Model of the clouds: marched with octaves of multiple scattering, with multiple forward scattering, or "
-              "with light that was scattered once; the reference work's; a flat picture; none." },
+              "with light that was scattered once; the reference work's; a flat picture; none; random paths in "
+              "double precision, for which the whole frame is the reference's." },
     { "cloud_error", LOM_KEY_NUMBER, AT(lom_quality, cloud_error), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 0.05 },
       .text =

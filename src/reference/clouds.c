@@ -1,0 +1,174 @@
+/* The clouds of a scene before what lies behind them. In: the [[cloud]] tables, rays. Out: the light of each cloud by a
+ * random path for each ray, and what it lets through. Clouds are followed one by one from near to far: each scatters
+ * the sun, the sky and the ground, and its own light alone. The noise that models add below the size of a voxel is no
+ * part of the volume. */
+#include "cloud/cloud_draw.h"
+#include "reference/world.h"
+
+#include <string.h>
+
+struct lom_ray_cloud {
+    const lom_cloud *cloud;
+    lom_reference_volume *volume; /* around the origin, its axes the world's turned by the cloud's yaw */
+    lom_vec3 middle;              /* before the wind has moved it */
+    double sine, cosine;
+};
+
+static bool is_same_density(const lom_cloud *a, const lom_cloud *b)
+{
+    if (a->file != NULL || b->file != NULL)
+        return a->file != NULL && b->file != NULL && strcmp(a->file, b->file) == 0 &&
+               memcmp(a->voxels, b->voxels, sizeof a->voxels) == 0;
+    return a->seed == b->seed && strcmp(a->kind, b->kind) == 0 && memcmp(a->voxels, b->voxels, sizeof a->voxels) == 0;
+}
+
+static lom_image *load_density(const lom_cloud *cloud, lom_error *error)
+{
+    const int size[3] = { (int)cloud->voxels[0], (int)cloud->voxels[1], (int)cloud->voxels[2] };
+    if (cloud->file != NULL)
+        return lom_read_volume(cloud->file, size, error);
+    return lom_make_cloud(&(lom_cloud_desc){ cloud->kind, size[0], size[1], size[2], (uint64_t)cloud->seed }, error);
+}
+
+static bool place_cloud(lom_reference *world, const lom_cloud *cloud, const lom_image *density, lom_error *error)
+{
+    const lom_clouds *all = &world->scene->clouds;
+    struct lom_ray_cloud *placed = &world->clouds[world->cloud_count];
+    lom_vec3 half = { cloud->size[0] / 2, cloud->size[1] / 2, cloud->size[2] / 2 };
+    *placed = (struct lom_ray_cloud){ .cloud = cloud,
+                                      .middle = cloud->position,
+                                      .sine = lom_double_sin(cloud->yaw),
+                                      .cosine = lom_double_cos(cloud->yaw) };
+    placed->middle.y += half.y;
+    placed->volume =
+        lom_create_reference_volume(&(lom_reference_volume_desc){ .density = density,
+                                                                  .low = scaled(half, -1),
+                                                                  .high = half,
+                                                                  .extinction = cloud->extinction * cloud->density,
+                                                                  .albedo = { all->albedo, all->albedo, all->albedo },
+                                                                  .phase = { (lom_cloud_phase)all->phase, all->forward,
+                                                                             all->backward, all->blend } },
+                                    error);
+    world->cloud_count += placed->volume != NULL;
+    return placed->volume != NULL;
+}
+
+bool lom_load_ray_clouds(lom_reference *world, lom_error *error)
+{
+    const lom_scene *scene = world->scene;
+    if (scene->cloud_count == 0 || scene->quality.clouds == LOM_CLOUDS_OFF)
+        return true;
+    world->clouds = lom_allocate(scene->cloud_count, sizeof *world->clouds, error);
+    lom_image **images = lom_allocate(scene->cloud_count, sizeof(lom_image *), error);
+    bool done = world->clouds != NULL && images != NULL;
+    for (size_t i = 0; done && i < scene->cloud_count; i++) {
+        size_t owner = 0;
+        while (owner < i && (images[owner] == NULL || !is_same_density(&scene->cloud[owner], &scene->cloud[i])))
+            owner++;
+        if (!scene->cloud[i].visible)
+            continue;
+        if (owner == i)
+            images[i] = load_density(&scene->cloud[i], error);
+        done = images[owner] != NULL && place_cloud(world, &scene->cloud[i], images[owner], error);
+    }
+    for (size_t i = 0; images != NULL && i < scene->cloud_count; i++)
+        lom_free_image(images[i]);
+    lom_release(images);
+    return done;
+}
+
+void lom_free_ray_clouds(lom_reference *world)
+{
+    for (size_t i = 0; i < world->cloud_count; i++)
+        lom_free_reference_volume(world->clouds[i].volume);
+    lom_release(world->clouds);
+}
+
+/* ---- rays ---- */
+
+/* A direction in a cloud's own axes: x runs along (cosine, 0, -sine), z along (sine, 0, cosine). */
+static lom_vec3 turned(const struct lom_ray_cloud *cloud, lom_vec3 v)
+{
+    return (lom_vec3){ cloud->cosine * v.x - cloud->sine * v.z, v.y, cloud->sine * v.x + cloud->cosine * v.z };
+}
+
+static struct lom_ray into_cloud(const lom_reference *world, const struct lom_ray_cloud *cloud,
+                                 const struct lom_ray *ray, double time)
+{
+    lom_vec3 middle = sum(cloud->middle, lom_cloud_way(&world->scene->clouds, cloud->cloud, time));
+    return (struct lom_ray){ turned(cloud, difference(ray->origin, middle)), turned(cloud, ray->direction) };
+}
+
+static lom_vec3 surroundings(const void *context, lom_vec3 direction)
+{
+    const lom_clouds *all = context;
+    const double *c = direction.y > 0 ? all->sky : all->ground;
+    return (lom_vec3){ c[0], c[1], c[2] };
+}
+
+/* What one cloud sends along a ray in its own axes from its entry on, in front of `light`; air in between turns it to
+ * the haze. */
+static lom_vec3 before(const lom_reference *world, const struct lom_ray_cloud *cloud, const struct lom_ray *inner,
+                       double enter, double far, lom_vec3 light)
+{
+    const double pi = 3.141592653589793;
+    const lom_clouds *all = &world->scene->clouds;
+    lom_vec3 sun = scaled(world->light, pi * all->brightness);
+    lom_reference_light around = { .to_sun = turned(cloud, world->to_light),
+                                   .sun = { sun.x, sun.y, sun.z },
+                                   .context = all,
+                                   .surroundings = surroundings };
+    lom_volume_rays rays = { inner->origin, inner->direction, far, 1, 1024, LOM_HASH_START };
+    rays.key = lom_hash_bytes(rays.key, inner, sizeof *inner);
+    lom_volume_light found;
+    if (!lom_trace_volume(cloud->volume, &around, &rays, &found, NULL))
+        return light;
+    double clear = all->haze_distance > 0 ? lom_double_exp(-enter / all->haze_distance) : 1;
+    double alpha = (1 - found.transmittance) * (1 - clear);
+    const double *haze = all->haze_color, *scattered = found.scattered;
+    return (lom_vec3){ light.x * found.transmittance + scattered[0] * clear + haze[0] * alpha,
+                       light.y * found.transmittance + scattered[1] * clear + haze[1] * alpha,
+                       light.z * found.transmittance + scattered[2] * clear + haze[2] * alpha };
+}
+
+/* From far to near: the farthest entry that is nearer than the last one (of equal ones the later cloud comes first). */
+lom_vec3 lom_light_through_clouds(const lom_reference *world, const struct lom_ray *ray, double far, double time,
+                                  lom_vec3 light)
+{
+    double last = __builtin_inf();
+    size_t last_index = world->cloud_count;
+    for (;;) {
+        double farthest = -1;
+        size_t next = world->cloud_count;
+        struct lom_ray inner = *ray;
+        for (size_t i = 0; i < world->cloud_count; i++) {
+            struct lom_ray in = into_cloud(world, &world->clouds[i], ray, time);
+            double enter = 0, leave = far;
+            if (lom_cross_volume(world->clouds[i].volume, in.origin, in.direction, &enter, &leave) &&
+                enter >= farthest && (enter < last || (enter == last && i < last_index))) {
+                farthest = enter;
+                next = i;
+                inner = in;
+            }
+        }
+        if (next == world->cloud_count)
+            return light;
+        light = before(world, &world->clouds[next], &inner, farthest, far, light);
+        last = farthest;
+        last_index = next;
+    }
+}
+
+double lom_cloud_shadow(const lom_reference *world, lom_vec3 place, double time)
+{
+    const lom_clouds *all = &world->scene->clouds;
+    struct lom_ray ray = { place, world->to_light };
+    double depth = 0;
+    if (!all->shadows)
+        return 1;
+    for (size_t i = 0; i < world->cloud_count; i++) {
+        struct lom_ray inner = into_cloud(world, &world->clouds[i], &ray, time);
+        depth += lom_volume_optical_depth(world->clouds[i].volume, inner.origin, inner.direction, 0, __builtin_inf());
+    }
+    return 1 + all->shadow_strength * lom_double_expm1(-depth);
+}
