@@ -55,6 +55,7 @@ typedef struct lom_counters {
     uint64_t fragments;        /* that passed the early depth test, or reached a shader */
     uint64_t packets;          /* calls of a fragment shader */
     uint64_t tiles;            /* tiles touched, a pass */
+    uint64_t transforms;       /* Fourier transforms of a square, of a sea's fields */
 } lom_counters;
 
 lom_counters lom_device_counters(const lom_device *device);

@@ -156,6 +156,7 @@ typedef struct lom_sea_cascade {
     double length, longest, shortest; /* metres; longest may be infinite */
     double height_variance;           /* m^2, expected: the sum of its spectrum */
     double slope_variance;            /* expected mean of sx^2 + sz^2 */
+    double bound;                     /* |h| is never more, at any time; |dx|, |dz| at most choppiness times it */
     int waves;                        /* that are not zero */
     double time;                      /* of the last step */
     unsigned fields;                  /* that the last step made; 0 before the first */

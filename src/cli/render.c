@@ -169,6 +169,7 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
                   { "fragments", c->fragments },
                   { "packets", c->packets },
                   { "tiles", c->tiles },
+                  { "transforms", c->transforms },
                   { "impostors_shown", (uint64_t)frame->impostors.plates },
                   { "impostors_refreshed", (uint64_t)frame->impostors.refreshed },
                   { "impostors_reused", (uint64_t)frame->impostors.reused },

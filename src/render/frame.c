@@ -89,7 +89,8 @@ static lom_counters subtract(lom_counters a, lom_counters b)
                            a.triangles_binned - b.triangles_binned,
                            a.fragments - b.fragments,
                            a.packets - b.packets,
-                           a.tiles - b.tiles };
+                           a.tiles - b.tiles,
+                           a.transforms - b.transforms };
 }
 
 static double milliseconds(void)

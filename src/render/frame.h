@@ -18,7 +18,8 @@ struct frame {
     struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
     lom_rect water;                 /* where a surface of water is seen, in frame pixels; width 0: nowhere */
     struct lom_waves_uniform waves; /* of water with waves, at this time */
-    bool below;                     /* the eye is under water with waves */
+    enum { WAVES_BOUNDED, WAVES_PLACED, WAVES_FILLED } sea; /* how much of a sea `waves` has: what was needed */
+    bool below;                                             /* the eye is under water with waves */
     lom_plan *plan;
     lom_impostor_counters *impostors;
 };

@@ -110,37 +110,6 @@ static void look_at_sea(struct sea *sea, struct frame *f)
     }
 }
 
-/* ---- before the scene is drawn ---- */
-
-static bool has_waves(const struct frame *f)
-{
-    const lom_water_params *water = &f->scene->water;
-    return water->given != 0 && water->enabled && f->scene->quality.water >= LOM_WATER_NORMAL_MAP;
-}
-
-/* Whether the eye is below the surface, where it is over or under the quad. */
-static bool is_below(const struct frame *f)
-{
-    const lom_water_params *water = &f->scene->water;
-    const lom_vec3 *eye = &f->view.eye;
-    double x = eye->x - water->position[0], z = eye->z - water->position[1], level = water->level;
-    if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
-        return false;
-    if (f->scene->quality.water != LOM_WATER_NORMAL_MAP)
-        level += lom_wave_height(f->renderer, &f->waves, eye->x, eye->z);
-    return eye->y < level;
-}
-
-bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
-{
-    if (!has_waves(f))
-        return true;
-    if (!lom_fill_waves(f->renderer, &f->waves, f->time, error))
-        return false;
-    f->below = is_below(f);
-    return !f->below || lom_draw_caustics(f, error);
-}
-
 /* ---- where it may be seen ---- */
 
 static lom_box slab(const struct lom_surface_uniforms *u, bool flat)
@@ -184,7 +153,8 @@ static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_err
         f->water = f->crop;
         return true;
     }
-    lom_step *step = lom_add_step(f, "visibility", true, "which pixels may show the water's surface");
+    lom_step *step = lom_add_step(f, "visibility", true, "which pixels may show the water's surface%s",
+                                  f->sea != WAVES_BOUNDED ? "" : ", however high its waves");
     step->width = f->crop.width;
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->mask);
@@ -417,17 +387,54 @@ static bool draw_underwater(const struct sea *sea, struct frame *f)
     return lom_end_pass(r->device);
 }
 
-static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
+/* Where the water may be seen, f->water; why not, when it is nowhere. */
+static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_error *error)
 {
     bool flat = f->scene->quality.water == LOM_WATER_NORMAL_MAP;
     lom_box box = slab(&sea->uniforms, flat);
     lom_frustum frustum = lom_view_frustum(&sea->clip_from_world, false);
+    *why = "the water is outside the view";
     if (lom_box_visibility(&frustum, box) == LOM_OUTSIDE)
-        return lom_skip_water(f, "the water is outside the view");
+        return true;
+    *why = "the scene hides all of the water";
     if (!draw_visibility(sea, f, flat, error))
         return false;
-    if (f->water.width == 0)
-        return lom_skip_water(f, "the scene hides all of the water");
+    if (f->water.width != 0)
+        *why = NULL;
+    return true;
+}
+
+/* First with the bounds of a sea that has no places: its slab holds that of the actual waves, so where no face of the
+ * one is seen, none of the other is. */
+static bool find_waves(struct sea *sea, struct frame *f, const char **why, lom_error *error)
+{
+    if (!find_seen(sea, f, why, error))
+        return false;
+    if (*why == NULL && f->sea == WAVES_BOUNDED) {
+        if (!lom_place_frame_waves(f, error))
+            return false;
+        sea->uniforms.waves = f->waves;
+        if (!find_seen(sea, f, why, error))
+            return false;
+    }
+    if (*why != NULL && f->renderer->sea != NULL && f->sea != WAVES_FILLED)
+        lom_add_step(f, "waves", false, "%s: %s", *why,
+                     f->sea == WAVES_BOUNDED ? "no cascade is advanced" : "their places tell, no more of them is made");
+    if (*why == NULL && f->sea != WAVES_FILLED) {
+        if (!lom_fill_frame_waves(f, error))
+            return false;
+        sea->uniforms.waves = f->waves;
+    }
+    return true;
+}
+
+static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
+{
+    const char *why;
+    if (!find_waves(sea, f, &why, error))
+        return false;
+    if (why != NULL)
+        return lom_skip_water(f, why);
     if (!f->below && !lom_draw_caustics(f, error))
         return false;
     return draw_mirrored(sea, f) && draw_behind(sea, f) && draw_surface(sea, f, error);
@@ -436,7 +443,7 @@ static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
 bool lom_draw_sea_stage(struct frame *f, lom_error *error)
 {
     struct sea sea;
-    if (!has_waves(f))
+    if (!lom_has_waves(f))
         return true;
     memset(&sea, 0, sizeof sea);
     look_at_sea(&sea, f);

@@ -27,4 +27,10 @@ bool lom_skip_water(struct frame *f, const char *reason);
 /* Begins the pass that draws the surface over the finished scene, where water is seen. */
 void lom_begin_water(struct frame *f, const char *text);
 
+/* frame_waves.c: whether the scene's water has waves; of a sea its places, then the rest of it, with a step of the
+ * plan. False: the error says why. */
+bool lom_has_waves(const struct frame *f);
+bool lom_place_frame_waves(struct frame *f, lom_error *error);
+bool lom_fill_frame_waves(struct frame *f, lom_error *error);
+
 #endif

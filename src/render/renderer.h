@@ -102,13 +102,20 @@ void lom_move_scene(lom_renderer *renderer, double time);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
 /* The terrain's heights as a texture, where caustics need them. */
 bool lom_load_bed(lom_renderer *renderer, lom_error *error);
-/* sea_waves.c: the cascades of a sea, its textures at a time, its height over a point at that time, metres. */
+/* sea_waves.c: the cascades of a sea. As much as a picture needs is done of: bounds (widens those of `out` by all that
+ * cascades could add at any time); places (heights and displacements at a time, and the bounds of those); the rest,
+ * which must follow the places at the same time, as textures. */
 bool lom_load_sea(lom_renderer *renderer, lom_error *error);
+void lom_bound_sea(const lom_renderer *renderer, struct lom_waves_uniform *out);
+bool lom_place_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
 bool lom_fill_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
+/* Over a point where the places were made last, metres. */
 double lom_sea_height(const lom_renderer *renderer, double x, double z);
-/* What water with waves needs; its waves at a time, and their height over a point of the world, metres. */
+/* What water with waves needs; its waves at a time, of a sea the bounds or the places alone; and their height over a
+ * point of the world, metres. */
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
-bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
+void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
+bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
 double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
 /* load_clouds.c */
 bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error);

@@ -2,6 +2,7 @@
  * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
 #include "render/renderer.h"
 
+enum { places = LOM_SEA_HEIGHT | LOM_SEA_DISPLACEMENT };
 enum { MOMENTS = 3 }; /* of the window before this one, at which foam is looked for */
 
 bool lom_load_sea(lom_renderer *renderer, lom_error *error)
@@ -66,7 +67,7 @@ static bool fill_cascade(lom_renderer *r, struct lom_waves_uniform *out, int cas
     struct lom_cascade_uniform *u = &out->cascade[cascade];
     lom_texture **held = r->sea_fields[cascade];
     if (!find_foam(r, cascade, moments, time, error) ||
-        !lom_advance_cascade(r->sea, r->device, cascade, LOM_SEA_ALL, time, error))
+        !lom_advance_cascade(r->sea, r->device, cascade, LOM_SEA_ALL & ~(unsigned)places, time, error))
         return false;
     lom_sea_cascade c = lom_view_cascade(r->sea, cascade);
     if (r->scene->water.foam.amount > 0)
@@ -85,9 +86,31 @@ static bool fill_cascade(lom_renderer *r, struct lom_waves_uniform *out, int cas
             return lom_fail(error, lom_device_error(r->device)->code, "%s", lom_device_error(r->device)->text);
     }
     *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], (float)(1 / c.length), 0.5f / (float)c.size };
-    out->lowest += c.lowest;
-    out->highest += c.highest;
-    out->reach += 1.4142137f * c.reach;
+    return true;
+}
+
+void lom_bound_sea(const lom_renderer *renderer, struct lom_waves_uniform *out)
+{
+    const lom_sea_desc *desc = renderer->sea != NULL ? lom_describe_sea(renderer->sea) : NULL;
+    for (int i = 0; desc != NULL && i < desc->cascade_count; i++) {
+        float bound = (float)(1.001 * lom_view_cascade(renderer->sea, i).bound);
+        out->lowest -= bound;
+        out->highest += bound;
+        out->reach += 1.4142137f * (float)desc->choppiness * bound;
+    }
+}
+
+bool lom_place_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
+{
+    int count = renderer->sea != NULL ? lom_describe_sea(renderer->sea)->cascade_count : 0;
+    for (int i = 0; i < count; i++) {
+        if (!lom_advance_cascade(renderer->sea, renderer->device, i, places, time, error))
+            return false;
+        lom_sea_cascade c = lom_view_cascade(renderer->sea, i);
+        out->lowest += c.lowest;
+        out->highest += c.highest;
+        out->reach += 1.4142137f * c.reach;
+    }
     return true;
 }
 

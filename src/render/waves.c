@@ -90,11 +90,17 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
     return load_foam(renderer, error) && load_flow(renderer, error) && lom_load_sea(renderer, error);
 }
 
-bool lom_fill_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
+void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time)
 {
     lom_fill_trochoids(out, &renderer->scene->water, time);
     fill_flow(renderer, &out->flow, time);
-    return lom_fill_sea(renderer, out, time, error);
+    lom_bound_sea(renderer, out);
+}
+
+bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
+{
+    lom_fill_trochoids(out, &renderer->scene->water, time);
+    return lom_place_sea(renderer, out, time, error);
 }
 
 double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z)

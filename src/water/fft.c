@@ -182,6 +182,7 @@ void lom_transform_hermitian(lom_fft *fft, lom_device *device, float *real, floa
 {
     size_t lanes = (size_t)variants[device->variant].lanes, count = (size_t)fft->size,
            pitch = lom_fft_pitch(fft->size / 2);
+    device->counters.transforms++;
     lom_run_pool(device->pool, work,
                  &(struct job){ .fft = fft,
                                 .group = variants[device->variant].columns,

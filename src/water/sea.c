@@ -29,15 +29,20 @@ struct making {
     const lom_sea *sea;
     struct lom_cascade *cascade;
     int number, workers;
-    double *sums; /* a row: variance of heights, of slopes, waves */
+    double *sums; /* a row: variance of heights, of slopes, waves, and of amplitudes the sum over both sides of 0 */
 };
+
+static double magnitude(const double a[2])
+{
+    return lom_double_sqrt(a[0] * a[0] + a[1] * a[1]);
+}
 
 static void make_row(const struct making *making, int row)
 {
     const lom_sea *sea = making->sea;
     struct lom_cascade *c = making->cascade;
     int size = c->view.size, m = row < size / 2 ? row : row - size;
-    double step = two_pi / c->view.length, *sums = making->sums + 3 * (size_t)row;
+    double step = two_pi / c->view.length, *sums = making->sums + 4 * (size_t)row;
     size_t pitch = lom_fft_pitch(size / 2), plane = pitch * (size_t)size;
     for (int n = 0; n < size / 2 && m != -size / 2; n++) {
         double there[2], back[2], kx = step * n, kz = step * m;
@@ -49,6 +54,7 @@ static void make_row(const struct making *making, int row)
         to[2 * plane] = (float)(there[1] - back[1]);
         to[3 * plane] = (float)(back[0] - there[0]);
         double k2 = kx * kx + kz * kz;
+        sums[3] += (magnitude(there) + magnitude(back)) * (n > 0 ? 2 : 1);
         c->turns[(size_t)row * pitch + (size_t)n] =
             lom_dispersion(lom_double_sqrt(k2), sea->spectrum.depth, sea->spectrum.gravity) / two_pi;
         if (k2 * c->view.longest * c->view.longest > two_pi * two_pi &&
@@ -82,7 +88,7 @@ static bool make_cascade(lom_sea *sea, int number, lom_device *device, lom_error
     c->turns = lom_allocate(plane, sizeof *c->turns, error);
     c->factors = lom_allocate(plane, 4 * sizeof *c->factors, error);
     c->memory = lom_allocate(size * size, 9 * sizeof *c->memory, error);
-    double *sums = lom_allocate(size, 3 * sizeof *sums, error);
+    double *sums = lom_allocate(size, 4 * sizeof *sums, error);
     if (c->fft == NULL || c->turns == NULL || c->factors == NULL || c->memory == NULL || sums == NULL) {
         lom_release(sums);
         return false;
@@ -96,9 +102,10 @@ static bool make_cascade(lom_sea *sea, int number, lom_device *device, lom_error
     lom_run_pool(device->pool, make_rows, &making);
     double waves = 0;
     for (size_t row = 0; row < size; row++) {
-        c->view.height_variance += sums[3 * row];
-        c->view.slope_variance += sums[3 * row + 1];
-        waves += sums[3 * row + 2];
+        c->view.height_variance += sums[4 * row];
+        c->view.slope_variance += sums[4 * row + 1];
+        waves += sums[4 * row + 2];
+        c->view.bound += 1.001 * sums[4 * row + 3]; /* floats round */
     }
     c->view.waves = (int)waves;
     lom_release(sums);

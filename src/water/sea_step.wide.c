@@ -136,6 +136,11 @@ LOM_INLINE void write_jacobian(const struct lom_sea_rows *r, int row)
     }
 }
 
+LOM_INLINE bool is_asked(const struct lom_sea_rows *r, unsigned fields)
+{
+    return (r->asked & fields) != 0;
+}
+
 void LOM_WIDE(lom_sea_view_row)(const struct lom_sea_rows *r, int row)
 {
     static const int place[LOM_FIELDS] = { LOM_FIELD_DX, LOM_FIELD_H,  LOM_FIELD_DZ, LOM_FIELD_XZ,
@@ -143,13 +148,15 @@ void LOM_WIDE(lom_sea_view_row)(const struct lom_sea_rows *r, int row)
     static const unsigned needs[LOM_FIELDS] = { LOM_SEA_DISPLACEMENT, LOM_SEA_HEIGHT,  LOM_SEA_DISPLACEMENT,
                                                 LOM_SEA_JACOBIAN,     LOM_SEA_SLOPES,  LOM_SEA_SLOPES,
                                                 LOM_SEA_JACOBIAN,     LOM_SEA_JACOBIAN };
-    if (r->asked == LOM_SEA_ALL) {
-        write_pixels(r, r->displacement, place, row);
-        write_pixels(r, r->derivatives, place + 4, row);
-    } else {
-        for (int i = 0; i < LOM_FIELDS; i++)
-            if (r->asked & needs[i])
-                write_channel(r, i < 4 ? r->displacement : r->derivatives, i % 4, place[i], row);
+    for (int half = 0; half < 8; half += 4) {
+        float *pixels = half == 0 ? r->displacement : r->derivatives;
+        if (is_asked(r, needs[half]) && is_asked(r, needs[half + 1]) && is_asked(r, needs[half + 3])) {
+            write_pixels(r, pixels, place + half, row);
+            continue;
+        }
+        for (int i = half; i < half + 4; i++)
+            if (is_asked(r, needs[i]))
+                write_channel(r, pixels, i - half, place[i], row);
     }
     if (r->asked & LOM_SEA_JACOBIAN)
         write_jacobian(r, row);

@@ -61,6 +61,21 @@ sea='--set water.waves.kind=sea --set water.waves.size=64'
 [ "$(hash $sea --frame 3)" = "$(draw $sea --frames 2:3 --hash | sed -n 's/  frame 3$//p')" ] || why='a frame is another in a run'
 verdict the_sea_has_one_hash_and_any_frame_alone "$why"
 
+# 8 fields a cascade, and 3 of them at each of 3 moments for foam; places are 3 of the 8.
+transforms() { draw $sea --stats - -o "$folder/seen.ppm" "$@" | sed 's/.*"transforms": \([0-9]*\).*/\1/'; }
+why=
+up='--set camera.pitch=70 --set camera.position=[-3,9,14]' high='--set camera.pitch=70 --set camera.position=[-3,500,14]'
+[ "$(transforms)" = 51 ] || why='three cascades and their foam are not 51 transforms'
+[ "$(transforms --set water.foam.amount=0)" = 24 ] || why='three cascades are not 24 transforms'
+[ "$(transforms --set water.waves.height_scale=0)" = 0 ] || why='a calm sea is transformed'
+[ "$(transforms $up)" = 9 ] || why='an eye among what waves could be needs more than their places to see none'
+[ "$(transforms $high)" = 0 ] || why='an eye above all waves that looks up transforms a sea'
+case $(plan $sea $high) in *'-  waves '*'no cascade is advanced'*) ;; *) why='the plan does not say why' ;; esac
+for look in "$up" "$high"; do
+    [ "$(hash $sea $look)" = "$(hash $sea $look --set water.enabled=false)" ] || why='a sea that is not seen changes bytes'
+done
+verdict a_sea_that_is_not_seen_is_not_transformed "$why"
+
 sed '/terrain/,/^base/d; /entity/,$d' "$scene" >"$folder/open.toml"
 case $("$lom" plan "$folder/open.toml" --set quality.water=displaced) in
     *'*  reflection'* | *'*  refraction'*) why='a picture is drawn of nothing' ;;

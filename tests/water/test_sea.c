@@ -117,6 +117,52 @@ static void check_point(const lom_sea_cascade *v, const lom_sea_moment *moment, 
           p.xx, p.zz, p.xz);
 }
 
+/* |h| <= sum of |h0(k)| + |h0(-k)| at any time, and |dx|, |dz| at most choppiness times that. Not for nothing: the sum
+ * is no more than that of amplitudes, sqrt(2 waves) standard deviations (Cauchy and Schwarz) and a margin for luck. */
+static void no_wave_passes_its_bound(void)
+{
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 2 });
+    lom_sea *sea = lom_create_sea(&small_sea, device, NULL);
+    CHECK(sea != NULL, "no sea");
+    for (int t = 0; sea != NULL && t < 50; t++) {
+        CHECK(lom_advance_sea(sea, device, 7.31 * t * t, NULL), "no step");
+        for (int c = 0; c < 2; c++) {
+            lom_sea_cascade v = lom_view_cascade(sea, c);
+            double choppiness = lom_describe_sea(sea)->choppiness, high = (double)v.highest, low = (double)v.lowest;
+            CHECK(high <= v.bound && -low <= v.bound && (double)v.reach <= choppiness * v.bound, "cascade %d: %g", c,
+                  v.bound);
+            CHECK(v.bound < 1.3 * lom_double_sqrt(2 * v.waves * v.height_variance), "cascade %d: %g", c, v.bound);
+        }
+    }
+    lom_free_sea(sea);
+    lom_close_device(device);
+}
+
+/* Places first and the rest after them: the bytes of one step. */
+static void a_step_in_two_parts_is_one_step(void)
+{
+    const unsigned places = LOM_SEA_HEIGHT | LOM_SEA_DISPLACEMENT;
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 2 });
+    lom_sea *one = lom_create_sea(&small_sea, device, NULL), *two = lom_create_sea(&small_sea, device, NULL);
+    CHECK(one != NULL && two != NULL, "no sea");
+    for (int c = 0; one != NULL && two != NULL && c < 2; c++) {
+        CHECK(lom_advance_cascade(one, device, c, LOM_SEA_ALL, 3, NULL) &&
+                  lom_advance_cascade(two, device, c, places, 3, NULL) &&
+                  lom_advance_cascade(two, device, c, LOM_SEA_JACOBIAN, 2, NULL) &&
+                  lom_advance_cascade(two, device, c, LOM_SEA_ALL & ~places, 3, NULL),
+              "no step");
+        lom_sea_cascade a = lom_view_cascade(one, c), b = lom_view_cascade(two, c);
+        size_t count = (size_t)a.size * (size_t)a.size * sizeof(float);
+        CHECK(memcmp(a.displacement, b.displacement, 4 * count) == 0 &&
+                  memcmp(a.derivatives, b.derivatives, 4 * count) == 0 && memcmp(a.jacobian, b.jacobian, count) == 0,
+              "cascade %d", c);
+        CHECK(a.lowest == b.lowest && a.highest == b.highest && a.reach == b.reach, "cascade %d", c);
+    }
+    lom_free_sea(one);
+    lom_free_sea(two);
+    lom_close_device(device);
+}
+
 /* Far times and times before 0 as well: phases are reduced in double (F10). */
 static void f10_every_field_is_the_direct_sum_at_any_time(void)
 {
@@ -348,6 +394,8 @@ int main(int argc, char **argv)
     RUN(f8_f9_degenerate_spectra_are_zero_or_finite);
     RUN(f9_gamma_one_is_pierson_moskowitz);
     RUN(f11_dispersion);
+    RUN(no_wave_passes_its_bound);
+    RUN(a_step_in_two_parts_is_one_step);
     RUN(f10_every_field_is_the_direct_sum_at_any_time);
     RUN(one_hash_on_every_device_in_any_order);
     RUN(a_field_alone_is_the_same);

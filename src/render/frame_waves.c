@@ -1,0 +1,60 @@
+/* The waves of a frame, before the scene is drawn. In: a frame. Out: its waves, and whether the eye is below them.
+ * Invariant: of a sea no more is made than the picture can show. */
+#include "render/frame_water.h"
+
+bool lom_has_waves(const struct frame *f)
+{
+    const lom_water_params *water = &f->scene->water;
+    return water->given != 0 && water->enabled && f->scene->quality.water >= LOM_WATER_NORMAL_MAP;
+}
+
+/* Whether the eye is below the surface, where it is over or under the quad; a sea that has no places may be anywhere
+ * within its bounds. */
+static bool is_below(const struct frame *f)
+{
+    const lom_water_params *water = &f->scene->water;
+    const lom_vec3 *eye = &f->view.eye;
+    double x = eye->x - water->position[0], z = eye->z - water->position[1], level = water->level;
+    if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
+        return false;
+    if (f->scene->quality.water != LOM_WATER_NORMAL_MAP)
+        level += f->sea != WAVES_BOUNDED ? lom_wave_height(f->renderer, &f->waves, eye->x, eye->z)
+                                         : (double)f->waves.highest;
+    return eye->y < level;
+}
+
+bool lom_place_frame_waves(struct frame *f, lom_error *error)
+{
+    f->sea = WAVES_PLACED;
+    return lom_place_waves(f->renderer, &f->waves, f->time, error);
+}
+
+bool lom_fill_frame_waves(struct frame *f, lom_error *error)
+{
+    const lom_sea *sea = f->renderer->sea;
+    int calm = 0, count = sea == NULL ? 0 : lom_describe_sea(sea)->cascade_count;
+    for (int i = 0; i < count; i++)
+        calm += lom_view_cascade(sea, i).waves == 0;
+    if (sea != NULL && calm < count)
+        lom_add_step(f, "waves", true, "%d of %d cascades are advanced; %d have no waves", count - calm, count, calm);
+    else if (sea != NULL)
+        lom_add_step(f, "waves", false, "none of %d cascades has waves", count);
+    f->sea = WAVES_FILLED;
+    return lom_fill_sea(f->renderer, &f->waves, f->time, error);
+}
+
+/* An eye that is above all that waves could be needs the sea where it is drawn, if it is. */
+bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
+{
+    if (!lom_has_waves(f))
+        return true;
+    lom_bound_waves(f->renderer, &f->waves, f->time);
+    if (f->renderer->sea != NULL && !is_below(f))
+        return true;
+    if (!lom_place_frame_waves(f, error))
+        return false;
+    f->below = is_below(f);
+    if (f->below && !lom_fill_frame_waves(f, error))
+        return false;
+    return !f->below || lom_draw_caustics(f, error);
+}
