@@ -65,7 +65,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-mathematics bench-sampling install clean
+.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -154,6 +154,10 @@ bench-peers: $(BUILD)/lom
 # Milliseconds of every model of water, and its error against the reference (bench/results/water-models.md).
 bench-water-models: $(BUILD)/lom
 	BUILD='$(BUILD)' bench/water_models.sh
+
+# Milliseconds of every stage of a large sea (bench/results/sea.md).
+bench-sea: $(BUILD)/lom
+	BUILD='$(BUILD)' bench/sea.sh
 
 # Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
 bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))

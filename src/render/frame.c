@@ -18,6 +18,7 @@ static const struct stage {
     { lom_prepare_sea_stage, "waves" },    /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },              /* terrain, entities and sky */
     { lom_draw_lake_stage, "lake" },       /* tinted or planar water over them */
+    { lom_find_sea_stage, "sea_waves" },   /* the waves of a sea where one is seen */
     { lom_draw_sea_stage, "sea" },         /* or water with waves */
     { lom_draw_cloud_stage, "clouds" },    /* clouds over all */
 };

@@ -393,6 +393,7 @@ static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_er
     bool flat = f->scene->quality.water == LOM_WATER_NORMAL_MAP;
     lom_box box = slab(&sea->uniforms, flat);
     lom_frustum frustum = lom_view_frustum(&sea->clip_from_world, false);
+    f->water = (lom_rect){ 0, 0, 0, 0 };
     *why = "the water is outside the view";
     if (lom_box_visibility(&frustum, box) == LOM_OUTSIDE)
         return true;
@@ -420,21 +421,22 @@ static bool find_waves(struct sea *sea, struct frame *f, const char **why, lom_e
     if (*why != NULL && f->renderer->sea != NULL && f->sea != WAVES_FILLED)
         lom_add_step(f, "waves", false, "%s: %s", *why,
                      f->sea == WAVES_BOUNDED ? "no cascade is advanced" : "their places tell, no more of them is made");
-    if (*why == NULL && f->sea != WAVES_FILLED) {
-        if (!lom_fill_frame_waves(f, error))
-            return false;
-        sea->uniforms.waves = f->waves;
-    }
-    return true;
+    return *why != NULL || f->sea == WAVES_FILLED || lom_fill_frame_waves(f, error);
+}
+
+bool lom_find_sea_stage(struct frame *f, lom_error *error)
+{
+    struct sea sea;
+    const char *why;
+    if (!lom_has_waves(f))
+        return true;
+    memset(&sea, 0, sizeof sea);
+    look_at_sea(&sea, f);
+    return find_waves(&sea, f, &why, error) && (why == NULL || lom_skip_water(f, why));
 }
 
 static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
 {
-    const char *why;
-    if (!find_waves(sea, f, &why, error))
-        return false;
-    if (why != NULL)
-        return lom_skip_water(f, why);
     if (!f->below && !lom_draw_caustics(f, error))
         return false;
     return draw_mirrored(sea, f) && draw_behind(sea, f) && draw_surface(sea, f, error);
@@ -447,7 +449,7 @@ bool lom_draw_sea_stage(struct frame *f, lom_error *error)
         return true;
     memset(&sea, 0, sizeof sea);
     look_at_sea(&sea, f);
-    if (!draw_seen(&sea, f, error))
+    if (f->water.width != 0 && !draw_seen(&sea, f, error))
         return false;
     return !f->below || draw_underwater(&sea, f);
 }
