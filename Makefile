@@ -17,7 +17,7 @@ MACHINE := $(shell $(CC) -dumpmachine)
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
-CFLAGS      = -std=gnu11 -O$(O) -g -fPIC $(FLOAT_FLAGS) $(WARNINGS)
+CFLAGS      = -std=gnu11 -O$(O) -g -fPIC -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
 # Sanitized code is optimised little: it compiles many times faster and says more.
 ifneq ($(SAN),)
@@ -35,8 +35,10 @@ else
 VARIANTS = 4 8 16
 endif
 FLAGS_4        = -DLOM_ALL_LANES -DLOM_LANES=4 -DLOM_VARIANT=4
-FLAGS_8_plain  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8_plain
-FLAGS_16_plain = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16_plain
+# Nobody waits for the lowered widths, which show on any CPU what the others draw, so they are compiled for size.
+LOWERED        = -DLOM_LOWERED $(if $(filter 3,$(O)),-Os)
+FLAGS_8_plain  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8_plain $(LOWERED)
+FLAGS_16_plain = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16_plain $(LOWERED)
 ifneq ($(filter x86_64%,$(MACHINE)),)
 FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8 -mavx2
 FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16 $(AVX512)
@@ -58,6 +60,11 @@ CLI_LIBS = $(shell pkg-config --libs sdl2)
 endif
 lib_objects  := $(lib_sources:%.c=$(BUILD)/%.o) $(foreach v,$(VARIANTS),$(wide_sources:%.wide.c=$(BUILD)/%.w$(v).o))
 cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
+
+# What runs once and briefly is compiled for size.
+ifeq ($(O),3)
+$(BUILD)/src/cli/%.o $(BUILD)/src/scene/%.o $(BUILD)/src/geometry/build%.o: private CFLAGS += -Os
+endif
 
 tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
 wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))

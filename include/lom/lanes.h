@@ -32,7 +32,13 @@
 /* The name of a function that exists once for each way lanes are built: LOM_WIDE(f) is f_4, f_8, f_16, f_8_plain ... */
 #define LOM_WIDE(name) LOM_PASTE(name, LOM_VARIANT)
 
+/* Lowered lanes (LOM_LOWERED), which the machine has no vectors for, are many instructions an operation, so there the
+ * compiler weighs every copy: a program without it would be twice the size (bench/results/limits.md). */
+#ifdef LOM_LOWERED
+#define LOM_INLINE static inline __attribute__((unused))
+#else
 #define LOM_INLINE static inline __attribute__((always_inline, unused))
+#endif
 
 typedef float lom_float __attribute__((vector_size(LOM_LANES * 4)));
 typedef int32_t lom_int __attribute__((vector_size(LOM_LANES * 4)));

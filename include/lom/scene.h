@@ -130,6 +130,7 @@ typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers
     double from_slope, to_slope;   /* radians from flat (0) to upright (pi/2) */
     double blend;                  /* metres of height over which the layer fades in and out at its height bounds */
     double slope_blend;            /* radians, the same at its slope bounds */
+    double grain;                  /* how far the brightness of what lies under it moves its bounds; 0: not at all */
     int mapping;                   /* lom_mapping: from above, or from three sides */
 } lom_terrain_layer;
 
@@ -219,6 +220,7 @@ typedef struct lom_quality {
     lom_reference_quality reference;
     bool scissor;           /* pictures are drawn only where lookups can reach; changes no byte */
     double terrain_error;   /* pixels that terrain may be off where it is drawn coarser; 0: full density */
+    bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
     bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
 } lom_quality;
 

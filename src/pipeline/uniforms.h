@@ -19,6 +19,9 @@ struct lom_light_uniform {
     const lom_texture *shadow;
     float shadow_s[4], shadow_t[4]; /* rows: texture coordinates of a place (x, y, z, 1) */
     float shadow_strength;
+    /* up to which height (metres) terrain keeps the light off, over x and z; NULL: nowhere */
+    const lom_texture *ground_shadow;
+    float ground_scale[2]; /* its coordinates are 0.5 + (x, z) ground_scale */
 };
 
 LOM_INLINE lom_float3 lom_uniform3(const float v[3])
@@ -38,15 +41,27 @@ LOM_INLINE lom_float4 lom_transform4(const struct lom_matrix_uniform *m, lom_flo
                          lom_transform_row(m->m[3], p) };
 }
 
-/* The share of the light that clouds let through to a place. */
+/* The share of the light that passes terrain: from none half a metre below the shadow's height to all above it. */
+LOM_INLINE lom_float lom_ground_light(const struct lom_light_uniform *light, lom_float3 world)
+{
+    if (light->ground_shadow == NULL)
+        return lom_splat(1.0f);
+    lom_float height = lom_sample(light->ground_shadow, 0.5f + world.x * light->ground_scale[0],
+                                  0.5f + world.z * light->ground_scale[1], (lom_float){ 0 })
+                           .x;
+    return lom_saturate(1.0f + (world.y - height) * 2.0f);
+}
+
+/* The share of the light that clouds and terrain let through to a place. */
 LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_float3 world)
 {
+    lom_float share = lom_ground_light(light, world);
     if (light->shadow == NULL)
-        return lom_splat(1.0f);
+        return share;
     lom_float through = lom_sample(light->shadow, lom_transform_row(light->shadow_s, world),
                                    lom_transform_row(light->shadow_t, world), (lom_float){ 0 })
                             .x;
-    return 1.0f - light->shadow_strength * (1.0f - through);
+    return share * (1.0f - light->shadow_strength * (1.0f - through));
 }
 
 /* The upper three rows of m (p, 1). */

@@ -14,6 +14,13 @@ static const lom_texture *find_texture(lom_renderer *renderer, const char *path,
     return path == NULL ? NULL : lom_load_texture(renderer, path, color, NULL);
 }
 
+void lom_ground_scale(const struct lom_ground *ground, const double size[2], float scale[2])
+{
+    double columns = ground->columns, rows = ground->rows;
+    scale[0] = (float)(columns / (size[0] * (columns + 1)));
+    scale[1] = (float)(rows / (size[1] * (rows + 1)));
+}
+
 static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, const struct lom_view_uniform *view)
 {
     const lom_terrain *t = &renderer->scene->terrain;
@@ -22,9 +29,7 @@ static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, cons
                                       .detail_map = find_texture(renderer, t->detail_map, false),
                                       .normal_map = find_texture(renderer, t->normal_map, false),
                                       .layer_count = (int)t->layer_count };
-    double columns = renderer->ground.columns, rows = renderer->ground.rows;
-    u.surface_scale[0] = (float)(columns / (t->size[0] * (columns + 1)));
-    u.surface_scale[1] = (float)(rows / (t->size[1] * (rows + 1)));
+    lom_ground_scale(&renderer->ground, t->size, u.surface_scale);
     set_scale(u.scale, t->tile, t->size);
     set_scale(u.detail_scale, t->detail_tile, t->size);
     for (int i = 0; i < 3; i++) {
@@ -44,6 +49,8 @@ static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, cons
                                              .to_slope = (float)from->to_slope,
                                              .blend = from->blend > 1e-3 ? (float)from->blend : 1e-3f,
                                              .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f,
+                                             .grain = (float)from->grain / renderer->brightness_below[i],
+                                             .grain_offset = (float)from->grain,
                                              .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
         set_scale(layer->scale, from->tile, t->size);
     }

@@ -50,6 +50,8 @@ struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer)
 {
     struct lom_light_uniform u = lom_scene_light(renderer->scene);
     const struct lom_ground_shadow *shadow = &renderer->ground_shadow;
+    u.ground_shadow = renderer->ground.shadow;
+    lom_ground_scale(&renderer->ground, renderer->scene->terrain.size, u.ground_scale);
     if (!shadow->falls)
         return u;
     u.shadow = shadow->texture;

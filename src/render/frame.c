@@ -14,6 +14,7 @@ static const struct stage {
     bool (*run)(struct frame *f, lom_error *error);
     const char *name;
 } stages[] = {
+    { lom_prepare_ground, "terrain" },     /* its levels of detail and its shadow */
     { lom_prepare_clouds, "cloud_light" }, /* their light */
     { lom_prepare_sea_stage, "waves" },    /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },              /* terrain, entities and sky */
@@ -58,15 +59,6 @@ static void look(struct frame *f)
     f->view.sky = true;
 }
 
-/* The terrain's level of detail is the whole frame's, for all passes. */
-static bool choose_detail(struct frame *f, lom_error *error)
-{
-    struct lom_ground *ground = &f->renderer->ground;
-    double scale = f->height * f->view.projection.m[1][1] / 2;
-    return ground->blocks == NULL ||
-           lom_choose_ground(ground, f->camera.position, scale, f->scene->quality.terrain_error, error);
-}
-
 static bool draw_opaque(struct frame *f, lom_error *error)
 {
     (void)error;
@@ -107,7 +99,7 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
     lom_renderer *r = f->renderer;
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
         return NULL;
-    bool done = choose_detail(f, error);
+    bool done = true;
     double before = milliseconds();
     for (size_t i = 0; done && i < sizeof stages / sizeof stages[0]; i++) {
         done = stages[i].run(f, error);

@@ -38,6 +38,8 @@ struct lom_ground {
     float *heights; /* of all vertices, (columns + 1) x (rows + 1) */
     /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
     lom_texture *surface;
+    lom_texture *shadow;    /* a texel a vertex: the height up to which terrain keeps the sun off; or NULL */
+    lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
 
@@ -48,15 +50,23 @@ struct lom_ground {
     double *distance;
 };
 
-/* Reads the terrain of a scene; the texture belongs to the device. False on failure; freed with lom_free_ground. */
+/* Reads the terrain of a scene; `surface` belongs to the device. False on failure; freed with lom_free_ground. */
 bool lom_load_ground(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map, bool occlusion,
                      lom_device *device, lom_error *error);
+/* Texture coordinates of the textures with a texel a vertex are 0.5 + (x, z) scale. */
+void lom_ground_scale(const struct lom_ground *ground, const double size[2], float scale[2]);
 void lom_free_ground(struct lom_ground *ground);
 
 /* The share of the sky (0..1, weighted by the cosine to the vertical) that each vertex sees over the heights around
  * it, from a grid of at most 256 x 256 of them. share: width x height numbers, `stride` floats apart. */
 bool lom_find_sky_visibility(const float *heights, int width, int height, const double size[2], float *share,
                              size_t stride, lom_error *error);
+
+/* For each vertex of width x height heights the height up to which terrain shadows a place there: the largest
+ * h - d tan e of the heights h at a distance d > 0 towards the light, which stands at the elevation e. Below -1e29
+ * where nothing does. */
+bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
+                            float *shadow, lom_error *error);
 
 /* Chooses every block's level: the coarsest whose error is at most `pixels` on the screen, neighbours at most one level
  * apart, and sorts the blocks by distance. scale: pixels of 1 m at 1 m distance; pixels 0: full density. */

@@ -230,4 +230,5 @@ void lom_free_ground(struct lom_ground *ground)
     lom_release(ground->distance);
     lom_release(ground->position);
     lom_release(ground->heights);
+    lom_free_texture(ground->shadow);
 }

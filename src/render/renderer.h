@@ -71,7 +71,8 @@ struct lom_renderer {
     size_t path_count, path_capacity;
 
     lom_texture *sky, *sun, *normal_map, *flow_map;
-    struct lom_ground ground; /* blocks are NULL when the scene has no terrain */
+    struct lom_ground ground;                       /* blocks are NULL when the scene has no terrain */
+    float brightness_below[LOM_MAX_TERRAIN_LAYERS]; /* mean of the picture below a layer with grain, above 0 */
     struct lom_loaded_entity *entities;
     size_t entity_count;
     struct lom_cloud_set *clouds; /* NULL: none */

@@ -42,6 +42,8 @@ struct lom_layer_uniform {
     float from_height, to_height; /* metres */
     float from_slope, to_slope;   /* radians */
     float blend, slope_blend;     /* above 0 */
+    float grain;                  /* how far the brightness below moves its weight, over the mean of that brightness */
+    float grain_offset;           /* grain, where the brightness is the mean */
     bool triplanar;               /* laid on from three sides instead of from above */
 };
 

@@ -107,6 +107,14 @@ LOM_INLINE lom_float range_weight(lom_float x, float from, float to, float blend
     return lom_saturate(1.0f + (x - from) * inverse) * lom_saturate(1.0f + (to - x) * inverse);
 }
 
+/* The weight w of a layer over what lies below it, with the brightness b and the mean brightness m: where it fades, it
+ * gains 4 w (1 - w) grain (1 - b / m), so 0 and 1 stay. */
+LOM_INLINE lom_float ragged(const struct lom_layer_uniform *layer, lom_float weight, lom_float3 below)
+{
+    lom_float gain = layer->grain_offset - layer->grain * (0.2126f * below.x + 0.7152f * below.y + 0.0722f * below.z);
+    return lom_saturate(weight + 4.0f * weight * (1.0f - weight) * gain);
+}
+
 static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
 {
     lom_float3 color = lom_splat3(1, 1, 1);
@@ -120,6 +128,8 @@ static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_v
                            range_weight(g->slope, layer->from_slope, layer->to_slope, layer->slope_blend);
         if (!lom_any(weight > 0.0f))
             continue;
+        if (layer->grain != 0)
+            weight = ragged(layer, weight, color);
         lom_float4 texel = layer->triplanar ? sample_sides(layer->map, in, layer->scale, g->normal)
                                             : sample_ground(layer->map, in, layer->scale);
         color = lom_mix3(color, (lom_float3){ texel.x, texel.y, texel.z }, weight);

@@ -198,6 +198,10 @@ static const lom_key terrain_layer[] = {
       .text = "Height over which the layer fades in and out at its bounds." },
     { "slope_blend", LOM_KEY_ANGLE, AT(lom_terrain_layer, slope_blend), .maximum = 90, .initial = { 5 },
       .unit = "degrees", .text = "The same at the bounds of the slope." },
+    { "grain", LOM_KEY_NUMBER, AT(lom_terrain_layer, grain), .maximum = 100,
+      .text =
+          "Where the layer fades, it lies thicker on what is darker than the picture below it is on average, as snow "
+          "lies in clefts; larger numbers make its border sharper and more ragged." },
     { "mapping", LOM_KEY_CHOICE, AT(lom_terrain_layer, mapping), .choices = { "planar", "triplanar" },
       .text = "`planar` lays the picture on from above, which stretches it on steep ground; `triplanar` from above and "
               "from the sides, mixed by the normal." },
@@ -340,6 +344,8 @@ static const lom_key quality[] = {
       .unit = "pixels",
       .text = "How far the surface of terrain may be off on the screen where it is drawn with fewer triangles. 0 draws "
               "every pixel of the height map everywhere." },
+    { "terrain_shadows", LOM_KEY_BOOL, AT(lom_quality, terrain_shadows),
+      .text = "Terrain keeps the sun off terrain, entities and water that lie behind it." },
     { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion),
       .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
 };

@@ -202,6 +202,72 @@ static void visibility_of_the_sky(void)
           (double)expected);
 }
 
+/* Along rows, columns and diagonals of square cells rays pass through vertices only: the shadow's height is the largest
+ * h - d tan e over the vertices towards the sun. */
+static float hills[24 * 24], shadow[24 * 24];
+
+static float brute_shadow(int x, int z, int dx, int dz, double sink)
+{
+    double highest = -1e30;
+    for (int i = 1; x + i * dx >= 0 && x + i * dx < 24 && z + i * dz >= 0 && z + i * dz < 24; i++) {
+        double h = (double)hills[(z + i * dz) * 24 + x + i * dx] - i * sink;
+        highest = h > highest ? h : highest;
+    }
+    return (float)highest;
+}
+
+static void shadows_along_rows_and_diagonals(void)
+{
+    for (int i = 0; i < 24 * 24; i++)
+        hills[i] = (float)(20 * lom_random_uniform(3, (uint64_t)i));
+    for (int way = 0; way < 9; way++) {
+        int dx = way % 3 - 1, dz = way / 3 - 1;
+        if (way == 4)
+            continue;
+        double to_light[3] = { dx * 0.5, 0.4, dz * 0.5 }; /* over cells of 2 m: 1.6 m down a step, any length */
+        CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, to_light, shadow, NULL), "no memory");
+        for (int i = 0; i < 24 * 24; i++) {
+            float expected = brute_shadow(i % 24, i / 24, dx, dz, 1.6);
+            bool none = expected < -1e29f;
+            CHECK(none ? shadow[i] < -1e29f : shadow[i] > expected - 1e-3f && shadow[i] < expected + 1e-3f,
+                  "towards (%d, %d), vertex %d: %g, not %g", dx, dz, i, (double)shadow[i], (double)expected);
+        }
+    }
+}
+
+/* A plane that rises towards the sun by less than its elevation shadows itself nowhere, one that rises by more
+ * everywhere but where nothing stands towards the sun; both to the bit of the step: the height at a step of the sweep,
+ * less the ray's. */
+static void shadows_of_planes(void)
+{
+    for (int way = 0; way < 16; way++) {
+        double angle = 0.3 + way * 0.4, to_light[3] = { lom_double_cos(angle), 0.5, lom_double_sin(angle) };
+        for (int steep = 0; steep < 2; steep++) {
+            double rise = steep ? 0.8 : 0.3, longer; /* a metre towards the sun */
+            for (int i = 0; i < 24 * 24; i++)
+                hills[i] = (float)(rise * (to_light[0] * 2 * (i % 24) + to_light[2] * 2 * (i / 24)));
+            CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, to_light, shadow, NULL), "no memory");
+            longer = to_light[0] * to_light[0] > 0.5 ? to_light[0] : to_light[2];
+            double step = 2 / (longer < 0 ? -longer : longer),
+                   at = (double)shadow[12 * 24 + 12] - (double)hills[12 * 24 + 12];
+            CHECK(steep ? at > 0.3 * step : at < -0.199 * step && at > -0.201 * step, "at %g rad: %g m above the plane",
+                  angle, at);
+        }
+    }
+}
+
+static void shadows_of_extreme_suns(void)
+{
+    for (int i = 0; i < 24 * 24; i++)
+        hills[i] = (float)(i % 5);
+    CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, (double[]){ 0.6, -0.1, 0.6 }, shadow, NULL) &&
+              shadow[77] > 1e29f,
+          "a sun below the horizon: %g", (double)shadow[77]);
+    CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, (double[]){ 0, 1, 0 }, shadow, NULL) &&
+              shadow[77] < -1e29f,
+          "a sun in the zenith: %g", (double)shadow[77]);
+}
+
 int main(int argc, char **argv)
 {
     RUN(full_density_at_zero_pixels);
@@ -210,5 +276,8 @@ int main(int argc, char **argv)
     RUN(errors_are_what_a_level_is_off);
     RUN(planes_are_coarse);
     RUN(visibility_of_the_sky);
+    RUN(shadows_along_rows_and_diagonals);
+    RUN(shadows_of_planes);
+    RUN(shadows_of_extreme_suns);
     return check_result();
 }

@@ -1,0 +1,52 @@
+/* Terrain before anything of a frame is drawn. In: the frame's camera and sun. Out: every block's level of detail, the
+ * same for all passes, and the shadow that the terrain throws. Invariant: both follow from the whole frame. */
+#include "render/frame.h"
+
+static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec3 to_light, lom_error *error)
+{
+    int width = ground->columns + 1, height = ground->rows + 1;
+    const double direction[3] = { to_light.x, to_light.y, to_light.z };
+    float *shadow = lom_allocate((size_t)width * (size_t)height, sizeof *shadow, error);
+    lom_free_texture(ground->shadow);
+    ground->shadow = NULL;
+    if (shadow != NULL && lom_find_ground_shadow(ground->heights, width, height, size, direction, shadow, error))
+        ground->shadow = lom_create_texture(
+            &(lom_texture_desc){
+                .width = width,
+                .height = height,
+                .format = LOM_FORMAT_R32F,
+                .pixels = shadow,
+                .sampler = { .wrap_s = LOM_WRAP_BORDER, .wrap_t = LOM_WRAP_BORDER, .border = { -1e30f } } },
+            error);
+    lom_release(shadow);
+    ground->shadowed_from = to_light;
+    return ground->shadow != NULL;
+}
+
+static bool cast_shadow(struct frame *f, lom_error *error)
+{
+    struct lom_ground *ground = &f->renderer->ground;
+    const lom_vec3 light = f->scene->light.direction, made = ground->shadowed_from;
+    const lom_vec3 to_light = { -light.x, -light.y, -light.z };
+    if (!f->scene->quality.terrain_shadows) {
+        lom_add_step(f, "terrain shadow", false, "quality.terrain_shadows is off");
+        return true;
+    }
+    if (ground->shadow != NULL && made.x == to_light.x && made.y == to_light.y && made.z == to_light.z) {
+        lom_add_step(f, "terrain shadow", false, "the sun has not moved");
+        return true;
+    }
+    lom_step *step = lom_add_step(f, "terrain shadow", true, "heights up to which terrain keeps the sun off");
+    step->width = ground->columns + 1;
+    step->height = ground->rows + 1;
+    return make_shadow(ground, f->scene->terrain.size, to_light, error);
+}
+
+bool lom_prepare_ground(struct frame *f, lom_error *error)
+{
+    struct lom_ground *ground = &f->renderer->ground;
+    double scale = f->height * f->view.projection.m[1][1] / 2;
+    return ground->blocks == NULL ||
+           (lom_choose_ground(ground, f->camera.position, scale, f->scene->quality.terrain_error, error) &&
+            cast_shadow(f, error));
+}
