@@ -36,6 +36,8 @@ struct looking {
     bool is_reference;
     struct lom_impostor_eye eye;
     struct lom_cloud_view seen; /* by which plates are marched and shown */
+    bool has_aircraft;          /* the camera follows it from behind: a plate whose cloud it is in is split */
+    lom_vec3 aircraft;          /* in the world */
     int width, height;          /* of the picture */
 };
 
@@ -160,6 +162,16 @@ static bool refresh(const struct looking *l, struct lom_impostor *impostor, cons
     return done;
 }
 
+/* Where a plate is cut: at the aircraft, when it is in the cloud. The number of parts. */
+static int find_cut(const struct looking *l, const struct lom_plate *plate, const struct lom_placed_cloud *cloud,
+                    double *cut)
+{
+    if (!l->has_aircraft || distance_to_box(cloud, lom_vec3_subtract(l->aircraft, cloud->middle)) > 0)
+        return 1;
+    *cut = lom_vec3_dot(lom_vec3_subtract(l->aircraft, l->seen.eye), plate->forward);
+    return *cut > l->eye.near_plane ? 2 : 1;
+}
+
 /* Brings one cloud's plate up to date. False: the device failed. */
 static bool update(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
 {
@@ -178,15 +190,19 @@ static bool update(const struct looking *l, struct lom_impostor *impostor, const
     }
     if (was_around != impostor->is_around)
         impostor->is_made = false;
+    if (impostor->is_around)
+        lom_make_screen_plate(eye, &l->eye, l->dials->inside_scale, l->width, l->height, &plate);
+    double cut = 0;
+    int parts = find_cut(l, &plate, cloud, &cut);
+    bool is_whole = parts == 1 && impostor->parts == 1; /* a cut moves with the aircraft */
     counts->plates++;
-    if (why_refresh(l, impostor, cloud, corner, eye) == LOM_REFRESH_NONE) {
+    if (is_whole && why_refresh(l, impostor, cloud, corner, eye) == LOM_REFRESH_NONE) {
         counts->reused++;
         return true;
     }
-    if (impostor->is_around)
-        lom_make_screen_plate(eye, &l->eye, l->dials->inside_scale, l->width, l->height, &plate);
     impostor->plate = plate;
-    impostor->parts = 1;
+    impostor->parts = parts;
+    impostor->cut = cut;
     counts->refreshed++;
     return refresh(l, impostor, cloud);
 }
@@ -225,6 +241,11 @@ size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, co
                          .seen = *seen,
                          .width = width,
                          .height = height };
+    const lom_camera *camera = &f->scene->camera;
+    if (camera->followed != 0 && camera->person == LOM_PERSON_THIRD && !view->mirrored) {
+        l.has_aircraft = true;
+        l.aircraft = lom_scene_entity_at(&f->scene->entities[camera->followed - 1], f->time).position;
+    }
     size_t *order = lom_allocate(r->clouds->count, sizeof *order, error);
     struct lom_impostor *all = provide_impostors(r, view->mirrored, error);
     bool done = order != NULL && all != NULL;
