@@ -110,6 +110,8 @@ typedef struct lom_clouds {
     double lighter, dark_light;          /* the original's constants of lighting in advance */
     lom_cloud_wind *winds;               /* by height; between two their ways are mixed */
     size_t wind_count;                   /* 0: calm */
+    double evolve; /* seconds in which the small shapes of clouds become others; 0: they stay as they are */
+    double swell;  /* 0..1, how much clouds grow and shrink meanwhile, in twice that time */
 } lom_clouds;
 
 /* ---- quality.clouds ---- */

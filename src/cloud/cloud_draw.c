@@ -67,8 +67,8 @@ static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, c
     const double grain = cloud->detail_size / set->detail->size;
     *march = (lom_medium_desc){ .medium = placed->density->medium,
                                 .light = placed->light,
-                                .detail = cloud->detail > 0 ? set->detail : NULL,
-                                .detail_strength = (float)cloud->detail,
+                                .detail = placed->detail > 0 ? set->detail : NULL,
+                                .detail_strength = (float)placed->detail,
                                 .detail_near = (float)(0.6 * grain / view->pixel_angle),
                                 .detail_far = (float)(2.5 * grain / view->pixel_angle),
                                 .extinction = (float)(cloud->extinction * cloud->density),

@@ -2,6 +2,7 @@
 #ifndef LOM_CLOUD_DRAW_H
 #define LOM_CLOUD_DRAW_H
 
+#include "cloud/detail_noise.h"
 #include "pipeline/uniforms.h"
 
 #include <lom/cloud.h>
@@ -31,6 +32,7 @@ struct lom_placed_cloud {
     lom_volume *original; /* density lit in advance, of the original model */
     uint64_t lit_for;     /* what `light` or `original` was made for, hashed; 0: nothing yet */
     lom_vec3 middle;      /* of the box, in the world; the cloud's position, until wind moves it */
+    double detail;        /* how far the noise eats into it: the cloud's, unless shapes change */
     double axes[3][3];    /* axes[i] is the box's axis i in the world, of unit length */
 };
 
@@ -43,8 +45,10 @@ struct lom_cloud_set {
     struct lom_placed_cloud *clouds; /* in the order of the file; those that are not visible are left out */
     size_t count;
     lom_detail *detail;
-    lom_texture *picture; /* of the flat model, or NULL */
-    float *jitter;        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
+    lom_image *fields[LOM_DETAIL_FIELDS]; /* of noise; only the first where shapes do not change */
+    double phase;                         /* of the crossfade that `detail` is from */
+    lom_texture *picture;                 /* of the flat model, or NULL */
+    float *jitter;                        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 
 /* Makes or reads the volumes of the visible clouds. NULL and no failure when there are none, or the model is off. */
@@ -56,9 +60,16 @@ void lom_free_clouds(struct lom_cloud_set *set);
 lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time);
 void lom_move_clouds(struct lom_cloud_set *set, double time);
 
+/* cloud_evolve.c: gives the clouds the shapes that they have at a time, by a crossfade from field to field of the noise
+ * that eats into them; its phase at a time, in fields. */
+bool lom_evolve_clouds(struct lom_cloud_set *set, double time, lom_error *error);
+double lom_cloud_phase_at(const lom_clouds *params, double time);
+
 /* cloud_light.c: makes every cloud's light that of a sun in this direction (towards it, unit length); what already is
  * stays. *swept counts the grids that were made again. False when memory runs out. */
 bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error);
+/* The same of one cloud; *swept is increased when it was made again. */
+bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error);
 /* Optical depth through all clouds but one (-1: none left out) from a place towards the light, by `steps` steps a
  * cloud. */
 double lom_clouds_depth(const struct lom_cloud_set *set, const double from[3], const double to_light[3], long except,

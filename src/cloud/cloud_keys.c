@@ -99,6 +99,10 @@ static const lom_key clouds[] = {
               "published; with ours a voxel behind ten of full density gets the gray 105 of 255." },
     { "wind", LOM_KEY_TABLES, OF_ALL(winds), .table = &wind_table, .length_offset = OF_ALL(wind_count),
       .text = "Winds by height, the lowest first." },
+    { "evolve", LOM_KEY_NUMBER, OF_ALL(evolve), .maximum = 1e6, .unit = "s",
+      .text = "Time in which the small shapes of clouds become others; 0: they stay as they are." },
+    { "swell", LOM_KEY_NUMBER, OF_ALL(swell), .maximum = 1, .initial = { 0.3 },
+      .text = "With `evolve`: how much the clouds grow and shrink meanwhile, each in a phase of its own." },
 };
 const lom_key_table lom_clouds_keys = { sizeof(lom_clouds), clouds, sizeof clouds / sizeof *clouds,
                                         "What all clouds share: how they scatter, and the light of sky and ground." };

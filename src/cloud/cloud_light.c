@@ -159,6 +159,14 @@ static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to
     return true;
 }
 
+bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error)
+{
+    size_t *others = lom_allocate(set->count, sizeof *others, error);
+    bool done = others != NULL && sweep_cloud(set, index, to_light, others, swept, error);
+    lom_release(others);
+    return done;
+}
+
 bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error)
 {
     size_t *others = lom_allocate(set->count, sizeof *others, error);

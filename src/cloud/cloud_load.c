@@ -18,6 +18,8 @@ void lom_free_clouds(struct lom_cloud_set *set)
         lom_free_light_grid(set->clouds[i].light);
         lom_free_volume(set->clouds[i].original);
     }
+    for (int i = 0; i < LOM_DETAIL_FIELDS; i++)
+        lom_free_image(set->fields[i]);
     lom_free_detail(set->detail);
     lom_free_texture(set->picture);
     lom_release(set->jitter);
@@ -72,6 +74,7 @@ static bool place_cloud(struct lom_cloud_set *set, const lom_cloud *cloud, lom_e
     double s = lom_double_sin(cloud->yaw), c = lom_double_cos(cloud->yaw);
     *placed = (struct lom_placed_cloud){ .cloud = cloud,
                                          .middle = cloud->position,
+                                         .detail = cloud->detail,
                                          .axes = { { c, 0, -s }, { 0, 1, 0 }, { s, 0, c } } };
     placed->middle.y += cloud->size[1] / 2;
     placed->density = find_density(set, cloud, error);
@@ -104,9 +107,13 @@ static bool load_picture(struct lom_cloud_set *set, lom_error *error)
 
 static bool load_shared(struct lom_cloud_set *set, lom_error *error)
 {
-    lom_image *noise = lom_make_detail_noise(error);
-    set->detail = noise != NULL ? lom_create_detail(noise, error) : NULL;
-    lom_free_image(noise);
+    int fields = set->params->evolve > 0 ? LOM_DETAIL_FIELDS : 1;
+    for (int i = 0; i < fields; i++) {
+        set->fields[i] = lom_make_detail_noise(i, error);
+        if (set->fields[i] == NULL)
+            return false;
+    }
+    set->detail = lom_create_detail(set->fields[0], error);
     if (set->detail == NULL)
         return false;
     if (set->quality.model == LOM_CLOUDS_BILLBOARD && !load_picture(set, error))

@@ -33,12 +33,18 @@ static void way_at(const lom_clouds *params, double height, double time, double 
         way[k] += (above[k] - way[k]) * part;
 }
 
+/* Whole 64ths of a metre: clouds of one wind then keep the same distances to the bit, and so their light. */
+static double round_way(double way)
+{
+    return lom_double_floor(way * 64 + 0.5) / 64;
+}
+
 lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time)
 {
     double way[2] = { 0, 0 };
     if (params->wind_count != 0)
         way_at(params, cloud->position.y + cloud->size[1] / 2, time, way);
-    return (lom_vec3){ way[0], 0, way[1] };
+    return (lom_vec3){ round_way(way[0]), 0, round_way(way[1]) };
 }
 
 void lom_move_clouds(struct lom_cloud_set *set, double time)

@@ -62,7 +62,8 @@ enum lom_refresh {
     LOM_REFRESH_VIEW,
     LOM_REFRESH_SIZE,
     LOM_REFRESH_NEAR,
-    LOM_REFRESH_SUN
+    LOM_REFRESH_SUN,
+    LOM_REFRESH_SHAPE
 };
 
 /* The reference work's rule: cosine of the angle between the directions of view below 0.99999, or the eye nearer than

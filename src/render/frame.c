@@ -134,7 +134,6 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     lom_enter_float_state(&state);
     lom_move_scene(renderer, f.time);
     look(&f);
-    lom_begin_impostors(&f);
     lom_image *drawn = renderer->reference != NULL ? lom_draw_reference(&f, error) : draw_stages(&f, out->stage, error);
     double start = milliseconds();
     out->image = lom_output_image(scene, drawn, error);

@@ -46,7 +46,7 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error); /* makes their light
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error);
 
 /* frame_impostor.c: whether this frame goes on with the run's impostors; then lom_draw_clouds by them. */
-void lom_begin_impostors(struct frame *f);
+bool lom_begin_impostors(struct frame *f, lom_error *error);
 size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
                           const lom_pass_desc *pass, lom_error *error);
 

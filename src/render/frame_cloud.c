@@ -148,6 +148,10 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     if (f->renderer->clouds == NULL)
         return true;
     lom_move_clouds(f->renderer->clouds, f->time);
+    if (!lom_evolve_clouds(f->renderer->clouds, f->time, error) || !lom_begin_impostors(f, error))
+        return false;
+    if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
+        return draw_ground_shadow(f, to_light); /* plates light their clouds when they are made */
     if (!lom_light_clouds(f->renderer->clouds, to_light, &swept, error))
         return false;
     if (swept != 0)
@@ -199,8 +203,10 @@ static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_imposto
                             "%zu of %zu clouds are in view; no frame of a run before this one: each is drawn afresh on "
                             "its plate",
                             count, all);
-    return lom_add_step(f, "clouds", true, "%zu of %zu clouds are in view; %d plates made anew, %d shown again", count,
-                        all, now->refreshed - before->refreshed, now->reused - before->reused);
+    return lom_add_step(f, "clouds", true,
+                        "%zu of %zu clouds are in view; %d plates made anew, %d shown again, %d grids of light swept",
+                        count, all, now->refreshed - before->refreshed, now->reused - before->reused,
+                        f->renderer->impostors.swept);
 }
 
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error)

@@ -11,13 +11,57 @@ void lom_free_impostors(lom_renderer *renderer)
 {
     lom_release(renderer->impostors.of_eye[0]);
     lom_release(renderer->impostors.of_eye[1]);
+    lom_release(renderer->impostors.suns);
 }
 
-void lom_begin_impostors(struct frame *f)
+static double angle_between(const double a[3], const double b[3])
+{
+    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    double half = lom_double_sqrt(x * x + y * y + z * z) / 2;
+    return 2 * lom_double_asin(half < 1 ? half : 1);
+}
+
+/* Whether the light has left what a cloud's plates were made for: the sun by more than the allowance, a colour by more
+ * than a 30th. */
+static bool has_light_moved(const struct lom_cloud_sun *sun, const lom_light *light)
+{
+    const double to_light[3] = { -light->direction.x, -light->direction.y, -light->direction.z };
+    bool is_other = angle_between(to_light, sun->to_light) > sun->allowance;
+    for (int i = 0; i < 3; i++) {
+        double color = light->color[i] * light->intensity, change = color - sun->color[i];
+        is_other |= (change < 0 ? -change : change) > color / 30;
+    }
+    return is_other;
+}
+
+/* Which sun each cloud is lit by. Cloud i of n gets its first new one after (i + 1) / n of the allowance, so that they
+ * are not all made anew in one frame. */
+static bool follow_sun(struct frame *f, lom_error *error)
+{
+    struct lom_impostors *state = &f->renderer->impostors;
+    const lom_light *light = &f->scene->light;
+    size_t count = f->renderer->clouds->count;
+    if (state->suns == NULL)
+        state->suns = lom_allocate(count, sizeof *state->suns, error);
+    for (size_t i = 0; state->suns != NULL && i < count; i++) {
+        struct lom_cloud_sun *sun = &state->suns[i];
+        if (state->continues && !has_light_moved(sun, light))
+            continue;
+        double whole = f->scene->quality.impostor.sun, part = (double)(i + 1) / (double)count;
+        *sun = (struct lom_cloud_sun){ { -light->direction.x, -light->direction.y, -light->direction.z },
+                                       .allowance = state->continues ? whole : whole * part };
+        for (int k = 0; k < 3; k++)
+            sun->color[k] = light->color[k] * light->intensity;
+    }
+    return state->suns != NULL;
+}
+
+bool lom_begin_impostors(struct frame *f, lom_error *error)
 {
     struct lom_impostors *state = &f->renderer->impostors;
     if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF || f->renderer->clouds == NULL)
-        return;
+        return true;
+    state->swept = 0;
     state->continues = state->width == f->width && state->height == f->height && state->frame + 1 == f->number;
     state->frame = f->number;
     state->width = f->width;
@@ -27,6 +71,7 @@ void lom_begin_impostors(struct frame *f)
             struct lom_impostor *impostor = &state->of_eye[e][i];
             impostor->is_made = impostor->is_small = impostor->is_around = false;
         }
+    return follow_sun(f, error);
 }
 
 /* What the decisions about one cloud share. */
@@ -36,6 +81,7 @@ struct looking {
     bool is_reference;
     struct lom_impostor_eye eye;
     struct lom_cloud_view seen; /* by which plates are marched and shown */
+    double phase;               /* of the clouds' shapes */
     bool has_aircraft;          /* the camera follows it from behind: a plate whose cloud it is in is split */
     lom_vec3 aircraft;          /* in the world */
     int width, height;          /* of the picture */
@@ -72,13 +118,6 @@ static double distance_to_box(const struct lom_placed_cloud *cloud, lom_vec3 eye
     return lom_double_sqrt(sum);
 }
 
-static double angle_between(const double a[3], const double b[3])
-{
-    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    double half = lom_double_sqrt(x * x + y * y + z * z) / 2;
-    return 2 * lom_double_asin(half < 1 ? half : 1);
-}
-
 static bool make_plate(const struct looking *l, const lom_vec3 corner[8], lom_vec3 eye, struct lom_plate *plate)
 {
     const lom_impostor_dials *d = l->dials;
@@ -99,17 +138,33 @@ static bool is_small(const struct looking *l, const struct lom_impostor *imposto
     return lom_switch(impostor->is_small, plate->extent, small_on, small_off);
 }
 
+static const struct lom_cloud_sun *sun_of(const struct looking *l, const struct lom_placed_cloud *cloud)
+{
+    return &l->f->renderer->impostors.suns[cloud - l->f->renderer->clouds->clouds];
+}
+
+/* How far, in pixels, the edges of a cloud have moved by their change of shape: a whole crossfade moves them by as much
+ * of a cell of the noise (a quarter of its repetition) as the noise eats of the cloud. */
+static double shape_error(const struct looking *l, const struct lom_impostor *impostor,
+                          const struct lom_placed_cloud *cloud, lom_vec3 eye)
+{
+    double changed = l->phase - impostor->phase;
+    double most = cloud->cloud->detail * (1 + l->f->scene->clouds.swell) * cloud->cloud->detail_size / 4;
+    return (changed < 0 ? -changed : changed) * most / (lom_vec3_length(eye) * l->eye.pixel);
+}
+
 static enum lom_refresh why_refresh(const struct looking *l, const struct lom_impostor *impostor,
                                     const struct lom_placed_cloud *cloud, const lom_vec3 corner[8], lom_vec3 eye)
 {
-    const double sun[3] = { (double)l->seen.light.to_light[0], (double)l->seen.light.to_light[1],
-                            (double)l->seen.light.to_light[2] };
+    const double *sun = sun_of(l, cloud)->to_light;
     if (!impostor->is_made)
         return LOM_REFRESH_FIRST;
     if (impostor->is_around)
         return LOM_REFRESH_NEAR;
-    if (angle_between(sun, impostor->sun) > l->dials->sun)
+    if (impostor->sun[0] != sun[0] || impostor->sun[1] != sun[1] || impostor->sun[2] != sun[2])
         return LOM_REFRESH_SUN;
+    if (shape_error(l, impostor, cloud, eye) > l->dials->bound)
+        return LOM_REFRESH_SHAPE;
     return l->is_reference ? lom_reference_refresh(&impostor->plate, eye, &l->eye, longest_side(cloud))
                            : lom_bounded_refresh(&impostor->plate, corner, eye, &l->eye, l->dials->bound);
 }
@@ -137,14 +192,22 @@ static void set_slice(struct lom_cloud_view *seen, const struct lom_impostor *im
     seen->slice_to = part == 0 ? 1e30 : impostor->cut;
 }
 
-static bool refresh(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
+static bool refresh(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud,
+                    lom_error *error)
 {
     lom_renderer *r = l->f->renderer;
+    const struct lom_cloud_sun *sun = sun_of(l, cloud);
+    if (!lom_light_cloud(r->clouds, (size_t)(cloud - r->clouds->clouds), sun->to_light, &r->impostors.swept, error))
+        return false;
     const struct lom_plate *plate = &impostor->plate;
     bool magnifies = l->dials->two_pass && plate->pitch > 1.25, done = true;
     for (int part = 0; done && part < impostor->parts; part++) {
         struct lom_cloud_view seen = l->seen;
         set_slice(&seen, impostor, part);
+        for (int i = 0; i < 3; i++) {
+            seen.light.to_light[i] = (float)sun->to_light[i];
+            seen.light.color[i] = (float)sun->color[i];
+        }
         lom_texture **marched = &impostor->marched[part], **magnified = &impostor->magnified[part];
         done = provide_target(r->device, marched, plate->width, plate->height) &&
                lom_draw_plate(r->device, r->clouds, cloud, &seen, plate, *marched);
@@ -157,7 +220,8 @@ static bool refresh(const struct looking *l, struct lom_impostor *impostor, cons
         }
     }
     for (int i = 0; i < 3; i++)
-        impostor->sun[i] = (double)l->seen.light.to_light[i];
+        impostor->sun[i] = sun->to_light[i];
+    impostor->phase = l->phase;
     impostor->is_made = done;
     return done;
 }
@@ -173,7 +237,8 @@ static int find_cut(const struct looking *l, const struct lom_plate *plate, cons
 }
 
 /* Brings one cloud's plate up to date. False: the device failed. */
-static bool update(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
+static bool update(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud,
+                   lom_error *error)
 {
     lom_impostor_counters *counts = l->f->impostors;
     lom_vec3 corner[8], eye = lom_vec3_subtract(l->seen.eye, cloud->middle);
@@ -204,7 +269,7 @@ static bool update(const struct looking *l, struct lom_impostor *impostor, const
     impostor->parts = parts;
     impostor->cut = cut;
     counts->refreshed++;
-    return refresh(l, impostor, cloud);
+    return refresh(l, impostor, cloud, error);
 }
 
 static void show(const struct looking *l, const struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
@@ -239,6 +304,7 @@ size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, co
                          .is_reference = f->scene->quality.impostors == LOM_IMPOSTORS_REFERENCE,
                          .eye = eye_of(view, seen, height),
                          .seen = *seen,
+                         .phase = lom_cloud_phase_at(&f->scene->clouds, f->time),
                          .width = width,
                          .height = height };
     const lom_camera *camera = &f->scene->camera;
@@ -252,7 +318,7 @@ size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, co
     size_t count = done ? lom_order_clouds(r->clouds, seen, l.dials->culling, order) : 0;
     f->impostors->culled += done ? (int)(r->clouds->count - count) : 0;
     for (size_t i = 0; done && i < count; i++)
-        done = update(&l, &all[order[i]], &r->clouds->clouds[order[i]]);
+        done = update(&l, &all[order[i]], &r->clouds->clouds[order[i]], error);
     if (done && count != 0) {
         lom_begin_pass(r->device, pass);
         for (size_t i = 0; i < count; i++)

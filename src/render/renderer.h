@@ -46,16 +46,24 @@ struct lom_impostor {
     bool is_made, is_small, is_around; /* small: not drawn; around: the cloud is about the eye */
     int parts;
     double cut;                             /* of two parts: metres along the plate's axis from its eye */
-    double sun[3];                          /* that lit it */
+    double sun[3], phase;                   /* of the light and of the shapes when it was made */
     lom_texture *marched[2], *magnified[2]; /* magnified: NULL when the marched picture is shown as it is */
+};
+
+/* The light a cloud's plates were last made for. */
+struct lom_cloud_sun {
+    double to_light[3], color[3];
+    double allowance; /* radians the sun may move from there */
 };
 
 /* The impostors of the frame's eye and of its mirror image in the water, one a cloud; a function of the frames drawn
  * since the run began. */
 struct lom_impostors {
     struct lom_impostor *of_eye[2]; /* NULL until needed */
-    bool continues;                 /* this frame follows the one before in a run */
-    int frame, width, height;       /* of the last frame */
+    struct lom_cloud_sun *suns;
+    int swept;                /* grids of light, in this frame */
+    bool continues;           /* this frame follows the one before in a run */
+    int frame, width, height; /* of the last frame */
 };
 
 struct lom_renderer {

@@ -18,9 +18,10 @@ static lom_vec3 moved(double height, double time, size_t count)
     return (lom_vec3){ placed.middle.x - 100, placed.middle.y - height, placed.middle.z + 50 };
 }
 
+/* Within the rounding of ways to 64ths. */
 static bool is_near(lom_vec3 a, double x, double z)
 {
-    return lom_vec3_length((lom_vec3){ a.x - x, a.y, a.z - z }) < 1e-9;
+    return lom_vec3_length((lom_vec3){ a.x - x, a.y, a.z - z }) < 0.5 / 64 * 1.5;
 }
 
 static void calm_moves_nothing(void)
