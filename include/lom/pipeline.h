@@ -29,7 +29,7 @@ typedef struct lom_device_desc {
     bool plain;  /* lanes lowered to the baseline instructions even where the processor has wider ones */
     int tile;    /* tile edge in pixels: 16, 32 or 64; 0: 64 */
     int chunk;   /* triangles a unit of set-up work, 16..65536; 0: 8192 */
-    int batch;   /* chunks between two sweeps over the tiles, 1..1024; 0: 64 */
+    int batch;   /* chunks between two sweeps over the tiles, 1..1024; 0: 32 */
 } lom_device_desc;
 
 /* Opens a device; the zero descriptor is a good one. Never NULL except when memory runs out: on another failure the

@@ -48,7 +48,7 @@ static void resolve_desc(lom_device *device, const lom_device_desc *desc)
     device->desc.threads = desc->threads != 0 ? desc->threads : lom_default_threads();
     device->desc.tile = desc->tile != 0 ? desc->tile : 64;
     device->desc.chunk = desc->chunk != 0 ? desc->chunk : 8192;
-    device->desc.batch = desc->batch != 0 ? desc->batch : 64;
+    device->desc.batch = desc->batch != 0 ? desc->batch : 32;
 }
 
 lom_device *lom_open_device(const lom_device_desc *desc)

@@ -3,18 +3,40 @@
 #include "pipeline/project.h"
 #include "pipeline/stages.h"
 
-/* The vertices at `numbers`, of which `largest` is the largest, as four floats each; every read stays inside
- * attribute->size. */
-static void fetch_floats(const lom_attribute *attribute, const uint32_t *numbers, uint32_t largest, int components,
-                         lom_float4 *out)
+/* LOM_LANES vertex numbers of a chunk from `first` on, the last one repeated past its end. */
+struct numbers {
+    uint32_t number[LOM_LANES], largest;
+};
+
+static struct numbers find_numbers(const struct lom_chunk *chunk, size_t first)
+{
+    struct numbers n;
+    size_t left = chunk->vertex_count - first;
+    lom_int row = lom_min_int(lom_lane_index(), lom_splat_int(left < LOM_LANES ? (int32_t)left - 1 : LOM_LANES - 1));
+    if (!chunk->listed) {
+        uint32_t start = chunk->vertex_base + (uint32_t)first;
+        lom_store_int((int32_t *)n.number, row + (int32_t)start);
+        n.largest = start + (uint32_t)row[LOM_LANES - 1];
+        return n;
+    }
+    n.largest = 0;
+    for (int i = 0; i < LOM_LANES; i++) {
+        n.number[i] = chunk->vertex_list[first + (size_t)row[i]];
+        n.largest = n.number[i] > n.largest ? n.number[i] : n.largest;
+    }
+    return n;
+}
+
+/* The vertices as four floats each; every read stays inside attribute->size. */
+static void fetch_floats(const lom_attribute *attribute, const struct numbers *n, int components, lom_float4 *out)
 {
     float copies[LOM_LANES][4];
     const float *rows[LOM_LANES];
     const uint8_t *data = attribute->data;
     bool aligned = (uintptr_t)data % 4 == 0 && attribute->stride % 4 == 0;
-    bool whole = aligned && (size_t)largest * attribute->stride + 16 <= attribute->size;
+    bool whole = aligned && (size_t)n->largest * attribute->stride + 16 <= attribute->size;
     for (int i = 0; i < LOM_LANES; i++) {
-        const uint8_t *source = data + (size_t)numbers[i] * attribute->stride;
+        const uint8_t *source = data + (size_t)n->number[i] * attribute->stride;
         if (!whole) {
             memset(copies[i], 0, sizeof copies[i]);
             memcpy(copies[i], source, (size_t)components * 4);
@@ -30,10 +52,10 @@ static void fetch_floats(const lom_attribute *attribute, const uint32_t *numbers
         out->w = lom_splat(1.0f);
 }
 
-static void fetch_bytes(const lom_attribute *attribute, const uint32_t *numbers, lom_float4 *out)
+static void fetch_bytes(const lom_attribute *attribute, const struct numbers *n, lom_float4 *out)
 {
     for (int i = 0; i < LOM_LANES; i++) {
-        const uint8_t *source = (const uint8_t *)attribute->data + (size_t)numbers[i] * attribute->stride;
+        const uint8_t *source = (const uint8_t *)attribute->data + (size_t)n->number[i] * attribute->stride;
         out->x[i] = (float)source[0] / 255.0f;
         out->y[i] = (float)source[1] / 255.0f;
         out->z[i] = (float)source[2] / 255.0f;
@@ -41,11 +63,8 @@ static void fetch_bytes(const lom_attribute *attribute, const uint32_t *numbers,
     }
 }
 
-static void fetch(const struct lom_draw *draw, const uint32_t *numbers, lom_attributes *in)
+static void fetch(const struct lom_draw *draw, const struct numbers *n, lom_attributes *in)
 {
-    uint32_t largest = 0;
-    for (int i = 0; i < LOM_LANES; i++)
-        largest = numbers[i] > largest ? numbers[i] : largest;
     for (int a = 0; a < draw->desc.shader->attributes; a++) {
         const lom_attribute *attribute = &draw->desc.attribute[a];
         lom_float4 *out = &in->attribute[a];
@@ -54,10 +73,10 @@ static void fetch(const struct lom_draw *draw, const uint32_t *numbers, lom_attr
             *out = (lom_float4){ .w = lom_splat(1.0f) };
             break;
         case LOM_ATTRIBUTE_UNORM8X4:
-            fetch_bytes(attribute, numbers, out);
+            fetch_bytes(attribute, n, out);
             break;
         default:
-            fetch_floats(attribute, numbers, largest, (int)attribute->kind - LOM_ATTRIBUTE_FLOAT1 + 1, out);
+            fetch_floats(attribute, n, (int)attribute->kind - LOM_ATTRIBUTE_FLOAT1 + 1, out);
         }
     }
 }
@@ -155,13 +174,9 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
     memset(&in, 0, sizeof in);
     in.instance = lom_splat_int(chunk->instance);
     for (size_t first = 0; first < chunk->vertex_count; first += LOM_LANES) {
-        uint32_t numbers[LOM_LANES];
-        for (size_t i = 0; i < LOM_LANES; i++) {
-            size_t row = first + i < chunk->vertex_count ? first + i : chunk->vertex_count - 1;
-            numbers[i] = chunk->listed ? chunk->vertex_list[row] : chunk->vertex_base + (uint32_t)row;
-        }
-        memcpy(&in.vertex, numbers, sizeof numbers);
-        fetch(draw, numbers, &in);
+        struct numbers n = find_numbers(chunk, first);
+        memcpy(&in.vertex, n.number, sizeof n.number);
+        fetch(draw, &n, &in);
         shade(&vertex, &in, draw->uniforms);
         write_packet(pass, chunk, first, &vertex);
     }
