@@ -14,6 +14,23 @@ static void match_channels(int from, int to, double (*rgba)[4], size_t count)
             rgba[i][0] = 0.2126 * rgba[i][0] + 0.7152 * rgba[i][1] + 0.0722 * rgba[i][2];
 }
 
+/* Whether bytes stay what they are, since colours of both formats mean the same. */
+static bool keeps_bytes(const lom_format_info *from, const lom_format_info *to)
+{
+    return from->bits == 8 && to->bits == 8 && from->is_srgb == to->is_srgb && from->channels >= 3 && to->channels >= 3;
+}
+
+static void copy_colors(const uint8_t *in, int from, uint8_t *out, int to, size_t count)
+{
+    for (size_t i = 0; i < count; i++, in += from, out += to) {
+        out[0] = in[0];
+        out[1] = in[1];
+        out[2] = in[2];
+        if (to == 4)
+            out[3] = 255; /* three channels are opaque */
+    }
+}
+
 static lom_image *convert(const lom_image *image, lom_format format, lom_error *error)
 {
     const lom_format_info *from = lom_describe_format(image->format), *to = lom_describe_format(format);
@@ -27,6 +44,11 @@ static lom_image *convert(const lom_image *image, lom_format format, lom_error *
         return NULL;
     if (format == image->format) {
         memcpy(out->pixels, image->pixels, lom_image_size(image));
+        return out;
+    }
+    if (keeps_bytes(from, to)) {
+        copy_colors(image->pixels, from->channels, out->pixels, to->channels,
+                    lom_image_size(out) / lom_format_size(format));
         return out;
     }
     size_t width = (size_t)image->width, rows = (size_t)image->height * (size_t)image->depth;

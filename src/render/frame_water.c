@@ -10,11 +10,12 @@ bool lom_find_water(struct frame *f, lom_error *error)
     lom_image *mask = lom_read_texture(f->renderer->mask, 0, 0, error);
     if (mask == NULL)
         return false;
+    size_t size = lom_format_size(mask->format);
     int x0 = mask->width, y0 = mask->height, x1 = -1, y1 = -1;
     for (int y = 0; y < mask->height; y++) {
-        const uint8_t *row = lom_image_pixel(mask, 0, y, 0);
+        const uint8_t *row = lom_image_pixel(mask, 0, y, 0); /* the first byte of a pixel is red */
         for (int x = 0; x < mask->width; x++) {
-            if (row[x] == 0)
+            if (row[(size_t)x * size] == 0)
                 continue;
             x0 = x < x0 ? x : x0;
             x1 = x > x1 ? x : x1;

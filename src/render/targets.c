@@ -22,6 +22,10 @@ static void release_targets(lom_renderer *r)
 {
     lom_texture **targets[] = { &r->color,      &r->depth,           &r->mask, &r->reflection, &r->reflection_depth,
                                 &r->refraction, &r->refraction_depth };
+    if (r->reflection_depth == r->refraction_depth)
+        r->reflection_depth = NULL;
+    if (r->mask == r->refraction)
+        r->mask = NULL;
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
         lom_release_texture(r->device, *targets[i]);
         *targets[i] = NULL;
@@ -45,11 +49,19 @@ static void make_water_targets(lom_renderer *r, int width, int height)
         refraction_height = scaled(height, scene->quality.refraction_scale);
     /* Rough water mirrors a blurred picture. */
     lom_mips levels = scene->quality.water >= LOM_WATER_NORMAL_MAP ? LOM_MIPS_ALL : LOM_MIPS_NONE;
-    r->mask = make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8, LOM_MIPS_NONE);
     r->reflection = make_target(r, reflection_width, reflection_height, color_format(scene), levels);
-    r->reflection_depth = make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
     r->refraction = make_target(r, refraction_width, refraction_height, color_format(scene), LOM_MIPS_NONE);
     r->refraction_depth = make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
+    /* The mask is read before that picture is drawn. */
+    bool same = r->target_width == refraction_width && r->target_height == refraction_height &&
+                color_format(scene) != LOM_FORMAT_RGBA32F;
+    r->mask = same ? r->refraction : make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8, LOM_MIPS_NONE);
+    /* The planar lake never looks up how far away what it mirrors is, and draws that picture first. */
+    bool shared = scene->quality.water < LOM_WATER_NORMAL_MAP && reflection_width == refraction_width &&
+                  reflection_height == refraction_height;
+    r->reflection_depth = shared
+                              ? r->refraction_depth
+                              : make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
 }
 
 bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, int target_height, lom_error *error)
@@ -97,6 +109,22 @@ static lom_image *encode_16(const lom_image *linear, bool srgb, lom_error *error
     return out;
 }
 
+/* Four bytes a pixel become three in the same memory. */
+static lom_image *drop_alpha(lom_image *image, lom_format format)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    uint8_t *to = image->pixels;
+    const uint8_t *from = image->pixels;
+    for (size_t i = 0; i < count; i++, from += 4, to += 3) {
+        uint8_t r = from[0], g = from[1], b = from[2];
+        to[0] = r;
+        to[1] = g;
+        to[2] = b;
+    }
+    image->format = format;
+    return image;
+}
+
 lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error)
 {
     const lom_output *output = &scene->output;
@@ -104,6 +132,8 @@ lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error 
     lom_image *out = NULL;
     if (drawn == NULL)
         return NULL;
+    if (drawn->format == (srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8) && output->format == LOM_OUTPUT_RGB8)
+        return drop_alpha(drawn, srgb ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8);
     if (output->format == LOM_OUTPUT_RGB8)
         out = lom_convert_image(drawn, srgb ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8, error);
     else if (output->format == LOM_OUTPUT_RGB16)

@@ -1,0 +1,56 @@
+#!/bin/sh
+# Proves the limits whose figures are in bench/results/limits.md: how large the stripped program is, how much memory the
+# lake takes, and that an empty scene is done at once (with room for a machine that is slower or busy). Sanitized or
+# unoptimised builds have other limits and are not measured.
+. "$(dirname "$0")/cli.sh"
+
+# The peak of the resident memory of a command, in KiB; what it prints is lost.
+peak() {
+    python3 - "$@" <<'END'
+import resource, subprocess, sys
+subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL, check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+END
+}
+
+below() { # NAME VALUE LIMIT
+    echo "$1: $2, limit $3"
+    [ "$2" -lt "$3" ]
+}
+
+# The shortest of ten runs in milliseconds: what else the machine does only adds.
+shortest() {
+    python3 - "$@" <<'END'
+import subprocess, sys, time
+least = 1e9
+for _ in range(10):
+    start = time.perf_counter()
+    subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL, check=True)
+    least = min(least, time.perf_counter() - start)
+print(int(least * 1000 + 0.999))
+END
+}
+
+small_program() {
+    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 3145728
+}
+
+lake_in_memory() {
+    below "KiB" "$(peak "$lom" render assets/scenes/lake.toml --size 1680x1050 --threads 2 --hash)" 262144
+}
+
+empty_scene_at_once() {
+    echo '' >"$folder/empty.toml"
+    below "ms" "$(shortest "$lom" render "$folder/empty.toml" --hash)" 60
+}
+
+if ! command -v python3 >/dev/null || ! command -v strip >/dev/null; then
+    echo "SKIP limits: needs python3 and strip"
+    exit 0
+fi
+if grep -q -e '-O3' "$BUILD/flags" 2>/dev/null && [ -z "$SAN" ]; then
+    check the_stripped_program_is_small small_program
+    check the_lake_fits_in_256_megabytes lake_in_memory
+    check an_empty_scene_is_done_at_once empty_scene_at_once
+fi
+exit $failures
