@@ -16,10 +16,16 @@ typedef struct lom_renderer lom_renderer;
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *device, lom_error *error);
 void lom_free_renderer(lom_renderer *renderer); /* NULL is allowed */
 
+/* Called by the thread that draws, before each pass that runs and at last before the "output": its name as in the plan,
+ * and the share (0..1) of the frame's stages that are done, which never falls. */
+typedef void lom_frame_progress(void *context, const char *pass, double done);
+
 typedef struct lom_frame_desc {
-    int width, height; /* of the whole frame; 0: the scene's */
-    int frame;         /* its time is frame / fps seconds */
-    lom_rect crop;     /* the part that is drawn and returned; width 0: all of it */
+    int width, height;            /* of the whole frame; 0: the scene's */
+    int frame;                    /* its time is frame / fps seconds */
+    lom_rect crop;                /* the part that is drawn and returned; width 0: all of it */
+    lom_frame_progress *progress; /* NULL: nobody looks */
+    void *progress_context;
 } lom_frame_desc;
 
 /* ---- the plan ---- */

@@ -13,13 +13,13 @@ struct lom_progress lom_begin_progress(const char *label, int total, bool quiet)
     return progress;
 }
 
-void lom_show_progress(const struct lom_progress *progress, int done, const char *doing)
+void lom_show_progress(const struct lom_progress *progress, double done, const char *doing)
 {
     static const char full[] = "##############################", empty[] = "..............................";
     if (!progress->shown)
         return;
-    int filled = (int)((long long)done * BAR / progress->total);
-    fprintf(stderr, "\r%s [%.*s%.*s] %d/%d %s\033[K", progress->label, filled, full, BAR - filled, empty, done,
+    int filled = (int)(done * BAR / progress->total);
+    fprintf(stderr, "\r%s [%.*s%.*s] %d/%d %s\033[K", progress->label, filled, full, BAR - filled, empty, (int)done,
             progress->total, doing);
 }
 

@@ -213,10 +213,24 @@ static bool is_suspicious(const lom_image *image)
     return false;
 }
 
-static bool draw_frame(struct run *run, int number, lom_error *error)
+/* The bar, and how many frames are before this one. */
+struct moving {
+    struct lom_progress bar;
+    int before;
+};
+
+static void move_bar(void *context, const char *pass, double done)
+{
+    const struct moving *moving = context;
+    lom_show_progress(&moving->bar, moving->before + done, pass);
+}
+
+static bool draw_frame(struct run *run, int number, struct moving *moving, lom_error *error)
 {
     const struct values *v = run->values;
     lom_frame_desc desc = lom_frame_of_options(&v->scene, number);
+    desc.progress = move_bar;
+    desc.progress_context = moving;
     lom_frame frame;
     double start = seconds();
     if (!lom_render_frame(run->renderer, &desc, &frame, error))
@@ -247,13 +261,13 @@ static bool draw_frames(struct run *run, lom_error *error)
         return lom_fail(error, LOM_ERROR_USAGE, "--frames %d:%d ends before it begins.", first, last);
     if (last > first && v->output != NULL && !is_video(v) && strchr(v->output, '%') == NULL)
         return lom_fail(error, LOM_ERROR_USAGE, "%s: several frames need a %%04d in the name, or y4m.", v->output);
-    struct lom_progress progress = lom_begin_progress("lom render", last - first + 1, v->quiet);
+    struct moving moving = { lom_begin_progress("lom render", last - first + 1, v->quiet), 0 };
     bool done = true;
     for (int n = first; done && n <= last; n++) {
-        lom_show_progress(&progress, n - first, v->output != NULL ? v->output : "");
-        done = draw_frame(run, n, error);
+        moving.before = n - first;
+        done = draw_frame(run, n, &moving, error);
     }
-    lom_end_progress(&progress);
+    lom_end_progress(&moving.bar);
     return close_video(run, done, error) && done;
 }
 

@@ -24,6 +24,12 @@ static const struct stage {
     { lom_draw_cloud_stage, "clouds" },    /* clouds over all */
 };
 
+static void report(const struct frame *f, const char *pass)
+{
+    if (f->desc->progress != NULL)
+        f->desc->progress(f->desc->progress_context, pass, f->done);
+}
+
 lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
 {
     lom_plan *plan = f->plan;
@@ -36,6 +42,8 @@ lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char 
     va_start(arguments, format);
     vsnprintf(step->text, sizeof step->text, format, arguments);
     va_end(arguments);
+    if (runs)
+        report(f, name);
     return step;
 }
 
@@ -101,12 +109,16 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
         return NULL;
     bool done = true;
     double before = milliseconds();
-    for (size_t i = 0; done && i < sizeof stages / sizeof stages[0]; i++) {
+    const size_t count = sizeof stages / sizeof stages[0];
+    for (size_t i = 0; done && i < count; i++) {
+        f->done = (double)i / (double)(count + 1);
         done = stages[i].run(f, error);
         double now = milliseconds();
         times[i] = (lom_stage_time){ stages[i].name, now - before };
         before = now;
     }
+    f->done = (double)count / (double)(count + 1);
+    report(f, "output");
     if (done)
         return lom_read_texture(r->color, 0, 0, error);
     const lom_error *failed = lom_device_error(r->device);
@@ -117,7 +129,9 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    struct frame f = { .renderer = renderer, .scene = scene, .plan = &out->plan, .impostors = &out->impostors };
+    struct frame f = {
+        .renderer = renderer, .scene = scene, .plan = &out->plan, .desc = desc, .impostors = &out->impostors
+    };
     *out = (lom_frame){ .image = NULL };
     f.width = desc->width != 0 ? desc->width : scene->output.width;
     f.height = desc->height != 0 ? desc->height : scene->output.height;

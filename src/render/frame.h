@@ -21,6 +21,8 @@ struct frame {
     enum { WAVES_BOUNDED, WAVES_PLACED, WAVES_FILLED } sea; /* how much of a sea `waves` has: what was needed */
     bool below;                                             /* the eye is under water with waves */
     lom_plan *plan;
+    const lom_frame_desc *desc;
+    double done; /* the share of the stages behind this one */
     lom_impostor_counters *impostors;
 };
 
