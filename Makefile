@@ -72,7 +72,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-mathematics bench-sampling install clean
+.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -165,6 +165,14 @@ bench-water-models: $(BUILD)/lom
 # Milliseconds of every stage of a large sea (bench/results/sea.md).
 bench-sea: $(BUILD)/lom
 	BUILD='$(BUILD)' bench/sea.sh
+
+# Fourier transforms against FFTW's, which has to be installed (bench/results/fft.md).
+bench-fft: $(BUILD)/bench/fft
+	BUILD='$(BUILD)' bench/fft.sh
+
+$(BUILD)/bench/fft: bench/fft.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a -lfftw3f $(LDLIBS)
 
 # Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
 bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))

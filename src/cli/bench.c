@@ -38,7 +38,7 @@ static const lom_command_line line = {
     .arguments = "[NAME]...",
     .summary = "Draws workloads again and again and says how long a frame takes",
     .details = "The workloads are those of bench/peers/README.md; without a NAME all of them run. `make bench-peers`\n"
-               "compares with other renderers that draw the same.",
+               "compares with other renderers that draw the same, `make bench-fft` with FFTW.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 0,

