@@ -72,7 +72,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-mathematics bench-sampling install clean
+.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-clouds bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -173,6 +173,10 @@ bench-fft: $(BUILD)/bench/fft
 $(BUILD)/bench/fft: bench/fft.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a -lfftw3f $(LDLIBS)
+
+# The experiments on clouds (bench/results/clouds-*.csv, docs/cloud-experiments.md).
+bench-clouds: $(BUILD)/lom $(BUILD)/bench/next_power.w4
+	BUILD='$(BUILD)' bench/clouds.sh
 
 # Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
 bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))

@@ -52,7 +52,7 @@ lom_image *lom_light_cloud_in_advance(const lom_image *density, const double to_
                 uint8_t *to = lom_image_pixel(lit, x, y, z);
                 to[3] = (uint8_t)byte_of(density, x, y, z);
                 to[0] = to[1] = to[2] = 255;
-                if (to[3] != 0)
+                if (to[3] != 0 && lighter > 0) /* nothing met weighs anything: white */
                     to[0] = to[1] = to[2] = (uint8_t)(gray_of(density, voxel, step, lighter, dark_light) + 0.5);
             }
     return lit;
