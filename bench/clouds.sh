@@ -109,7 +109,7 @@ counts='1 10 20 40 60 80 100'
 first() { # the least time of a key in the first frame of three runs; arguments of render
     key=$1
     shift
-    for run in 1 2 3; do
+    for _ in 1 2 3; do
         draw "$work/row.toml" --size 640x360 --threads 1 --hash "$@"
         field "$key"
     done | sort -n | awk 'NR == 1 { printf "%.2f", $1 }'

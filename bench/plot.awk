@@ -40,7 +40,7 @@ END {
         line(70, place_y(v), 620, place_y(v), "#ddd")
         text(64, place_y(v) + 4, "end", sprintf("%g", v))
     }
-    text(70, 42, "end", y)
+    text(8, 28, "start", y)
     text(620, 330, "end", x)
     if (kind == "lines") {
         wide = most(1, 1)
