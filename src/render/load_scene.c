@@ -18,7 +18,7 @@ static bool find_brightness(const lom_texture *texture, float *mean, lom_error *
     if (gray != NULL) {
         size_t count = (size_t)gray->width * (size_t)gray->height;
         for (size_t i = 0; i < count; i++)
-            sum += (double)((const float *)gray->pixels)[i];
+            sum += (double)((const float *)(const void *)gray->pixels)[i];
         *mean = sum > 1e-3 * (double)count ? (float)(sum / (double)count) : 1e-3f;
     }
     lom_free_image(level);
