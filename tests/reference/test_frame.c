@@ -62,7 +62,8 @@ static double agreement(const char *text, double index)
     return result.psnr;
 }
 
-#define EXACT "[output]\nformat = \"rgb32f\"\n[quality]\nmipmaps = false\nterrain_error = 0\nambient_occlusion = false\n"
+#define EXACT                                                                                                          \
+    "[output]\nformat = \"rgb32f\"\n[quality]\nmipmaps = false\nterrain_error = 0\nambient_occlusion = false\n"
 
 /* Floats of both; what is left are pixels on edges, where vertices are snapped to 1/256 of a pixel, and the terrain's
  * normals, which the pipeline mixes over the square of four samples and the reference over its triangles. */
