@@ -7,7 +7,10 @@
 
 #include <lom/lanes_mathematics.h>
 
-enum { PARTS = 16 / LOM_LANES };
+enum {
+    PARTS = 16 / LOM_LANES,
+    AHEAD = 8 /* triangles: half of them lie in another core's cache, some hundred cycles away */
+};
 
 /* Pixel offsets within a window of the lanes of a part. */
 LOM_INLINE lom_int lane_x(int part)
@@ -428,6 +431,7 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
         LOM_WIDE(lom_find_constant)(tile);
     for (size_t i = 0; i < count; i++) {
         const lom_triangle *t = &chunk->triangles[list[i]];
+        __builtin_prefetch(&chunk->triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]]);
         switch (lom_kind_of(t)) {
         case TRIANGLE_WINDOW:
             raster_window(tile, t, (int32_t)list[i]);

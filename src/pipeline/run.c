@@ -42,12 +42,23 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
         tile->offset[k] = (k & 7) + (k >> 3) * 2 * pass->tile;
 }
 
+/* Brings a chunk's list of the tile near: another core may have written it. */
+static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
+{
+    if (i >= pass->chunk_count || pass->chunks[i].failed)
+        return;
+    const uint32_t *list = pass->chunks[i].tile_list + pass->chunks[i].tile_first[number];
+    __builtin_prefetch(list);
+    __builtin_prefetch(list + 16);
+}
+
 /* The batch's triangles of one tile. */
 static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
 {
     bool placed = false;
     for (size_t i = 0; i < pass->chunk_count; i++) {
         const struct lom_chunk *chunk = &pass->chunks[i];
+        prefetch_list(pass, i + 1, number);
         uint32_t first = chunk->tile_first[number], end = chunk->tile_first[number + 1];
         if (chunk->failed || first == end)
             continue;

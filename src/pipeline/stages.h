@@ -158,6 +158,7 @@ struct lom_pass;
 /* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
 struct lom_tile {
     struct lom_pass *pass;
+    uint64_t fragments, packets;   /* counted */
     const struct lom_draw *draw;   /* of the fragments in the queue */
     const struct lom_chunk *chunk; /* likewise */
     bool tests_early;              /* the draw's depth test comes before its fragment shader */
@@ -170,8 +171,8 @@ struct lom_tile {
     float constant[LOM_MAX_COLORS][4];
     uint32_t constant_bytes; /* of the first output, where it is stored as it is */
     struct lom_queue queue;
-    uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel */
-    uint64_t fragments, packets;
+    uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
+                                 write often lies far apart */
 };
 
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
