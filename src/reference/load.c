@@ -158,16 +158,12 @@ static uint32_t add_points(lom_reference *world, const lom_mesh *mesh, const lom
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         const lom_mesh_vertex *v = &mesh->vertices[i];
         lom_vec3 position = vector_of_floats(v->position), normal = vector_of_floats(v->normal);
-        double up = v->normal[1];
         world->points[world->point_count] = place == NULL ? position : lom_transform_point(place, position);
         world->corners[world->point_count++] =
             (struct lom_ray_corner){ .normal = normals == NULL ? normal : lom_transform_direction(normals, normal),
                                      .color = vector_of_floats(v->color),
                                      .u = v->uv[0],
-                                     .v = v->uv[1],
-                                     .slope = lom_double_acos(up < -1  ? -1
-                                                              : up > 1 ? 1
-                                                                       : up) };
+                                     .v = v->uv[1] };
     }
     return first;
 }
@@ -259,6 +255,8 @@ static bool load_triangles(lom_reference *world, lom_error *error)
     if (done && loader.terrain != NULL) {
         uint32_t first = add_points(world, loader.terrain, NULL, NULL);
         add_triangles(world, loader.terrain, &loader.terrain->parts[0], first, LOM_TERRAIN_MATERIAL, false);
+        world->ground_columns = loader.height_map->width;
+        world->ground_rows = loader.height_map->height;
         done = load_ground(world, error);
     }
     for (size_t i = 0; done && i < world->scene->entity_count; i++)

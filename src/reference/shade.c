@@ -17,7 +17,7 @@ static lom_vec3 mixed(lom_vec3 a, lom_vec3 b, double share)
 
 struct surface {
     lom_vec3 place, normal, color;
-    double u, v, slope;
+    double u, v;
 };
 
 static struct surface find_surface(const lom_reference *world, const struct lom_ray_hit *hit)
@@ -31,8 +31,7 @@ static struct surface find_surface(const lom_reference *world, const struct lom_
                              .normal = unit(blended(c0->normal, c1->normal, c2->normal, b)),
                              .color = blended(c0->color, c1->color, c2->color, b),
                              .u = c0->u * b[0] + c1->u * b[1] + c2->u * b[2],
-                             .v = c0->v * b[0] + c1->v * b[1] + c2->v * b[2],
-                             .slope = c0->slope * b[0] + c1->slope * b[1] + c2->slope * b[2] };
+                             .v = c0->v * b[0] + c1->v * b[1] + c2->v * b[2] };
 }
 
 /* ---- light ---- */
@@ -103,16 +102,39 @@ static double range_weight(double x, double from, double to, double blend)
     return unit_interval(1 + (x - from) / blend) * unit_interval(1 + (to - x) / blend);
 }
 
+/* The sample at or before a coordinate of the ground, in -size / 2 .. size / 2, and how far the place is from it. */
+static int find_sample(double place, double size, int samples, double *rest)
+{
+    double x = unit_interval(place / size + 0.5) * (samples - 1);
+    int i = (int)x;
+    i = i > samples - 2 ? samples - 2 : i;
+    *rest = x - i;
+    return i;
+}
+
+/* The normals of the four samples around a place, mixed over their square (docs/scene.md, [terrain]). */
+static lom_vec3 ground_facing(const lom_reference *world, lom_vec3 place)
+{
+    const lom_terrain *t = &world->scene->terrain;
+    double x, z;
+    int column = find_sample(place.x, t->size[0], world->ground_columns, &x);
+    int row = find_sample(place.z, t->size[1], world->ground_rows, &z);
+    const struct lom_ray_corner *c = world->corners + (size_t)row * (size_t)world->ground_columns + column,
+                                *d = c + world->ground_columns;
+    return unit(mixed(mixed(c[0].normal, c[1].normal, x), mixed(d[0].normal, d[1].normal, x), z));
+}
+
 static lom_vec3 ground_color(const lom_reference *world, const struct surface *s)
 {
     const lom_terrain *t = &world->scene->terrain;
+    double up = s->normal.y, slope = lom_double_acos(up < -1 ? -1 : up > 1 ? 1 : up);
     lom_vec3 color = { 1, 1, 1 };
     if (world->ground_texture.picture >= 0)
         color = sample_layer(world, &world->ground_texture, s->place);
     for (size_t i = 0; i < t->layer_count; i++) {
         const lom_terrain_layer *layer = &t->layers[i];
         double weight = range_weight(s->place.y, layer->from_height, layer->to_height, layer->blend) *
-                        range_weight(s->slope, layer->from_slope, layer->to_slope, layer->slope_blend);
+                        range_weight(slope, layer->from_slope, layer->to_slope, layer->slope_blend);
         if (weight > 0)
             color = mixed(color, sample_layer(world, &world->layers[i], s->place), weight);
     }
@@ -142,8 +164,10 @@ lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, co
         in.light = scaled(in.light, lom_cloud_shadow(world, s.place, time));
     lom_vec3 to_eye = scaled(ray->direction, -1);
     uint32_t material = world->opaque.triangles[hit->triangle].material;
-    if (material == LOM_TERRAIN_MATERIAL)
+    if (material == LOM_TERRAIN_MATERIAL) {
+        s.normal = ground_facing(world, s.place);
         return reflect_light(&in, &world->ground, ground_normal(world, &s), to_eye, ground_color(world, &s));
+    }
     const struct lom_ray_material *m = &world->materials[material];
     lom_vec3 albedo = s.color;
     if (m->picture >= 0)

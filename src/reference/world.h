@@ -22,7 +22,6 @@ struct lom_ray_corner {
     lom_vec3 normal; /* not normalised */
     lom_vec3 color;
     double u, v;
-    double slope; /* of terrain: radians from flat */
 };
 
 struct lom_ray_picture {
@@ -52,6 +51,7 @@ struct lom_reference {
     struct lom_ray_picture *pictures;
     size_t picture_count, picture_capacity;
 
+    int ground_columns, ground_rows; /* the first points are the terrain's samples, row by row */
     struct lom_ray_material ground;
     struct lom_ray_layer ground_texture, ground_detail, ground_normals, *layers;
     struct lom_picture sky;      /* no image: one colour */

@@ -50,9 +50,10 @@ struct lom_ground {
     double *distance;
 };
 
-/* Reads the terrain of a scene; `surface` belongs to the device. False on failure; freed with lom_free_ground. */
-bool lom_load_ground(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map, bool occlusion,
-                     lom_device *device, lom_error *error);
+/* Reads the terrain of a scene, with the dials ambient_occlusion and mipmaps; `surface` belongs to the device. False on
+ * failure; freed with lom_free_ground. */
+bool lom_load_ground(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map,
+                     const lom_quality *quality, lom_device *device, lom_error *error);
 /* Texture coordinates of the textures with a texel a vertex are 0.5 + (x, z) scale. */
 void lom_ground_scale(const struct lom_ground *ground, const double size[2], float scale[2]);
 void lom_free_ground(struct lom_ground *ground);

@@ -176,20 +176,20 @@ static void fill_blocks(const struct loader *loader)
     }
 }
 
-static bool make_surface(const struct loader *loader, int height, lom_device *device, lom_error *error)
+static bool make_surface(const struct loader *loader, int height, bool mipmaps, lom_device *device, lom_error *error)
 {
     loader->ground->surface = lom_make_texture(
         device, &(lom_texture_desc){ .width = loader->width,
                                      .height = height,
                                      .format = LOM_FORMAT_RGBA32F,
                                      .pixels = loader->surface,
-                                     .mips = LOM_MIPS_ALL,
+                                     .mips = mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     const lom_error *failed = lom_device_error(device);
     return loader->ground->surface != NULL || lom_fail(error, failed->code, "%s", failed->text);
 }
 
-bool lom_load_ground(struct lom_ground *ground, const lom_terrain *t, const lom_image *map, bool occlusion,
+bool lom_load_ground(struct lom_ground *ground, const lom_terrain *t, const lom_image *map, const lom_quality *quality,
                      lom_device *device, lom_error *error)
 {
     size_t vertices = (size_t)map->width * (size_t)map->height;
@@ -208,10 +208,10 @@ bool lom_load_ground(struct lom_ground *ground, const lom_terrain *t, const lom_
                 lay_out(ground, error);
     if (done)
         fill_blocks(&loader);
-    if (done && occlusion)
+    if (done && quality->ambient_occlusion)
         done =
             lom_find_sky_visibility(ground->heights, map->width, map->height, t->size, &loader.surface[0][3], 4, error);
-    done = done && make_surface(&loader, map->height, device, error);
+    done = done && make_surface(&loader, map->height, quality->mipmaps, device, error);
     lom_release(loader.surface);
     lom_release(loader.x);
     lom_release(loader.z);

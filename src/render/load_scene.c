@@ -36,8 +36,8 @@ bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
         return false;
     const lom_scene *scene = renderer->scene;
     struct lom_ground *ground = &renderer->ground;
-    bool done = lom_load_ground(ground, t, map, scene->quality.ambient_occlusion, renderer->device, error) &&
-                lom_load_bed(renderer, error);
+    bool done =
+        lom_load_ground(ground, t, map, &scene->quality, renderer->device, error) && lom_load_bed(renderer, error);
     lom_free_image(map);
     if (done && t->texture != NULL)
         done = lom_load_texture(renderer, t->texture, true, error) != NULL;

@@ -32,7 +32,9 @@ static void load(uint16_t (*height)(int x, int y))
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++)
             *(uint16_t *)lom_image_pixel(map, x, y, 0) = height(x, y);
-    CHECK(lom_load_ground(&ground, &terrain, map, true, device, &error), "%s", error.text);
+    CHECK(lom_load_ground(&ground, &terrain, map, &(lom_quality){ .ambient_occlusion = true, .mipmaps = true }, device,
+                          &error),
+          "%s", error.text);
 }
 
 static void release(void)
