@@ -4,6 +4,23 @@
 #include "cloud/cloud_draw.h"
 #include "cloud/cloud_uniforms.h"
 
+const lom_blend lom_blend_over = { .enabled = true,
+                                   .source_color = LOM_FACTOR_ONE,
+                                   .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+                                   .source_alpha = LOM_FACTOR_ONE,
+                                   .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA };
+
+void lom_draw_square(lom_device *device, const lom_shader *shader, const void *uniforms, const lom_blend *blend)
+{
+    lom_draw(device, &(lom_draw_desc){ .shader = shader,
+                                       .uniforms = uniforms,
+                                       .count = 4,
+                                       .vertex_count = 4,
+                                       .topology = LOM_TRIANGLE_STRIP,
+                                       .depth_test_off = true,
+                                       .blend = { *blend } });
+}
+
 /* Radiance of a place that sees all of the sun, in parts of the sun's colour. A surface lit straight on sends its
  * colour, so the sun's irradiance is pi times it and isotropic scattering would send 1/4; light that was scattered more
  * than once makes up the rest in a thick cloud, and the octaves' geometric weights leave this factor free: it makes the
@@ -206,9 +223,5 @@ void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, 
                                        .cull = is_flat ? LOM_CULL_NONE : LOM_CULL_FRONT,
                                        .front_clockwise = view->mirrored,
                                        .depth_test_off = true,
-                                       .blend = { { .enabled = true,
-                                                    .source_color = LOM_FACTOR_ONE,
-                                                    .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
-                                                    .source_alpha = LOM_FACTOR_ONE,
-                                                    .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA } } });
+                                       .blend = { lom_blend_over } });
 }

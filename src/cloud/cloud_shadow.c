@@ -63,14 +63,9 @@ void lom_draw_cloud_shadow(lom_device *device, const struct lom_cloud_set *set, 
                                  .detail_strength = (float)cloud->cloud->detail,
                                  .detail_far = 1,
                                  .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density) };
-    lom_draw(device, &(lom_draw_desc){ .shader = &lom_cloud_shadow_shader,
-                                       .uniforms = &u,
-                                       .count = 4,
-                                       .vertex_count = 4,
-                                       .topology = LOM_TRIANGLE_STRIP,
-                                       .depth_test_off = true,
-                                       .blend = { { .enabled = true,
-                                                    .source_color = LOM_FACTOR_ZERO,
-                                                    .target_color = LOM_FACTOR_SOURCE_COLOR,
-                                                    .source_alpha = LOM_FACTOR_ONE } } });
+    static const lom_blend product = { .enabled = true,
+                                       .source_color = LOM_FACTOR_ZERO,
+                                       .target_color = LOM_FACTOR_SOURCE_COLOR,
+                                       .source_alpha = LOM_FACTOR_ONE };
+    lom_draw_square(device, &lom_cloud_shadow_shader, &u, &product);
 }

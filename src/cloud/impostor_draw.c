@@ -42,12 +42,7 @@ bool lom_magnify_plate(lom_device *device, const lom_texture *from, lom_texture 
 {
     struct lom_impostor_uniforms u = { .plate = from };
     lom_begin_pass(device, &(lom_pass_desc){ .color = { to } });
-    lom_draw(device, &(lom_draw_desc){ .shader = &lom_magnify_shader,
-                                       .uniforms = &u,
-                                       .count = 4,
-                                       .vertex_count = 4,
-                                       .topology = LOM_TRIANGLE_STRIP,
-                                       .depth_test_off = true });
+    lom_draw_square(device, &lom_magnify_shader, &u, &(lom_blend){ .enabled = false });
     return lom_end_pass(device);
 }
 
@@ -66,15 +61,5 @@ void lom_show_plate(lom_device *device, const struct lom_placed_cloud *cloud, co
         u.corner[c][1] = (float)p.y;
         u.corner[c][2] = (float)p.z;
     }
-    lom_draw(device, &(lom_draw_desc){ .shader = &lom_impostor_shader,
-                                       .uniforms = &u,
-                                       .count = 4,
-                                       .vertex_count = 4,
-                                       .topology = LOM_TRIANGLE_STRIP,
-                                       .depth_test_off = true,
-                                       .blend = { { .enabled = true,
-                                                    .source_color = LOM_FACTOR_ONE,
-                                                    .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
-                                                    .source_alpha = LOM_FACTOR_ONE,
-                                                    .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA } } });
+    lom_draw_square(device, &lom_impostor_shader, &u, &lom_blend_over);
 }
