@@ -27,10 +27,10 @@ else
     echo "SKIP pkg_config_names_the_version: no pkg-config here"
 fi
 CC="${CC:-cc}" "$prefix/bin/lom-cc" -c triangle.c -o triangle.o || fail lom_cc_builds_all_widths "lom-cc fails"
-"${CC:-cc}" triangle.o $libs -o triangle || fail lom_cc_builds_all_widths "linking fails"
+${CC:-cc} triangle.o $libs -o triangle || fail lom_cc_builds_all_widths "linking fails"
 all=$(LD_LIBRARY_PATH=$prefix/lib ./triangle) || fail lom_cc_builds_all_widths "the program fails"
 [ -s triangle.png ] && echo "PASS lom_cc_builds_all_widths"
-"${CC:-cc}" -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi triangle.c $libs -o single ||
+${CC:-cc} -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi triangle.c $libs -o single ||
     fail one_width_is_enough "cc fails"
 one=$(LD_LIBRARY_PATH=$prefix/lib ./single)
 [ "$one" = "$all" ] || fail one_width_is_enough "$one is not $all"
