@@ -266,6 +266,13 @@ LOM_INLINE lom_float4 lom_defined_gather_rows(const float *from, lom_int index)
     return x;
 }
 
+/* The same where lanes share few rows: lane i of member k is from[row[which[i]] + k], which[i] < count <= LOM_LANES.
+ * Entries of row up to the next multiple of 4 after count name floats that can be read, too. */
+LOM_INLINE lom_float4 lom_defined_pick_rows(const float *from, const int32_t *row, lom_int which)
+{
+    return lom_defined_gather_rows(from, lom_defined_gather_int(row, which));
+}
+
 /* The reverse: to[index[i] + k] from lane i of member k, in the order of the lanes. */
 LOM_INLINE void lom_defined_scatter_rows(float *to, lom_int index, lom_float4 x)
 {
@@ -402,6 +409,13 @@ LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
 LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
 {
     lom_defined_gather_pairs(from, index, first, second);
+}
+#endif
+#ifndef LOM_OVERRIDES_PICK
+LOM_INLINE lom_float4 lom_pick_rows(const float *from, const int32_t *row, int count, lom_int which)
+{
+    (void)count;
+    return lom_gather_rows(from, lom_gather_int(row, which));
 }
 #endif
 

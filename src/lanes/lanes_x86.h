@@ -20,6 +20,7 @@ LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
 #define LOM_OVERRIDES_ARITHMETIC
 #define LOM_OVERRIDES_ROUNDING
 #define LOM_OVERRIDES_GATHER
+#define LOM_OVERRIDES_PICK
 #define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_COMPRESS
 #define LOM_OVERRIDES_HALVES
@@ -144,6 +145,23 @@ LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
     for (int i = 0; i < 4; i++)
         t[i] = lom_load_quarters(from + at[i], from + at[4 + i], from + at[8 + i], from + at[12 + i]);
     return lom_transpose_quarters(t);
+}
+
+/* Up to 8 rows in two registers, whose elements go to all lanes by one permutation a member: terrain is drawn in 0.92
+ * of the time. */
+LOM_INLINE lom_float4 lom_pick_rows(const float *from, const int32_t *row, int count, lom_int which)
+{
+    if (count > 8)
+        return lom_gather_rows(from, lom_gather_int(row, which));
+    __m512i x = (__m512i)(which * 4), y = (__m512i)(which * 4 + 1), z = (__m512i)(which * 4 + 2),
+            w = (__m512i)(which * 4 + 3);
+    __m512 a = lom_load_quarters(from + row[0], from + row[1], from + row[2], from + row[3]);
+    if (count <= 4)
+        return (lom_float4){ (lom_float)_mm512_permutexvar_ps(x, a), (lom_float)_mm512_permutexvar_ps(y, a),
+                             (lom_float)_mm512_permutexvar_ps(z, a), (lom_float)_mm512_permutexvar_ps(w, a) };
+    __m512 b = lom_load_quarters(from + row[4], from + row[5], from + row[6], from + row[7]);
+    return (lom_float4){ (lom_float)_mm512_permutex2var_ps(a, x, b), (lom_float)_mm512_permutex2var_ps(a, y, b),
+                         (lom_float)_mm512_permutex2var_ps(a, z, b), (lom_float)_mm512_permutex2var_ps(a, w, b) };
 }
 
 LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)

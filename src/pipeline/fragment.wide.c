@@ -3,43 +3,38 @@
  * clamped to the hull of the vertex values.
  *
  * Invariant: a lane's values do not depend on which fragments share its packet; a packet of one triangle broadcasts its
- * rows where a mixed one gathers them, with the same arithmetic. */
+ * rows where a mixed one picks them, with the same arithmetic. */
 #include "pipeline/packet.h"
 
 struct rows { /* the vertices of the packet's triangles */
     const float *base;
-    lom_int row[3];
-    uint32_t shared[3]; /* of the one triangle when uniform */
-    bool uniform;
+    int32_t row[3][LOM_LANES]; /* of each triangle */
+    lom_int which;
+    int triangles;
 };
 
-static struct rows find_rows(const struct lom_chunk *chunk, const struct lom_packet *packet)
+/* What lom_pick_rows reads past the last triangle is the first one's. */
+static void find_rows(const struct lom_chunk *chunk, const struct lom_packet *packet, struct rows *rows)
 {
-    struct rows rows = { .base = chunk->rows, .uniform = packet->uniform };
-    if (packet->uniform) {
-        memcpy(rows.shared, chunk->triangles[packet->triangle[0]].row, sizeof rows.shared);
-        return rows;
+    rows->base = chunk->rows;
+    rows->which = packet->which;
+    rows->triangles = packet->triangles;
+    for (int i = 0; i < packet->triangles; i++) {
+        const lom_triangle *t = &chunk->triangles[packet->triangle[i]];
+        for (int k = 0; k < 3; k++)
+            rows->row[k][i] = (int32_t)t->row[k];
     }
-    const float *last = (const float *)(const void *)chunk->triangles + 12; /* row[3] and state */
-    lom_float4 words = lom_gather_rows(last, packet->triangle * (int)(sizeof(lom_triangle) / sizeof(float)));
-    rows.row[0] = lom_as_int(words.x);
-    rows.row[1] = lom_as_int(words.y);
-    rows.row[2] = lom_as_int(words.z);
-    return rows;
+    for (int i = packet->triangles; (i & 3) != 0; i++)
+        for (int k = 0; k < 3; k++)
+            rows->row[k][i] = rows->row[k][0];
 }
 
 LOM_INLINE lom_float4 load_rows(const struct rows *rows, int k, int offset)
 {
-    if (!rows->uniform)
-        return lom_gather_rows(rows->base + offset, rows->row[k]);
-    const float *row = rows->base + rows->shared[k] + offset;
+    if (rows->triangles > 1)
+        return lom_pick_rows(rows->base + offset, rows->row[k], rows->triangles, rows->which);
+    const float *row = rows->base + rows->row[k][0] + offset;
     return (lom_float4){ lom_splat(row[0]), lom_splat(row[1]), lom_splat(row[2]), lom_splat(row[3]) };
-}
-
-LOM_INLINE lom_float load_one(const struct rows *rows, int k, int offset)
-{
-    return rows->uniform ? lom_splat(rows->base[rows->shared[k] + (uint32_t)offset])
-                         : lom_gather(rows->base + offset, rows->row[k]);
 }
 
 struct weights { /* of the three vertices, screen-space times 1/w; b1 and b2 perspective-correct */
@@ -50,7 +45,7 @@ static struct weights find_weights(const struct lom_packet *packet, const struct
 {
     struct weights p;
     for (int k = 0; k < 3; k++)
-        p.one_over_w[k] = load_one(rows, k, ROW_HEADER - 1);
+        p.one_over_w[k] = load_rows(rows, k, 0).w;
     lom_float p1 = packet->l[1] * p.one_over_w[1], p2 = packet->l[2] * p.one_over_w[2];
     p.sum = packet->l[0] * p.one_over_w[0] + p1 + p2;
     if (quads) { /* helpers lie outside the triangle, where 1/w may pass through 0 */
@@ -65,18 +60,13 @@ static struct weights find_weights(const struct lom_packet *packet, const struct
 /* The steps of the weights l1 and l2, a pixel right and down: the steps of the edge functions over the area. */
 static void find_steps(const struct lom_chunk *chunk, const struct lom_packet *packet, lom_float4 *step)
 {
-    const lom_triangle *t = &chunk->triangles[packet->triangle[0]];
-    lom_float inverse;
-    if (packet->uniform) {
-        *step =
-            (lom_float4){ lom_splat(t->step_x1), lom_splat(t->step_y1), lom_splat(t->step_x2), lom_splat(t->step_y2) };
-        inverse = lom_splat(t->inverse_area);
-    } else {
-        const float *words = (const float *)(const void *)chunk->triangles;
-        lom_int at = packet->triangle * (int)(sizeof(lom_triangle) / sizeof(float));
-        *step = lom_gather_rows(words, at);
-        inverse = lom_gather(words + 4, at);
-    }
+    enum { WORDS = sizeof(lom_triangle) / sizeof(float), INVERSE_AREA = 4 };
+    const float *words = (const float *)(const void *)chunk->triangles;
+    int32_t row[LOM_LANES] = { 0 };
+    for (int i = 0; i < packet->triangles; i++)
+        row[i] = packet->triangle[i] * WORDS;
+    *step = lom_pick_rows(words, row, packet->triangles, packet->which);
+    lom_float inverse = lom_pick_rows(words + INVERSE_AREA, row, packet->triangles, packet->which).x;
     *step = (lom_float4){ step->x * inverse, step->y * inverse, step->z * inverse, step->w * inverse };
 }
 
@@ -131,7 +121,7 @@ static void copy_flat_varyings(const lom_shader *shader, const struct lom_chunk 
         if (!(shader->flat >> v & 1))
             continue;
         for (int i = 0; i < LOM_LANES; i++) {
-            const lom_triangle *t = &chunk->triangles[packet->triangle[i]];
+            const lom_triangle *t = &chunk->triangles[packet->triangle[packet->which[i]]];
             in->varying[v][i] = chunk->rows[t->row[t->state >> TRIANGLE_PROVOKING & 3] + ROW_HEADER + (uint32_t)v];
         }
         in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
@@ -150,8 +140,10 @@ static void find_position(const struct lom_tile *tile, const struct lom_packet *
     in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
     in->z = packet->depth;
     in->w = 1.0f / p->sum;
-    for (int i = 0; i < LOM_LANES; i++)
-        in->front[i] = -(int32_t)(tile->chunk->triangles[packet->triangle[i]].state >> TRIANGLE_FRONT & 1);
+    for (int i = 0; i < LOM_LANES; i++) {
+        const lom_triangle *t = &tile->chunk->triangles[packet->triangle[packet->which[i]]];
+        in->front[i] = -(int32_t)(t->state >> TRIANGLE_FRONT & 1);
+    }
 }
 
 /* The lanes of pending that are the first at their pixel. */
@@ -206,7 +198,8 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
     lom_varyings in;
     lom_fragment out;
     if (shader->reads != 0 || shader->reads_position) {
-        struct rows rows = find_rows(chunk, packet);
+        struct rows rows;
+        find_rows(chunk, packet, &rows);
         struct weights p = find_weights(packet, &rows, shader->quads);
         interpolate_varyings(shader, &rows, &p, &in);
         if (shader->differentiates != 0)
@@ -222,7 +215,7 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
     shader->fragment[draw->variant](&out, &in, draw->uniforms);
     tile->packets++;
     lom_mask mask = shader->discards ? in.covered & ~out.discard : in.covered;
-    write_in_order(tile, &packet->places, mask, packet->uniform, &out);
+    write_in_order(tile, &packet->places, mask, packet->triangles == 1, &out);
 }
 
 void LOM_WIDE(lom_find_constant)(struct lom_tile *tile)

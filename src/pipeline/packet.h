@@ -15,9 +15,11 @@ struct lom_places {
 struct lom_packet {
     struct lom_places places;
     lom_float l[3], depth; /* depth only with draw->queues_depth */
-    lom_int triangle;      /* numbers in the chunk's triangles */
+    lom_int which;         /* a lane's triangle, a number below `triangles` */
+    int triangles;
+    int32_t
+        triangle[LOM_LANES]; /* numbers in the chunk's triangles, `triangles` of them, each different from the last */
     lom_mask covered;
-    bool uniform; /* all lanes are of one triangle */
 };
 
 /* A part of a window on its way to the queue. */

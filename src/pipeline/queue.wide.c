@@ -7,7 +7,7 @@ static void take_packet(const struct lom_tile *tile, int count, struct lom_packe
 {
     const struct lom_queue *q = &tile->queue;
     lom_mask taken = lom_lane_index() < count;
-    lom_int pixel = lom_load_int(q->pixel), triangle = lom_load_int(q->triangle);
+    lom_int pixel = lom_load_int(q->pixel), which = lom_load_int(q->which);
     for (int k = 0; k < 3; k++) {
         lom_float l = lom_load(q->l[k]);
         packet->l[k] = lom_select(taken, l, lom_splat(l[0]));
@@ -17,9 +17,10 @@ static void take_packet(const struct lom_tile *tile, int count, struct lom_packe
         lom_float depth = lom_load(q->depth);
         packet->depth = lom_select(taken, depth, lom_splat(depth[0]));
     }
-    packet->triangle = lom_select_int(taken, triangle, lom_splat_int(triangle[0]));
+    packet->which = lom_select_int(taken, which, lom_splat_int(0));
+    packet->triangles = q->which[count - 1] + 1;
+    lom_store_int(packet->triangle, lom_load_int(q->triangle));
     packet->covered = tile->draw->desc.shader->quads ? taken & lom_load_int(q->covered) : taken;
-    packet->uniform = triangle[0] == triangle[count - 1];
     packet->places.block = false;
     lom_store_int(packet->places.pixel, lom_select_int(taken, pixel, lom_splat_int(pixel[0])));
 }
@@ -32,14 +33,18 @@ static void shade_queue(struct lom_tile *tile, int count)
     take_packet(tile, count, &packet);
     LOM_WIDE(lom_shade_packet)(tile, &packet);
     q->count -= count;
-    if (q->count == 0)
+    if (q->count == 0) {
+        q->triangles = 0;
         return;
+    }
+    q->triangle[0] = q->triangle[q->triangles - 1]; /* only the last triangle can have more than filled the packet */
+    q->triangles = 1;
     for (int k = 0; k < 3; k++)
         lom_store(q->l[k], lom_load(q->l[k] + LOM_LANES));
     lom_store(q->depth, lom_load(q->depth + LOM_LANES));
     lom_store_int(q->pixel, lom_load_int(q->pixel + LOM_LANES));
     lom_store_int(q->covered, lom_load_int(q->covered + LOM_LANES));
-    lom_store_int(q->triangle, lom_load_int(q->triangle + LOM_LANES));
+    lom_store_int(q->which, lom_splat_int(0));
 }
 
 LOM_INLINE lom_int places_of(const struct lom_tile *tile, const struct lom_fragments *f)
@@ -59,7 +64,9 @@ static void enqueue(struct lom_tile *tile, const struct lom_fragments *f, lom_ma
         lom_compress(q->depth + first, taken, f->depth);
     if (tile->draw->desc.shader->quads)
         lom_compress((float *)q->covered + first, taken, lom_as_float(f->covered));
-    lom_store_int(q->triangle + first, lom_splat_int(f->number));
+    if (q->triangles == 0 || q->triangle[q->triangles - 1] != f->number)
+        q->triangle[q->triangles++] = f->number;
+    lom_store_int(q->which + first, lom_splat_int(q->triangles - 1));
     q->count += __builtin_popcount(lom_bits(taken));
     if (q->count >= LOM_LANES)
         shade_queue(tile, LOM_LANES);
@@ -70,9 +77,10 @@ static void shade_part(struct lom_tile *tile, const struct lom_fragments *f)
 {
     struct lom_packet packet;
     packet.depth = f->depth;
-    packet.triangle = lom_splat_int(f->number);
+    packet.which = lom_splat_int(0);
+    packet.triangle[0] = f->number;
+    packet.triangles = 1;
     packet.covered = f->covered;
-    packet.uniform = true;
     packet.places.block = true;
     for (int k = 0; k < 3; k++)
         packet.l[k] = f->l[k];

@@ -149,8 +149,9 @@ struct lom_queue {
     float depth[QUEUE_SIZE];      /* only with draw->queues_depth */
     int32_t pixel[QUEUE_SIZE];    /* index into the tile's memory */
     int32_t covered[QUEUE_SIZE];  /* -1, or 0 for a helper; only in shaders that ask for quads */
-    int32_t triangle[QUEUE_SIZE]; /* number in the chunk's triangles */
-    int count;
+    int32_t which[QUEUE_SIZE];    /* place of the fragment's triangle in `triangle` */
+    int32_t triangle[QUEUE_SIZE]; /* number in the chunk's triangles, `triangles` of them */
+    int count, triangles;
 };
 
 struct lom_pass;

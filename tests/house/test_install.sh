@@ -38,7 +38,7 @@ echo "PASS one_width_is_enough"
 for header in "$prefix"/include/lom/*.h; do
     [ "$(basename "$header")" = lanes_x86.h ] && continue # included by lanes.h alone
     echo "#include <lom/$(basename "$header")>" >one.c
-    "${CC:-cc}" -std=gnu11 -Wall -Wextra -Werror -Wno-psabi -I"$prefix/include" -fsyntax-only one.c ||
+    ${CC:-cc} -std=gnu11 -Wall -Wextra -Werror -Wno-psabi -I"$prefix/include" -fsyntax-only one.c ||
         fail headers_stand_alone "$header"
 done
 echo "PASS headers_stand_alone"

@@ -104,6 +104,14 @@ static void rows_are_gathered_and_scattered_in_lane_order(void)
         lom_int index = pattern(7, n) & (n & 1 ? 127 : 7);
         lom_float4 a = lom_gather_rows(table, index), b = lom_defined_gather_rows(table, index);
         CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "gather_rows %d", index[0]);
+        int count = 1 + (int)(n % LOM_LANES);
+        int32_t row[LOM_LANES] = { 0 };
+        for (int i = 0; i < count; i++)
+            row[i] = index[i];
+        lom_int which = (lom_int)((lom_uint)pattern(13, n) % (uint32_t)count);
+        a = lom_pick_rows(table, row, count, which);
+        b = lom_defined_pick_rows(table, row, which);
+        CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "pick_rows of %d", count);
         a = (lom_float4){ lom_as_float(pattern(8, n)), lom_as_float(pattern(9, n)), lom_as_float(pattern(10, n)),
                           lom_as_float(pattern(11, n)) };
         memcpy(written[0], table, sizeof table);
