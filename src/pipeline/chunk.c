@@ -29,8 +29,8 @@ bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
     size_t padded = rows + 16; /* the vertex stage writes whole packets */
     if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats,
                      sizeof(float)) ||
-        !lom_reserve((void **)&chunk->clip, &chunk->clip_capacity, padded * 4, sizeof(float)) ||
-        !lom_reserve((void **)&chunk->codes, &chunk->codes_capacity, padded, sizeof(uint16_t))) {
+        !lom_reserve((void **)&chunk->assembly->clip, &chunk->assembly->clip_capacity, padded * 4, sizeof(float)) ||
+        !lom_reserve((void **)&chunk->assembly->codes, &chunk->assembly->codes_capacity, padded, sizeof(uint16_t))) {
         chunk->failed = true;
         return false;
     }
@@ -105,7 +105,7 @@ static void resolve_all_corners(struct lom_chunk *chunk)
         size_t t = chunk->first + i;
         if (draw->desc.restart && t > 0 && index_at(&draw->desc, t - 1) == UINT32_MAX)
             start = t;
-        resolve_corners(draw, t, start, chunk->corners + 3 * i);
+        resolve_corners(draw, t, start, chunk->assembly->corners + 3 * i);
     }
 }
 
@@ -120,7 +120,7 @@ static bool copy_plain_corners(struct lom_chunk *chunk, uint32_t *low, uint32_t 
     uint32_t smallest = UINT32_MAX, largest = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
         uint32_t index = from[i];
-        chunk->corners[i] = index;
+        chunk->assembly->corners[i] = index;
         smallest = index < smallest ? index : smallest;
         largest = index > largest ? index : largest;
     }
@@ -134,8 +134,8 @@ static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high
     *low = UINT32_MAX;
     *high = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
-        uint32_t number = chunk->corners[i];
-        if (chunk->corners[i - i % 3] == NO_VERTEX) {
+        uint32_t number = chunk->assembly->corners[i];
+        if (chunk->assembly->corners[i - i % 3] == NO_VERTEX) {
             chunk->has_gaps = true;
             continue;
         }
@@ -147,14 +147,15 @@ static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high
 /* A list with a vertex for each corner, for triangles that are scattered over many vertices. */
 static bool list_vertices(struct lom_chunk *chunk)
 {
-    if (!lom_reserve((void **)&chunk->vertex_list, &chunk->vertex_list_capacity, 3 * chunk->count, sizeof(uint32_t)))
+    if (!lom_reserve((void **)&chunk->assembly->vertex_list, &chunk->assembly->vertex_list_capacity, 3 * chunk->count,
+                     sizeof(uint32_t)))
         return false;
     chunk->vertex_count = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
-        if (chunk->corners[i - i % 3] == NO_VERTEX)
+        if (chunk->assembly->corners[i - i % 3] == NO_VERTEX)
             continue;
-        chunk->vertex_list[chunk->vertex_count] = chunk->corners[i];
-        chunk->corners[i] = (uint32_t)chunk->vertex_count++;
+        chunk->assembly->vertex_list[chunk->vertex_count] = chunk->assembly->corners[i];
+        chunk->assembly->corners[i] = (uint32_t)chunk->vertex_count++;
     }
     chunk->vertex_base = 0;
     return true;
@@ -165,14 +166,17 @@ static void rebase_corners(struct lom_chunk *chunk)
 {
     uint32_t base = chunk->vertex_base;
     for (size_t i = 0; i < 3 * chunk->count && base != 0; i++)
-        chunk->corners[i] = chunk->has_gaps && chunk->corners[i] == NO_VERTEX ? NO_VERTEX : chunk->corners[i] - base;
+        chunk->assembly->corners[i] = chunk->has_gaps && chunk->assembly->corners[i] == NO_VERTEX
+                                          ? NO_VERTEX
+                                          : chunk->assembly->corners[i] - base;
 }
 
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
 static bool choose_vertices(struct lom_chunk *chunk)
 {
     uint32_t low, high;
-    if (!lom_reserve((void **)&chunk->corners, &chunk->corners_capacity, 3 * chunk->count, sizeof(uint32_t)))
+    if (!lom_reserve((void **)&chunk->assembly->corners, &chunk->assembly->corners_capacity, 3 * chunk->count,
+                     sizeof(uint32_t)))
         return false;
     chunk->has_gaps = false;
     if (!copy_plain_corners(chunk, &low, &high)) {
@@ -223,8 +227,8 @@ static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, st
                 return;
             uint32_t copy = (uint32_t)chunk->row_count++;
             memcpy(chunk->rows + copy * pitch, chunk->rows + provoking * pitch, pitch * sizeof(float));
-            memcpy(chunk->clip + copy * 4, chunk->clip + provoking * 4, 4 * sizeof(float));
-            chunk->codes[copy] = chunk->codes[provoking];
+            memcpy(chunk->assembly->clip + copy * 4, chunk->assembly->clip + provoking * 4, 4 * sizeof(float));
+            chunk->assembly->codes[copy] = chunk->assembly->codes[provoking];
             for (int v = 0; v < chunk->draw->desc.shader->varyings; v++)
                 if (flat >> v & 1)
                     chunk->rows[copy * pitch + ROW_HEADER + (size_t)v] =
@@ -241,7 +245,8 @@ static void sort_out(const struct lom_pass *pass, struct lom_chunk *chunk, struc
 {
     if (corner[0] == NO_VERTEX)
         return;
-    unsigned a = chunk->codes[corner[0]], b = chunk->codes[corner[1]], c = chunk->codes[corner[2]];
+    unsigned a = chunk->assembly->codes[corner[0]], b = chunk->assembly->codes[corner[1]],
+             c = chunk->assembly->codes[corner[2]];
     unsigned any = a | b | c;
     if ((a & b & c & CODE_REJECT) != 0 || (any & CODE_INVALID) != 0)
         return;
@@ -256,7 +261,7 @@ static bool are_inside(const struct lom_chunk *chunk, const uint32_t *corners, s
 {
     unsigned any = 0;
     for (size_t i = 0; i < 3 * count; i++)
-        any |= chunk->codes[corners[i]];
+        any |= chunk->assembly->codes[corners[i]];
     return any == 0;
 }
 
@@ -266,12 +271,12 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
     const struct lom_stages *stages = lom_stages_of(chunk->draw->variant);
     struct group group = { .count = 0 };
     if (chunk->any_code == 0 && !chunk->has_gaps) {
-        stages->set_up(pass, chunk, chunk->corners, chunk->count);
+        stages->set_up(pass, chunk, chunk->assembly->corners, chunk->count);
         return;
     }
     for (size_t first = 0; first < chunk->count; first += GROUP) {
         size_t count = chunk->count - first < GROUP ? chunk->count - first : GROUP;
-        const uint32_t *corners = chunk->corners + 3 * first;
+        const uint32_t *corners = chunk->assembly->corners + 3 * first;
         if (!chunk->has_gaps && are_inside(chunk, corners, count)) {
             send(pass, chunk, &group);
             if (!chunk->failed)
@@ -284,8 +289,9 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
     send(pass, chunk, &group);
 }
 
-void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk)
+void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly)
 {
+    chunk->assembly = assembly;
     chunk->triangle_count = 0;
     chunk->triangles_clipped = 0;
     chunk->any_code = 0;

@@ -64,15 +64,15 @@ static uint16_t distance_code(const struct lom_draw *draw, const float *row)
 /* Appends the point of edge (a, b) on the plane; returns its row number. */
 static uint32_t cut_edge(const struct plane *plane, struct lom_chunk *chunk, uint32_t a, uint32_t b)
 {
-    if (is_smaller(chunk->clip + (size_t)b * 4, chunk->clip + (size_t)a * 4)) {
+    if (is_smaller(chunk->assembly->clip + (size_t)b * 4, chunk->assembly->clip + (size_t)a * 4)) {
         uint32_t swap = a;
         a = b;
         b = swap;
     }
     size_t pitch = (size_t)chunk->draw->row_floats;
     uint32_t row = (uint32_t)chunk->row_count++;
-    const float *p = chunk->clip + (size_t)a * 4, *q = chunk->clip + (size_t)b * 4;
-    float *result = chunk->clip + (size_t)row * 4;
+    const float *p = chunk->assembly->clip + (size_t)a * 4, *q = chunk->assembly->clip + (size_t)b * 4;
+    float *result = chunk->assembly->clip + (size_t)row * 4;
     double da = distance_to(plane, p), db = distance_to(plane, q);
     for (size_t i = 0; i < 4; i++)
         result[i] = mix(p[i], q[i], da, db);
@@ -80,7 +80,7 @@ static uint32_t cut_edge(const struct plane *plane, struct lom_chunk *chunk, uin
     const float *from = chunk->rows + a * pitch, *to = chunk->rows + b * pitch;
     for (size_t i = ROW_HEADER; i < pitch; i++)
         chunk->rows[row * pitch + i] = mix(from[i], to[i], da, db);
-    chunk->codes[row] = distance_code(chunk->draw, chunk->rows + row * pitch);
+    chunk->assembly->codes[row] = distance_code(chunk->draw, chunk->rows + row * pitch);
     return row;
 }
 
@@ -91,8 +91,8 @@ static int cut_polygon(const struct plane *plane, struct lom_chunk *chunk, uint3
     int length = 0;
     for (int i = 0; i < count; i++) {
         uint32_t a = polygon[i], b = polygon[i + 1 < count ? i + 1 : 0];
-        bool a_inside = distance_to(plane, chunk->clip + (size_t)a * 4) >= 0;
-        bool b_inside = distance_to(plane, chunk->clip + (size_t)b * 4) >= 0;
+        bool a_inside = distance_to(plane, chunk->assembly->clip + (size_t)a * 4) >= 0;
+        bool b_inside = distance_to(plane, chunk->assembly->clip + (size_t)b * 4) >= 0;
         if (a_inside)
             result[length++] = a;
         if (a_inside != b_inside)
@@ -119,7 +119,7 @@ static void project_row(const struct lom_pass *pass, struct lom_chunk *chunk, ui
     struct lom_projection f = lom_projection_of(pass);
     struct lom_guard guard = lom_guard_of(pass);
     float *row = chunk->rows + (size_t)number * (size_t)chunk->draw->row_floats;
-    const float *p = chunk->clip + (size_t)number * 4;
+    const float *p = chunk->assembly->clip + (size_t)number * 4;
     float w = p[3] < LOM_SMALLEST_W ? LOM_SMALLEST_W : p[3];
     int32_t x = snap(clamp_ratio(p[0], w, guard.x) * f.x_scale + f.x_offset);
     int32_t y = snap(clamp_ratio(p[1], w, guard.y) * f.y_scale + f.y_offset);

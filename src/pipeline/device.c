@@ -61,20 +61,25 @@ lom_device *lom_open_device(const lom_device_desc *desc)
     resolve_desc(device, desc);
     device->pool = lom_create_pool(device->desc.threads, &device->error);
     device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
+    device->assemblies = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_assembly), &device->error);
     device->chunks = lom_allocate((size_t)device->desc.batch, sizeof(struct lom_chunk), &device->error);
     return device;
 }
 
 static void free_chunk(struct lom_chunk *chunk)
 {
-    lom_release(chunk->corners);
-    lom_release(chunk->vertex_list);
     lom_release(chunk->rows);
-    lom_release(chunk->clip);
-    lom_release(chunk->codes);
     lom_release(chunk->triangles);
     lom_release(chunk->tile_first);
     lom_release(chunk->tile_list);
+}
+
+static void free_assembly(struct lom_assembly *assembly)
+{
+    lom_release(assembly->corners);
+    lom_release(assembly->vertex_list);
+    lom_release(assembly->clip);
+    lom_release(assembly->codes);
 }
 
 void lom_close_device(lom_device *device)
@@ -84,10 +89,13 @@ void lom_close_device(lom_device *device)
     lom_free_pool(device->pool);
     for (int i = 0; device->chunks != NULL && i < device->desc.batch; i++)
         free_chunk(&device->chunks[i]);
+    for (int i = 0; device->assemblies != NULL && i < device->desc.threads; i++)
+        free_assembly(&device->assemblies[i]);
     for (size_t i = 0; i < device->texture_count; i++)
         lom_free_texture(device->textures[i]);
     lom_release(device->textures);
     lom_release(device->chunks);
+    lom_release(device->assemblies);
     lom_release(device->worker_tiles);
     lom_release(device->tile_memory);
     lom_release(device->tile_touched);

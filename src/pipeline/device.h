@@ -15,8 +15,9 @@ struct lom_device {
 
     bool in_pass;
     struct lom_pass pass;
-    struct lom_tile *worker_tiles; /* one for each worker */
-    struct lom_chunk *chunks;      /* desc.batch of them */
+    struct lom_tile *worker_tiles;   /* one for each worker */
+    struct lom_assembly *assemblies; /* likewise */
+    struct lom_chunk *chunks;        /* desc.batch of them */
     uint8_t *tile_memory, *tile_touched;
     size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;

@@ -5,12 +5,11 @@
 static void run_chunks(void *context, int worker)
 {
     struct lom_pass *pass = context;
-    (void)worker;
     for (;;) {
         size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
         if (i >= pass->chunk_count)
             return;
-        lom_run_chunk(pass, &pass->chunks[i]);
+        lom_run_chunk(pass, &pass->chunks[i], &pass->device->assemblies[worker]);
     }
 }
 

@@ -188,8 +188,9 @@ static lom_int crossing_distances(const struct lom_chunk *chunk, const uint32_t 
     unsigned clips = (1u << chunk->draw->desc.shader->clip_distances) - 1;
     int32_t crossing[LOM_LANES];
     for (int i = 0; i < LOM_LANES; i++, corners += 3)
-        crossing[i] =
-            (int32_t)((chunk->codes[corners[0]] | chunk->codes[corners[1]] | chunk->codes[corners[2]]) & clips);
+        crossing[i] = (int32_t)((chunk->assembly->codes[corners[0]] | chunk->assembly->codes[corners[1]] |
+                                 chunk->assembly->codes[corners[2]]) &
+                                clips);
     return lom_load_int(crossing);
 }
 

@@ -115,29 +115,35 @@ struct lom_draw {
     bool queues_depth; /* the fragment stage needs the depth */
 };
 
+/* What the first half of the pipeline needs of the chunk at hand and nobody after it; a worker's, so that it stays in
+ * its cache. */
+struct lom_assembly {
+    uint32_t *corners;     /* three row numbers a triangle, or NO_VERTEX in the first */
+    uint32_t *vertex_list; /* the index of each row, in a chunk that is listed */
+    float *clip;           /* clip positions, 4 floats a row */
+    uint16_t *codes;
+    size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity; /* in elements */
+};
+
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
 struct lom_chunk {
     const struct lom_draw *draw;
     int instance;
     size_t first, count; /* triangles */
 
-    uint32_t *corners;     /* three row numbers a triangle, or NO_VERTEX in the first */
-    uint32_t vertex_base;  /* index of row 0 when vertex_list is empty */
-    uint32_t *vertex_list; /* or the index of each row */
-    size_t vertex_count;   /* rows that were shaded (clipping appends) */
+    struct lom_assembly *assembly; /* of the worker that has the chunk */
+    uint32_t vertex_base;          /* index of row 0 unless listed */
+    size_t vertex_count;           /* rows that were shaded (clipping appends) */
     bool listed;
 
     float *rows; /* vertex rows */
-    float *clip; /* clip positions, 4 floats a row */
-    uint16_t *codes;
     lom_triangle *triangles;
     uint32_t *tile_first; /* tile_count + 1: where a tile's list begins */
     uint32_t *tile_list;  /* triangle numbers */
     size_t row_count, triangle_count;
     unsigned any_code; /* all outcodes together */
     bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
-    size_t rows_capacity, clip_capacity, codes_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity,
-        vertex_list_capacity, corners_capacity; /* in elements */
+    size_t rows_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
     uint64_t triangles_clipped;
     bool failed; /* memory ran out */
 };
@@ -248,7 +254,7 @@ bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size);
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
-void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk);
+void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly);
 /* Stage 2: cuts a triangle of three rows by the planes named in `codes`; appends rows; gives the fan's corners and
  * returns how many triangles it has (0..LOM_MAX_FAN). */
 enum { LOM_MAX_FAN = 10 };

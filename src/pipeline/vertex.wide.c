@@ -21,7 +21,7 @@ static struct numbers find_numbers(const struct lom_chunk *chunk, size_t first)
     }
     n.largest = 0;
     for (int i = 0; i < LOM_LANES; i++) {
-        n.number[i] = chunk->vertex_list[first + (size_t)row[i]];
+        n.number[i] = chunk->assembly->vertex_list[first + (size_t)row[i]];
         n.largest = n.number[i] > n.largest ? n.number[i] : n.largest;
     }
     return n;
@@ -139,11 +139,11 @@ static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, flo
 static void write_codes(struct lom_chunk *chunk, size_t first, lom_int codes)
 {
     if (!lom_any(codes != 0)) {
-        memset(chunk->codes + first, 0, LOM_LANES * sizeof chunk->codes[0]);
+        memset(chunk->assembly->codes + first, 0, LOM_LANES * sizeof chunk->assembly->codes[0]);
         return;
     }
     for (int i = 0; i < LOM_LANES; i++) {
-        chunk->codes[first + (size_t)i] = (uint16_t)codes[i];
+        chunk->assembly->codes[first + (size_t)i] = (uint16_t)codes[i];
         chunk->any_code |= (unsigned)codes[i];
     }
 }
@@ -154,7 +154,7 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
     lom_int at = lom_lane_index() * draw->row_floats;
     float *row = chunk->rows + first * (size_t)draw->row_floats;
     lom_int codes = classify(pass, vertex->position);
-    lom_scatter_rows(chunk->clip + first * 4, lom_lane_index() * 4, vertex->position);
+    lom_scatter_rows(chunk->assembly->clip + first * 4, lom_lane_index() * 4, vertex->position);
     lom_scatter_rows(row, at, project(pass, vertex->position, codes));
     for (int v = 0; v < draw->desc.shader->varyings; v += 4)
         lom_scatter_rows(
