@@ -12,6 +12,7 @@
 #include <lom/pipeline.h>
 #include <lom/scene.h>
 #include <lom/sea.h>
+#include <lom/particles.h>
 #include <lom/sky.h>
 #include <lom/water.h>
 #include <lom/reference.h>

@@ -1,0 +1,58 @@
+/* lom/particles.h - drops of spray and of waterfalls whose places are closed forms of their number and the time: any
+ * moment alone equals that moment of a run, in any order of calls. Lengths are metres, times seconds, y is up. */
+#ifndef LOM_PARTICLES_H
+#define LOM_PARTICLES_H
+
+#include <lom/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { LOM_MAX_PARTICLES = 1000000 };
+
+/* Where particles begin, and how. All of them live at every time: the end of one life is the start of the next one,
+ * and the particles' phases are spread evenly over the duration of a life. */
+typedef struct lom_emitter {
+    uint64_t seed;
+    size_t count;       /* 0..LOM_MAX_PARTICLES */
+    double from[3];     /* the two ends of the segment on which lives begin, |coordinate| <= 1e7 */
+    double to[3];       /* (the lip of a fall) */
+    double velocity[3]; /* mean at the start, m/s, |component| <= 1000 */
+    double spread;      /* standard deviation of each horizontal component of it, m/s, 0..100 */
+    double wind[3];     /* velocity of the air, m/s, |component| <= 1000 */
+    double drag;        /* 1/s, 0..1000: the rate at which a drop takes on the velocity of the air */
+    double life;        /* s, 0.001..3600 */
+} lom_emitter;
+
+typedef struct lom_particle {
+    double place[3];
+    double share; /* of its life that has passed, 0 <= share < 1 */
+    double alpha; /* 0 at birth and at death, 1 from a tenth of the life to nine tenths; continuous in time */
+    int64_t life; /* number of the life; negative before time 0 */
+} lom_particle;
+
+/* Writes place[3] of a drop age >= 0 seconds after it left `start` with `velocity`. It falls at 9.80665 m/s^2 with
+ * Stokes drag, dv/dt = g - drag (v - wind), of which this is the exact solution; drag 0 is the parabola. */
+void lom_particle_flight(const double start[3], const double velocity[3], const double wind[3], double drag, double age,
+                         double place[3]);
+
+/* Seconds in which a drop falls by `height` >= 0 from rest in still air; drag >= 0 as above. A fall from a lip to a
+ * pool has this life. */
+double lom_fall_time(double height, double drag);
+
+/* All particles at a time, |time| <= 1e9, into particles[emitter->count]. False, with a sentence and nothing written,
+ * when a number is out of its range or is no number. */
+bool lom_place_particles(const lom_emitter *emitter, double time, lom_particle *particles, lom_error *error);
+
+/* The order in which to blend: order[count] holds the numbers 0..count-1, largest depth first. Depths are compared by
+ * sign, exponent and 8 bits of fraction (1 part in 256); equal ones keep the order of their numbers. A depth that is
+ * negative, zero or no number counts as nearest. `scratch` has room for count numbers; depth, order and scratch do not
+ * overlap. */
+void lom_order_particles(const float *depth, size_t count, uint32_t *order, uint32_t *scratch);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,116 @@
+/* Flight and lives of particles. In: an emitter and a time. Out: where each particle is. Invariant: a particle is a
+ * function of the emitter, its number and the time alone. */
+#include <lom/particles.h>
+
+static const double gravity = 9.80665;
+
+/* phi1(x) = (1 - e^-x)/x and phi2(x) = (x - 1 + e^-x)/x^2, the integrals of the solution of a linear equation
+ * (Hochbruck and Ostermann, Exponential integrators, Acta Numerica 2010, section 2). The differences cancel for small
+ * x, where the series sum (-x)^n/(n + 1)! and sum (-x)^n/(n + 2)! stand in for them: 18 terms leave less than 2^-60
+ * below x = 1. */
+static void flight_integrals(double x, double *phi1, double *phi2)
+{
+    if (x >= 1) {
+        *phi1 = -lom_double_expm1(-x) / x;
+        *phi2 = (1 - *phi1) / x;
+        return;
+    }
+    double sum = 0;
+    for (int n = 18; n >= 0; n--)
+        sum = (1 - x * sum) / (n + 2);
+    *phi2 = sum;
+    *phi1 = 1 - x * sum;
+}
+
+/* With u = v - wind the equation is du/dt = g - drag u, so x = x0 + wind t + u0 t phi1(drag t) + g t^2 phi2(drag t). */
+void lom_particle_flight(const double start[3], const double velocity[3], const double wind[3], double drag, double age,
+                         double place[3])
+{
+    double phi1, phi2;
+    flight_integrals(drag * age, &phi1, &phi2);
+    for (int i = 0; i < 3; i++)
+        place[i] = start[i] + wind[i] * age + (velocity[i] - wind[i]) * (age * phi1);
+    place[1] -= gravity * age * age * phi2;
+}
+
+/* Newton's method on the depth fallen, g t^2 phi2(kt), which is convex in t: from the right it descends to the root.
+ * phi2(x) >= 1/(2 + x), so the root of g t^2/(2 + kt) = h is to the right of it. */
+double lom_fall_time(double height, double drag)
+{
+    if (!(height > 0))
+        return 0;
+    const double hk = height * drag;
+    double t = (hk + lom_double_sqrt(hk * hk + 8 * gravity * height)) / (2 * gravity);
+    for (int step = 0; step < 64; step++) {
+        double phi1, phi2;
+        flight_integrals(drag * t, &phi1, &phi2);
+        double next = t - (gravity * t * t * phi2 - height) / (gravity * t * phi1);
+        if (!(next < t))
+            break;
+        t = next;
+    }
+    return t;
+}
+
+static bool is_within(double value, double least, double most)
+{
+    return value >= least && value <= most;
+}
+
+static bool check_emitter(const lom_emitter *e, double time, lom_error *error)
+{
+    if (e->count > LOM_MAX_PARTICLES)
+        return lom_fail(error, LOM_ERROR_LIMIT, "An emitter of %zu particles is beyond the limit of %d.", e->count,
+                        LOM_MAX_PARTICLES);
+    for (int i = 0; i < 3; i++) {
+        if (!is_within(e->from[i], -1e7, 1e7) || !is_within(e->to[i], -1e7, 1e7))
+            return lom_fail(error, LOM_ERROR_USAGE, "The ends of an emitter must be within 1e7 m of the origin.");
+        if (!is_within(e->velocity[i], -1000, 1000) || !is_within(e->wind[i], -1000, 1000))
+            return lom_fail(error, LOM_ERROR_USAGE, "Velocity and wind of an emitter must be within 1000 m/s.");
+    }
+    if (!is_within(e->spread, 0, 100))
+        return lom_fail(error, LOM_ERROR_USAGE, "The spread of an emitter must be 0 to 100 m/s.");
+    if (!is_within(e->drag, 0, 1000))
+        return lom_fail(error, LOM_ERROR_USAGE, "The drag of an emitter must be 0 to 1000 per second.");
+    if (!is_within(e->life, 0.001, 3600))
+        return lom_fail(error, LOM_ERROR_USAGE, "The life of an emitter's particles must be 0.001 to 3600 s.");
+    if (!is_within(time, -1e9, 1e9))
+        return lom_fail(error, LOM_ERROR_USAGE, "The time of particles must be within 1e9 s of 0.");
+    return true;
+}
+
+static double ramp(double x)
+{
+    double value = x * x * (3 - 2 * x);
+    return x < 1 && value < 1 ? value : 1; /* which rounding may pass just below x = 1 */
+}
+
+static lom_particle particle_at(const lom_emitter *e, size_t index, double time)
+{
+    enum { PLACE, SPREAD, DRAWS };
+    double lives = time / e->life + (double)index / (double)e->count, whole = lom_double_floor(lives);
+    if (lives - whole >= 1) /* lives is negative and so small that the difference rounds to 1: the next life begins */
+        lives = whole = whole + 1;
+    lom_particle p = { .share = lives - whole, .life = (int64_t)whole };
+    p.alpha = ramp(10 * p.share) * ramp(10 * (1 - p.share));
+    const uint64_t key = lom_random_bits(e->seed, index), counter = (uint64_t)p.life * DRAWS;
+    double along = lom_random_uniform(key, counter + PLACE), normal[2], start[3];
+    lom_random_normal(key, counter + SPREAD, normal);
+    for (int i = 0; i < 3; i++)
+        start[i] = e->from[i] + (e->to[i] - e->from[i]) * along;
+    const double velocity[3] = { e->velocity[0] + e->spread * normal[0], e->velocity[1],
+                                 e->velocity[2] + e->spread * normal[1] };
+    lom_particle_flight(start, velocity, e->wind, e->drag, p.share * e->life, p.place);
+    return p;
+}
+
+bool lom_place_particles(const lom_emitter *emitter, double time, lom_particle *particles, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool is_valid = check_emitter(emitter, time, error);
+    for (size_t i = 0; is_valid && i < emitter->count; i++)
+        particles[i] = particle_at(emitter, i, time);
+    lom_leave_float_state(&state);
+    return is_valid;
+}
