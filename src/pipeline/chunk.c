@@ -26,11 +26,12 @@ bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size)
 
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     size_t padded = rows + 16; /* the vertex stage writes whole packets */
     if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats,
                      sizeof(float)) ||
-        !lom_reserve((void **)&chunk->assembly->clip, &chunk->assembly->clip_capacity, padded * 4, sizeof(float)) ||
-        !lom_reserve((void **)&chunk->assembly->codes, &chunk->assembly->codes_capacity, padded, sizeof(uint16_t))) {
+        !lom_reserve((void **)&assembly->clip, &assembly->clip_capacity, padded * 4, sizeof(float)) ||
+        !lom_reserve((void **)&assembly->codes, &assembly->codes_capacity, padded, sizeof(uint16_t))) {
         chunk->failed = true;
         return false;
     }
@@ -131,11 +132,12 @@ static bool copy_plain_corners(struct lom_chunk *chunk, uint32_t *low, uint32_t 
 
 static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     *low = UINT32_MAX;
     *high = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
-        uint32_t number = chunk->assembly->corners[i];
-        if (chunk->assembly->corners[i - i % 3] == NO_VERTEX) {
+        uint32_t number = assembly->corners[i];
+        if (assembly->corners[i - i % 3] == NO_VERTEX) {
             chunk->has_gaps = true;
             continue;
         }
@@ -147,15 +149,16 @@ static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high
 /* A list with a vertex for each corner, for triangles that are scattered over many vertices. */
 static bool list_vertices(struct lom_chunk *chunk)
 {
-    if (!lom_reserve((void **)&chunk->assembly->vertex_list, &chunk->assembly->vertex_list_capacity, 3 * chunk->count,
+    struct lom_assembly *assembly = chunk->assembly;
+    if (!lom_reserve((void **)&assembly->vertex_list, &assembly->vertex_list_capacity, 3 * chunk->count,
                      sizeof(uint32_t)))
         return false;
     chunk->vertex_count = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
-        if (chunk->assembly->corners[i - i % 3] == NO_VERTEX)
+        if (assembly->corners[i - i % 3] == NO_VERTEX)
             continue;
-        chunk->assembly->vertex_list[chunk->vertex_count] = chunk->assembly->corners[i];
-        chunk->assembly->corners[i] = (uint32_t)chunk->vertex_count++;
+        assembly->vertex_list[chunk->vertex_count] = assembly->corners[i];
+        assembly->corners[i] = (uint32_t)chunk->vertex_count++;
     }
     chunk->vertex_base = 0;
     return true;
@@ -164,19 +167,19 @@ static bool list_vertices(struct lom_chunk *chunk)
 /* Corners become numbers of rows. */
 static void rebase_corners(struct lom_chunk *chunk)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     uint32_t base = chunk->vertex_base;
     for (size_t i = 0; i < 3 * chunk->count && base != 0; i++)
-        chunk->assembly->corners[i] = chunk->has_gaps && chunk->assembly->corners[i] == NO_VERTEX
-                                          ? NO_VERTEX
-                                          : chunk->assembly->corners[i] - base;
+        assembly->corners[i] =
+            chunk->has_gaps && assembly->corners[i] == NO_VERTEX ? NO_VERTEX : assembly->corners[i] - base;
 }
 
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
 static bool choose_vertices(struct lom_chunk *chunk)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     uint32_t low, high;
-    if (!lom_reserve((void **)&chunk->assembly->corners, &chunk->assembly->corners_capacity, 3 * chunk->count,
-                     sizeof(uint32_t)))
+    if (!lom_reserve((void **)&assembly->corners, &assembly->corners_capacity, 3 * chunk->count, sizeof(uint32_t)))
         return false;
     chunk->has_gaps = false;
     if (!copy_plain_corners(chunk, &low, &high)) {
@@ -216,6 +219,7 @@ static void add(const struct lom_pass *pass, struct lom_chunk *chunk, struct gro
 static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group,
                         const uint32_t corner[3], unsigned codes)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     uint32_t fan[LOM_MAX_FAN][3];
     int pieces = lom_clip_triangle(pass, chunk, corner, codes, fan);
     size_t pitch = (size_t)chunk->draw->row_floats;
@@ -227,8 +231,8 @@ static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, st
                 return;
             uint32_t copy = (uint32_t)chunk->row_count++;
             memcpy(chunk->rows + copy * pitch, chunk->rows + provoking * pitch, pitch * sizeof(float));
-            memcpy(chunk->assembly->clip + copy * 4, chunk->assembly->clip + provoking * 4, 4 * sizeof(float));
-            chunk->assembly->codes[copy] = chunk->assembly->codes[provoking];
+            memcpy(assembly->clip + copy * 4, assembly->clip + provoking * 4, 4 * sizeof(float));
+            assembly->codes[copy] = assembly->codes[provoking];
             for (int v = 0; v < chunk->draw->desc.shader->varyings; v++)
                 if (flat >> v & 1)
                     chunk->rows[copy * pitch + ROW_HEADER + (size_t)v] =
@@ -243,10 +247,10 @@ static void add_clipped(const struct lom_pass *pass, struct lom_chunk *chunk, st
  * crosses a plane. */
 static void sort_out(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group, const uint32_t *corner)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     if (corner[0] == NO_VERTEX)
         return;
-    unsigned a = chunk->assembly->codes[corner[0]], b = chunk->assembly->codes[corner[1]],
-             c = chunk->assembly->codes[corner[2]];
+    unsigned a = assembly->codes[corner[0]], b = assembly->codes[corner[1]], c = assembly->codes[corner[2]];
     unsigned any = a | b | c;
     if ((a & b & c & CODE_REJECT) != 0 || (any & CODE_INVALID) != 0)
         return;
@@ -268,15 +272,16 @@ static bool are_inside(const struct lom_chunk *chunk, const uint32_t *corners, s
 /* Triangles without outcodes go to set-up as they stand; the others one by one, in order. */
 static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
+    struct lom_assembly *assembly = chunk->assembly;
     const struct lom_stages *stages = lom_stages_of(chunk->draw->variant);
     struct group group = { .count = 0 };
     if (chunk->any_code == 0 && !chunk->has_gaps) {
-        stages->set_up(pass, chunk, chunk->assembly->corners, chunk->count);
+        stages->set_up(pass, chunk, assembly->corners, chunk->count);
         return;
     }
     for (size_t first = 0; first < chunk->count; first += GROUP) {
         size_t count = chunk->count - first < GROUP ? chunk->count - first : GROUP;
-        const uint32_t *corners = chunk->assembly->corners + 3 * first;
+        const uint32_t *corners = assembly->corners + 3 * first;
         if (!chunk->has_gaps && are_inside(chunk, corners, count)) {
             send(pass, chunk, &group);
             if (!chunk->failed)
