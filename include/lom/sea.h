@@ -81,6 +81,7 @@ typedef struct lom_sea_desc {
     double
         shortest_wave; /* metres: waves shorter than this fade as exp(-(k l)^2), l = shortest_wave / (2 pi); 0: none */
     double choppiness; /* factor on the horizontal displacement, up to 10; 0: 1, which is the physical one */
+    bool heights_only; /* no horizontal displacement, whatever choppiness says: crests as round as troughs */
     uint64_t seed;
     int cascade_count; /* 0: 3 */
     lom_cascade_desc cascade[LOM_MAX_CASCADES];

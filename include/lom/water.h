@@ -128,6 +128,46 @@ typedef struct lom_water_params {
 
 enum { LOM_MAX_WAVES = 64 };
 
+/* ---- trochoids: the waves of kind "gerstner", for programs ---- */
+
+/* One wave. With t = number (direction . (x, z)) + 2 pi phase - rate time, the water at rest at (x, z) stands
+ * amplitude cos t above the level and -across sin t along the direction from its place: a circle when both are equal
+ * (Gerstner 1809), an ellipse when across is less (Fournier and Reeves 1986). */
+typedef struct lom_trochoid {
+    double direction[2]; /* unit vector, x and z */
+    double number;       /* rad/m */
+    double rate;         /* rad/s: sqrt(9.80665 number), that of deep water */
+    double phase;        /* turns, 0 <= phase < 1 */
+    double amplitude;    /* metres */
+    double across;       /* metres, 0 <= across <= amplitude */
+} lom_trochoid;
+
+/* The sum of across times number over all waves is where crests stand: below 1 they are round, at 1 they touch a cusp
+ * where all of them meet, above 1 they would loop. */
+typedef struct lom_trochoid_report {
+    double asked;     /* the sum that height and steepness ask for */
+    double steepness; /* the sum that the waves have: at most 1 */
+    int limited;      /* waves whose horizontal motion is less than what was asked for */
+} lom_trochoid_report;
+
+/* The trochoids that `waves` describes (height 0..100, lengths 1e-3..1e5 with the longest first, count
+ * 1..LOM_MAX_WAVES, steepness 0..1, finite angles), into out[0 .. count - 1]; report may be NULL. Returns how many:
+ * waves->count, or 0 where the height is 0; -1, with a sentence and nothing written, when a number is out of its range
+ * or is none. */
+int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WAVES], lom_trochoid_report *report,
+                       lom_error *error);
+
+typedef struct lom_trochoid_point {
+    double place[3];  /* metres, y from the level */
+    double normal[3]; /* unit vector, y above or at 0 */
+    double jacobian;  /* of the horizontal motion: the area of a piece of water in parts of its area at rest, never
+                         below 0 for the waves of lom_make_trochoids */
+} lom_trochoid_point;
+
+/* Where the water is that rests at (x, z), in double, for |x|, |z| <= 1e7 and |time| <= 1e9. A wave's phase is rounded
+ * by less than 1e-15 (number (|x| + |z|) + rate |time|) radians: 1e-8 m of a wave of 10 m, 1 m high, at 10^7 m. */
+lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, double x, double z, double time);
+
 /* Attenuation (1/m) and the radiance of bottomless water (parts of white) at 650, 550 and 475 nm, for red, green and
  * blue. Attenuation is Jerlov's of downward irradiance (table XXVII), which for pure water is its absorption. The
  * radiance is 0.33 b / a (Gordon, Brown, Jacobs 1975): b, the light scattered back, is half of Morel's (1974) molecular

@@ -31,7 +31,9 @@ static void print_plan(const lom_frame *frame)
             printf("-  %-11s left out: %s\n", step->name, step->text);
             continue;
         }
-        printf("*  %-11s %s; %dx%d", step->name, step->text, step->width, step->height);
+        printf("*  %-11s %s", step->name, step->text);
+        if (step->width != 0)
+            printf("; %dx%d", step->width, step->height);
         if (step->scissor.width != 0)
             printf(", of which %dx%d at %d,%d", step->scissor.width, step->scissor.height, step->scissor.x,
                    step->scissor.y);

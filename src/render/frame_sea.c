@@ -432,7 +432,10 @@ bool lom_find_sea_stage(struct frame *f, lom_error *error)
         return true;
     memset(&sea, 0, sizeof sea);
     look_at_sea(&sea, f);
-    return find_waves(&sea, f, &why, error) && (why == NULL || lom_skip_water(f, why));
+    if (!find_waves(&sea, f, &why, error))
+        return false;
+    lom_report_trochoids(f, why);
+    return why == NULL || lom_skip_water(f, why);
 }
 
 static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)

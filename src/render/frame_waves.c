@@ -43,6 +43,25 @@ bool lom_fill_frame_waves(struct frame *f, lom_error *error)
     return lom_fill_sea(f->renderer, &f->waves, f->time, error);
 }
 
+void lom_report_trochoids(struct frame *f, const char *why)
+{
+    const lom_water_waves *waves = &f->scene->water.waves;
+    lom_trochoid trochoids[LOM_MAX_WAVES];
+    lom_trochoid_report report;
+    int count = waves->kind == LOM_WAVES_GERSTNER ? lom_make_trochoids(waves, trochoids, &report, NULL) : 0;
+    if (count <= 0)
+        return;
+    if (why != NULL)
+        lom_add_step(f, "waves", false, "%s", why);
+    else if (report.limited > 0)
+        lom_add_step(f, "waves", true,
+                     "%d trochoids; their steepness is %.3f, not %.3f: %d are held back, so that none can loop", count,
+                     report.steepness, report.asked, report.limited);
+    else
+        lom_add_step(f, "waves", true, "%d trochoids; their steepness is %.3f, and crests would loop above 1", count,
+                     report.steepness);
+}
+
 /* An eye that is above all that waves could be needs the sea where it is drawn, if it is. */
 bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
 {

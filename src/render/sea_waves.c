@@ -1,6 +1,7 @@
 /* The cascades of a sea as textures. In: the scene's wind, a time. Out: what shaders look up: displacements,
  * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
 #include "render/renderer.h"
+#include "water/sea_desc.h"
 
 enum { places = LOM_SEA_HEIGHT | LOM_SEA_DISPLACEMENT };
 enum { MOMENTS = 3 }; /* of the window before this one, at which foam is looked for */
@@ -10,21 +11,7 @@ bool lom_load_sea(lom_renderer *renderer, lom_error *error)
     const lom_water_waves *w = &renderer->scene->water.waves;
     if (w->kind != LOM_WAVES_SEA)
         return true;
-    lom_sea_desc desc = { .spectrum = (lom_spectrum_kind)w->spectrum,
-                          .wind_level = w->wind_level,
-                          .wind_speed = w->wind_speed,
-                          .calm = w->wind_level == NULL && !(w->wind_speed > 0),
-                          .wind_direction = w->direction,
-                          .fetch = w->fetch,
-                          .depth = w->depth,
-                          .height_scale = w->height_scale > 0 ? w->height_scale : 1,
-                          .choppiness = w->choppiness,
-                          .seed = (uint64_t)w->seed,
-                          .cascade_count = w->cascades };
-    desc.calm = desc.calm || !(w->height_scale > 0);
-    for (int i = 0; i < w->cascades; i++)
-        desc.cascade[i].size = w->size;
-    desc.cascade[0].length = w->patch;
+    lom_sea_desc desc = lom_scene_sea(w);
     renderer->sea = lom_create_sea(&desc, renderer->device, error);
     return renderer->sea != NULL;
 }

@@ -2,6 +2,7 @@
  * file names and sizes worked out from what the file gives. Invariant: afterwards the scene contradicts itself nowhere.
  */
 #include "reader.h"
+#include "water/sea_desc.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -240,6 +241,23 @@ static bool check_terrain(lom_reader *reader, const lom_toml_value *root)
     return true;
 }
 
+/* A sea has to be one that can be made: what no key's range says is where its description fails. */
+static bool check_waves(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *table)
+{
+    const lom_water_waves *waves = &reader->scene->water.waves;
+    if (waves->length[0] < waves->length[1])
+        return fail_at(reader, root, table, "length", "the longest wave comes first, then the shortest.");
+    if (waves->kind != LOM_WAVES_SEA)
+        return true;
+    lom_error error = { 0 };
+    lom_sea_desc desc = lom_scene_sea(waves), resolved;
+    if (waves->wind_level != NULL && lom_find_wind_level(waves->wind_level, &error) == NULL)
+        return fail_at(reader, root, table, "wind_level", error.text);
+    if ((waves->size & (waves->size - 1)) != 0)
+        return fail_at(reader, root, table, "size", "the samples a side of a patch are a power of two.");
+    return lom_resolve_sea(&desc, &resolved, &error) || fail_at(reader, root, table, "patch", error.text);
+}
+
 static bool check_water(lom_reader *reader, const lom_toml_value *root)
 {
     lom_scene *scene = reader->scene;
@@ -253,10 +271,7 @@ static bool check_water(lom_reader *reader, const lom_toml_value *root)
         memcpy(optics->absorption, absorption, sizeof absorption);
     if (child(given, "scatter") == NULL)
         memcpy(optics->scatter, scatter, sizeof scatter);
-    if (scene->water.waves.length[0] < scene->water.waves.length[1])
-        return fail_at(reader, root, child(child(root, "water"), "waves"), "length",
-                       "the longest wave comes first, then the shortest.");
-    return true;
+    return check_waves(reader, root, child(child(root, "water"), "waves"));
 }
 
 static bool check_entity_keys(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *table,

@@ -39,7 +39,7 @@ static const lom_key waves[] = {
     { "wind_level", LOM_KEY_STRING, AT(wind_level),
       .text = "Sea: name of the wind, from \"calm\" and \"light-air\" to \"gale\", \"storm\" and \"hurricane\"." },
     { "wind_speed", LOM_KEY_NUMBER, AT(wind_speed), .maximum = 100, .initial = { 8 }, .unit = "m/s",
-      .text = "Sea: at a height of 10 m, where no `wind_level` is given." },
+      .text = "Sea: at a height of 10 m, where no `wind_level` is given; less than 0.1 is a calm." },
     { "fetch", LOM_KEY_NUMBER, AT(fetch), .minimum = 1, .maximum = 1e8, .initial = { 100000 }, .unit = "m",
       .text = "Sea: how much open water lies before the wind." },
     { "depth", LOM_KEY_NUMBER, AT(depth), .maximum = 1e6, .unit = "m",

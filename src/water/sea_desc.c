@@ -1,7 +1,6 @@
-/* The description of a sea. In: what a user gave; out: every default filled in and every range checked. */
+/* The description of a sea. In: what a user or a scene gave; out: every default filled in and every range checked. */
 #include "base/double_parts.h"
-
-#include <lom/sea.h>
+#include "water/sea_desc.h"
 
 static const double pi = 3.141592653589793;
 
@@ -46,7 +45,7 @@ static bool resolve_weather(lom_sea_desc *sea, lom_error *error)
            resolve_number(&sea->gravity, 9.80665, 1e-3, 1000, "gravity in m/s^2", error) &&
            resolve_number(&sea->height_scale, 1, 1e-6, 1000, "height scale", error) &&
            resolve_number(&sea->shortest_wave, 0, 0, 1e6, "shortest wave in metres", error) &&
-           resolve_number(&sea->choppiness, 1, 1e-6, 10, "choppiness", error);
+           (sea->heights_only || resolve_number(&sea->choppiness, 1, 1e-6, 10, "choppiness", error));
 }
 
 static bool resolve_size(lom_cascade_desc *c, int number, lom_error *error)
@@ -84,6 +83,8 @@ bool lom_resolve_sea(const lom_sea_desc *desc, lom_sea_desc *resolved, lom_error
     lom_sea_desc sea = *desc;
     if (!resolve_weather(&sea, error))
         return false;
+    if (sea.heights_only)
+        sea.choppiness = 0;
     if (sea.cascade_count == 0)
         sea.cascade_count = 3;
     if (sea.cascade_count < 1 || sea.cascade_count > LOM_MAX_CASCADES)
@@ -107,4 +108,25 @@ bool lom_resolve_sea(const lom_sea_desc *desc, lom_sea_desc *resolved, lom_error
             return false;
     *resolved = sea;
     return true;
+}
+
+/* Where 0 means none in a scene and the default in a description, it becomes the flag that says none. */
+lom_sea_desc lom_scene_sea(const lom_water_waves *w)
+{
+    lom_sea_desc desc = { .spectrum = (lom_spectrum_kind)w->spectrum,
+                          .wind_level = w->wind_level,
+                          .wind_speed = w->wind_speed < 0.1 ? 0 : w->wind_speed,
+                          .calm = (w->wind_level == NULL && w->wind_speed < 0.1) || w->height_scale < 1e-6,
+                          .wind_direction = w->direction,
+                          .fetch = w->fetch,
+                          .depth = w->depth,
+                          .height_scale = w->height_scale < 1e-6 ? 1 : w->height_scale,
+                          .choppiness = w->choppiness,
+                          .heights_only = w->choppiness < 1e-6,
+                          .seed = (uint64_t)w->seed,
+                          .cascade_count = w->cascades };
+    for (int i = 0; i < w->cascades; i++)
+        desc.cascade[i].size = w->size;
+    desc.cascade[0].length = w->patch;
+    return desc;
 }

@@ -4,20 +4,10 @@
 
 static const double turn = 6.283185307179586, gravity = 9.80665;
 
-struct wave {
-    double length, angle, phase, number;
-};
-
-static struct wave choose_wave(const lom_water_waves *waves, int i)
+static double wave_length(const lom_water_waves *waves, int i)
 {
-    uint64_t key = (uint64_t)waves->seed;
-    double normal[2], place = (i + lom_random_uniform(key, 3 * (uint64_t)i)) / waves->count;
-    lom_random_normal(key, 3 * (uint64_t)i + 1, normal);
-    struct wave w = { .length = waves->length[0] * lom_double_pow(waves->length[1] / waves->length[0], place),
-                      .angle = waves->direction + waves->spread * normal[0],
-                      .phase = lom_random_uniform(key, 3 * (uint64_t)i + 2) };
-    w.number = turn / w.length;
-    return w;
+    double place = (i + lom_random_uniform((uint64_t)waves->seed, 3 * (uint64_t)i)) / waves->count;
+    return waves->length[0] * lom_double_pow(waves->length[1] / waves->length[0], place);
 }
 
 /* Equal slopes of all waves: a = c length, with half the sum of a^2 equal to the variance (height / 4)^2. */
@@ -25,35 +15,127 @@ static double amplitude_factor(const lom_water_waves *waves)
 {
     double sum = 0;
     for (int i = 0; i < waves->count; i++) {
-        double length = choose_wave(waves, i).length;
+        double length = wave_length(waves, i);
         sum += length * length / 2;
     }
     return waves->height / 4 / lom_double_sqrt(sum);
 }
 
+static lom_trochoid choose_wave(const lom_water_waves *waves, int i, double factor)
+{
+    uint64_t key = (uint64_t)waves->seed;
+    double normal[2], length = wave_length(waves, i);
+    lom_random_normal(key, 3 * (uint64_t)i + 1, normal);
+    double angle = waves->direction + waves->spread * normal[0];
+    lom_trochoid t = { .direction = { lom_double_cos(angle), lom_double_sin(angle) },
+                       .number = turn / length,
+                       .rate = lom_double_sqrt(gravity * (turn / length)),
+                       .phase = lom_random_uniform(key, 3 * (uint64_t)i + 2),
+                       .amplitude = factor * length };
+    double bound = 1 / (waves->count * t.number);
+    t.across = waves->steepness * (t.amplitude < bound ? t.amplitude : bound);
+    return t;
+}
+
+static bool is_within(double x, double low, double high)
+{
+    return x >= low && x <= high;
+}
+
+static bool check_trochoids(const lom_water_waves *w, lom_error *error)
+{
+    if (w->count < 1 || w->count > LOM_MAX_WAVES)
+        return lom_fail(error, LOM_ERROR_USAGE, "%d waves were asked for; there are 1 to %d.", w->count, LOM_MAX_WAVES);
+    if (!is_within(w->length[1], 1e-3, w->length[0]) || !is_within(w->length[0], 1e-3, 1e5))
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "The lengths of waves go from 0.001 to 100000 metres, the longest first.");
+    if (!is_within(w->height, 0, 100) || !is_within(w->steepness, 0, 1))
+        return lom_fail(error, LOM_ERROR_USAGE, "Waves are 0 to 100 metres high and their steepness is 0 to 1.");
+    if (!is_within(w->direction, -1e6, 1e6) || !is_within(w->spread, 0, 10))
+        return lom_fail(error, LOM_ERROR_USAGE, "The direction of waves is a finite angle, their spread 0 to 10.");
+    return true;
+}
+
+static int make_trochoids(const lom_water_waves *waves, lom_trochoid *out, lom_trochoid_report *report)
+{
+    int count = waves->height > 0 ? waves->count : 0;
+    double factor = count > 0 ? amplitude_factor(waves) : 0;
+    *report = (lom_trochoid_report){ .asked = 0 };
+    for (int i = 0; i < count; i++) {
+        out[i] = choose_wave(waves, i, factor);
+        report->asked += waves->steepness * out[i].amplitude * out[i].number;
+        report->steepness += out[i].across * out[i].number;
+        report->limited += out[i].across < waves->steepness * out[i].amplitude;
+    }
+    return count;
+}
+
+int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WAVES], lom_trochoid_report *report,
+                       lom_error *error)
+{
+    lom_trochoid_report unread;
+    if (!check_trochoids(waves, error))
+        return -1;
+    return make_trochoids(waves, out, report != NULL ? report : &unread);
+}
+
+/* Without whole turns, so that what follows is a small angle: both products are rounded in turns, 2^-53 of them. */
+static double phase_at(const lom_trochoid *t, double x, double z, double time)
+{
+    double turns = t->phase - t->rate * time / turn;
+    turns -= lom_double_floor(turns + 0.5);
+    double along = t->number * (t->direction[0] * x + t->direction[1] * z) / turn;
+    return (turns + (along - lom_double_floor(along + 0.5))) * turn;
+}
+
+lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, double x, double z, double time)
+{
+    lom_trochoid_point p = { .place = { x, 0, z } };
+    double sx = 0, sz = 0, xx = 0, zz = 0, xz = 0;
+    for (int i = 0; i < count; i++) {
+        const lom_trochoid *t = &trochoids[i];
+        double phase = phase_at(t, x, z, time), s = lom_double_sin(phase), c = lom_double_cos(phase);
+        double dx = t->direction[0], dz = t->direction[1], slope = t->number * t->amplitude * s;
+        double narrowing = t->number * t->across * c;
+        p.place[0] -= t->across * dx * s;
+        p.place[1] += t->amplitude * c;
+        p.place[2] -= t->across * dz * s;
+        sx -= dx * slope;
+        sz -= dz * slope;
+        xx -= dx * dx * narrowing;
+        zz -= dz * dz * narrowing;
+        xz -= dx * dz * narrowing;
+    }
+    p.jacobian = (1 + xx) * (1 + zz) - xz * xz;
+    /* The cross product of the tangents (xz, sz, 1 + zz) and (1 + xx, sx, xz). */
+    double n[3] = { sz * xz - (1 + zz) * sx, p.jacobian, sx * xz - (1 + xx) * sz };
+    double length = lom_double_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; k++)
+        p.normal[k] = length > 0 ? n[k] / length : k == 1;
+    return p;
+}
+
 void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_params *water, double time)
 {
-    const lom_water_waves *waves = &water->waves;
+    lom_trochoid trochoids[LOM_MAX_WAVES];
+    lom_trochoid_report unread;
     double high = 0, reach = 0;
     out->level = (float)water->level;
-    out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER && waves->height > 0 ? waves->count : 0;
-    double factor = out->trochoid_count > 0 ? amplitude_factor(waves) : 0;
+    out->trochoid_count =
+        water->waves.kind == LOM_WAVES_GERSTNER ? make_trochoids(&water->waves, trochoids, &unread) : 0;
     for (int i = 0; i < out->trochoid_count; i++) {
-        struct wave w = choose_wave(waves, i);
-        double amplitude = factor * w.length, bound = 1 / (waves->count * w.number);
-        double across = waves->steepness * (amplitude < bound ? amplitude : bound);
-        double rate = lom_double_sqrt(gravity * w.number), turns = w.phase - rate * time / turn;
-        double x = lom_double_cos(w.angle), z = lom_double_sin(w.angle);
+        const lom_trochoid *t = &trochoids[i];
+        double turns = t->phase - t->rate * time / turn, x = t->direction[0], z = t->direction[1];
         turns -= lom_double_floor(turns + 0.5);
-        out->trochoid[i] = (struct lom_trochoid_uniform){ .kx = (float)(x * w.number),
-                                                          .kz = (float)(z * w.number),
+        out->trochoid[i] = (struct lom_trochoid_uniform){ .kx = (float)(x * t->number),
+                                                          .kz = (float)(z * t->number),
                                                           .phase = (float)(turns * turn),
-                                                          .amplitude = (float)amplitude,
-                                                          .across_x = (float)(x * across),
-                                                          .across_z = (float)(z * across),
-                                                          .rate = (float)rate };
-        high += amplitude;
-        reach += across;
+                                                          .amplitude = (float)t->amplitude,
+                                                          .across_x = (float)(x * t->across),
+                                                          .across_z = (float)(z * t->across),
+                                                          .rate = (float)t->rate };
+        high += t->amplitude;
+        reach += t->across;
     }
     bool breaks = out->trochoid_count > 0 && water->foam.amount > 0;
     out->foam_threshold = breaks ? (float)water->foam.threshold : 0;

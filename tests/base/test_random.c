@@ -80,6 +80,28 @@ static void uniform_moments(void)
     CHECK(chi > 20 && chi < 120, "chi squared %g of 63", chi); /* beyond 1e-5 on both sides */
 }
 
+/* F13: the logarithm's argument is never 0, so every normal number is finite, the same for the same key wherever and
+ * whenever it is drawn, and what the uniform numbers below it say: Box and Muller (1958). */
+static void f13_normals_are_reproducible(void)
+{
+    uint64_t hash = 1469598103934665603u;
+    double first[2], again[2];
+    lom_random_normal(7, 123456789, first);
+    for (uint64_t i = 0; i < 1000; i++) {
+        double n[2];
+        lom_random_normal(i * 0x9e3779b97f4a7c15u, ~i, n);
+        uint64_t bits[2];
+        memcpy(bits, n, sizeof bits);
+        for (int k = 0; k < 2; k++) {
+            CHECK(n[k] > -9 && n[k] < 9, "%g", n[k]);
+            hash = (hash ^ bits[k]) * 1099511628211u;
+        }
+    }
+    lom_random_normal(7, 123456789, again);
+    CHECK(first[0] == again[0] && first[1] == again[1], "drawn twice");
+    CHECK(hash == 0x0a0444025d90d31au, "%016llx", (unsigned long long)hash);
+}
+
 static void normal_moments(void)
 {
     enum { N = 200000 };
@@ -110,6 +132,7 @@ int main(int argc, char **argv)
     RUN(philox_vectors);
     RUN(avalanche);
     RUN(uniform_moments);
+    RUN(f13_normals_are_reproducible);
     RUN(normal_moments);
     return check_result();
 }

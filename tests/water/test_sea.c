@@ -2,7 +2,7 @@
  * device, and bad descriptions are refused with a sentence. */
 #include "check.h"
 
-#include <lom/sea.h>
+#include "water/sea_desc.h"
 
 static const double pi = 3.141592653589793;
 
@@ -83,6 +83,23 @@ static void f9_gamma_one_is_pierson_moskowitz(void)
 }
 
 /* tanh by exp in long steps: both sides in double; 2 ulp. */
+/* JONSWAP's width changes at the peak, where its boost is gamma for both: no step. Far from it the boost is 1, and
+ * nothing overflows on the way there. */
+static void f14_jonswap_has_no_step_at_its_peak(void)
+{
+    lom_wave_spectrum s = spectrum_of((lom_sea_desc){ .peak_enhancement = 3.3 });
+    lom_wave_spectrum one = spectrum_of((lom_sea_desc){ .peak_enhancement = 1 });
+    double peak = s.peak * s.peak / s.gravity;
+    double below = lom_spectrum_at(&s, peak * (1 - 1e-9)), above = lom_spectrum_at(&s, peak * (1 + 1e-9));
+    CHECK(absolute(below / above - 1) < 1e-7, "%g and %g", below, above);
+    CHECK(absolute(above / lom_spectrum_at(&one, peak) - 3.3) < 1e-6, "boost %g", above / lom_spectrum_at(&one, peak));
+    for (double factor = 1e-4; factor < 1e300; factor *= 7) {
+        double value = lom_spectrum_at(&s, peak * factor), plain = lom_spectrum_at(&one, peak * factor);
+        CHECK(value >= plain && value <= 3.3 * plain, "%g and %g at %g of the peak", value, plain, factor);
+        CHECK(factor < 4 || value == plain, "boost at %g of the peak", factor);
+    }
+}
+
 static void f11_dispersion(void)
 {
     for (double k = 1e-6; k < 1e5; k *= 3.7)
@@ -339,6 +356,69 @@ static void a_finer_grid_changes_no_wave(void)
     lom_close_device(device);
 }
 
+/* Heights alone are the heights of the same sea, and nothing moves sideways. */
+static void heights_alone_are_the_same_heights(void)
+{
+    lom_sea_desc desc = small_sea;
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    lom_sea *both = lom_create_sea(&desc, device, NULL);
+    desc.heights_only = true;
+    lom_sea *heights = lom_create_sea(&desc, device, NULL);
+    lom_advance_sea(both, device, 3, NULL);
+    lom_advance_sea(heights, device, 3, NULL);
+    lom_sea_cascade a = lom_view_cascade(both, 0), b = lom_view_cascade(heights, 0);
+    bool moved = false;
+    for (int i = 0; i < a.size * a.size; i++) {
+        moved |= a.displacement[4 * i] != 0;
+        CHECK(b.displacement[4 * i] == 0 && b.displacement[4 * i + 2] == 0 && b.jacobian[i] == 1, "sample %d moves", i);
+        CHECK(absolute((double)a.displacement[4 * i + 1] - b.displacement[4 * i + 1]) < 1e-5, "height %d", i);
+    }
+    CHECK(moved && b.reach == 0, "nothing moves in either");
+    lom_free_sea(both);
+    lom_free_sea(heights);
+    lom_close_device(device);
+}
+
+/* In a scene 0 is none: no wind, no heights, no choppiness. */
+static void nothing_in_a_scene_is_nothing(void)
+{
+    lom_water_waves waves = {
+        .kind = LOM_WAVES_SEA, .wind_speed = 9, .fetch = 1e5, .height_scale = 1, .choppiness = 1
+    };
+    lom_sea_desc desc = lom_scene_sea(&waves);
+    CHECK(!desc.calm && !desc.heights_only && desc.choppiness == 1, "a sea");
+    waves.choppiness = 0;
+    desc = lom_scene_sea(&waves);
+    CHECK(!desc.calm && desc.heights_only, "without choppiness");
+    waves.height_scale = 0;
+    desc = lom_scene_sea(&waves);
+    CHECK(desc.calm && lom_resolve_sea(&desc, &desc, NULL), "without heights");
+    waves.height_scale = 1;
+    waves.wind_speed = 1e-9;
+    desc = lom_scene_sea(&waves);
+    CHECK(desc.calm && lom_resolve_sea(&desc, &desc, NULL), "without wind");
+}
+
+/* W3: a storm at four times its choppiness folds over, and where it does is a number. */
+static void w3_folds_have_a_negative_jacobian(void)
+{
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    lom_sea_desc desc = small_sea;
+    desc.wind_speed = 25;
+    desc.choppiness = 4;
+    lom_sea *sea = lom_create_sea(&desc, device, NULL);
+    lom_advance_sea(sea, device, 3, NULL);
+    lom_sea_cascade v = lom_view_cascade(sea, 0);
+    int folded = 0;
+    for (int i = 0; i < v.size * v.size; i++) {
+        folded += v.jacobian[i] < 0;
+        CHECK(v.jacobian[i] > -1000 && v.jacobian[i] < 1000, "Jacobian %g", v.jacobian[i]);
+    }
+    CHECK(folded > 0 && folded < v.size * v.size / 2, "%d of %d samples fold", folded, v.size * v.size);
+    lom_free_sea(sea);
+    lom_close_device(device);
+}
+
 static void a_calm_sea_is_flat(void)
 {
     lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
@@ -394,6 +474,7 @@ int main(int argc, char **argv)
     RUN(f8_f9_degenerate_spectra_are_zero_or_finite);
     RUN(f9_gamma_one_is_pierson_moskowitz);
     RUN(f11_dispersion);
+    RUN(f14_jonswap_has_no_step_at_its_peak);
     RUN(no_wave_passes_its_bound);
     RUN(a_step_in_two_parts_is_one_step);
     RUN(f10_every_field_is_the_direct_sum_at_any_time);
@@ -404,6 +485,9 @@ int main(int argc, char **argv)
     RUN(waves_go_where_the_wind_blows);
     RUN(f12_hs_is_four_standard_deviations_over_64_seeds);
     RUN(a_finer_grid_changes_no_wave);
+    RUN(heights_alone_are_the_same_heights);
+    RUN(nothing_in_a_scene_is_nothing);
+    RUN(w3_folds_have_a_negative_jacobian);
     RUN(a_calm_sea_is_flat);
     RUN(bad_descriptions_are_refused);
     return check_result();

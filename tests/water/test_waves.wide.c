@@ -82,6 +82,24 @@ static void w1_crests_never_loop(void)
         }
 }
 
+/* W3: foam is a share at any steepness, none where no crest breaks, and some where they do. */
+static void w3_foam_is_a_share(void)
+{
+    for (int k = 0; k < 2; k++) {
+        struct lom_waves_uniform waves = waves_at(k == 0 ? 0.05 : 100, k == 0 ? 0.1 : 1, 21, 1);
+        waves.foam_threshold = 0.7f;
+        waves.foam_window = 2;
+        int foaming = 0;
+        for (int i = 0; i < 2000; i++) {
+            float foam =
+                lom_find_slopes(&waves, lom_splat(0.05f * (float)i), lom_splat(0.031f * (float)i), &point).foam[0];
+            CHECK(foam >= 0 && foam <= 1, "foam %g", foam);
+            foaming += foam > 0;
+        }
+        CHECK(k == 0 ? foaming == 0 : foaming > 0, "%d points of %s waves foam", foaming, k == 0 ? "gentle" : "steep");
+    }
+}
+
 static void w2_no_height_is_flat(void)
 {
     struct lom_waves_uniform waves = waves_at(0, 1, 8, 5);
@@ -187,6 +205,7 @@ int main(int argc, char **argv)
     }
     RUN(slopes_are_derivatives_of_the_displacement);
     RUN(w1_crests_never_loop);
+    RUN(w3_foam_is_a_share);
     RUN(w2_no_height_is_flat);
     RUN(filtered_slopes_become_variance);
     RUN(phases_are_exact_after_years);
