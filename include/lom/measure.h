@@ -19,7 +19,8 @@ typedef struct lom_workload lom_workload;
 int lom_workload_count(void);
 /* "clear", "fill", "blend", "depth", "mesh", "terrain", "water", "cloud", and "cloud-skip", which draws the bytes of
  * "cloud" with less work: empty space is skipped; "fft256", "fft512", "fft1024", complex Fourier transforms of squares
- * of that size, whatever size is asked for. NULL outside 0 .. count - 1. */
+ * of that size, and "light-grid", the light of 128^3 voxels, whatever size is asked for. NULL outside 0 .. count - 1.
+ */
 const char *lom_workload_name(int index);
 /* One line that says what is drawn. */
 const char *lom_workload_summary(int index);

@@ -7,10 +7,9 @@
 
 #include <string.h>
 
-typedef void sweep_slice(const struct lom_slice *slice);
-sweep_slice lom_sweep_slice_4, lom_sweep_slice_8, lom_sweep_slice_16;
+lom_slice_sweep lom_sweep_slice_4, lom_sweep_slice_8, lom_sweep_slice_16;
 
-static sweep_slice *widest_sweep(void)
+static lom_slice_sweep *widest_sweep(void)
 {
     lom_cpu cpu = lom_detect_cpu();
     return cpu.avx512 ? lom_sweep_slice_16 : cpu.avx2 ? lom_sweep_slice_8 : lom_sweep_slice_4;
@@ -97,7 +96,8 @@ lom_light_grid *lom_create_light_grid(const lom_image *density, double scale, co
                               .height = scaled(density->height, scale),
                               .depth = scaled(density->depth, scale) };
     size_t cells = cell_index(grid->width, grid->height, 0, 0, grid->depth + 1);
-    grid->density = lom_allocate((size_t)grid->width * (size_t)grid->height, (size_t)grid->depth * 2, error);
+    size_t voxels = (size_t)grid->width * (size_t)grid->height * (size_t)grid->depth;
+    grid->density = lom_allocate(voxels + LOM_SLAB, sizeof *grid->density, error); /* blocks of slabs read beyond */
     grid->light = lom_allocate(cells, sizeof *grid->light, error);
     if (grid->density == NULL || grid->light == NULL) {
         lom_free_light_grid(grid);
@@ -130,8 +130,9 @@ struct sweep {
     int size[3], axis, across[2];
     bool from_high;
     double shear[2], thickness;
-    size_t stride[3], light_stride[3];
     int rays[2];
+    int slab;     /* slices swept from a transposed copy; 1: from where they are */
+    size_t pitch; /* of the rows in a slab */
 };
 
 static double magnitude(double x)
@@ -152,11 +153,8 @@ static void plan_sweep(const lom_light_grid *g, const lom_light_desc *desc, stru
     s->across[1] = s->axis == 2 ? 1 : 2;
     s->from_high = along[s->axis] > 0;
     s->thickness = 1 / magnitude(along[s->axis]);
-    s->stride[0] = s->light_stride[0] = 1;
-    s->stride[1] = (size_t)g->width;
-    s->stride[2] = (size_t)g->width * (size_t)g->height;
-    s->light_stride[1] = (size_t)g->width + 1;
-    s->light_stride[2] = cell_index(g->width, g->height, 0, 0, 1);
+    s->slab = s->axis == 0 ? LOM_SLAB : 1;
+    s->pitch = lom_slab_pitch(s->size[s->across[0]]);
     for (int i = 0; i < 2; i++) {
         s->shear[i] = -along[s->across[i]] * s->thickness;
         s->rays[i] = s->size[s->across[i]] + (int)(magnitude(s->shear[i]) * (s->size[s->axis] - 1)) + 3;
@@ -214,42 +212,101 @@ static void split_offset(double offset, int *whole, float *part)
     *part = (float)(*whole - offset);
 }
 
-bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error)
+/* Slice `at` where it is: its rows of voxels, and of light. */
+static const uint16_t *find_voxels(const lom_light_grid *g, const struct sweep *s, int at, size_t *pitch)
+{
+    size_t row = (size_t)g->width, whole = row * (size_t)g->height;
+    *pitch = s->axis == 1 ? whole : row;
+    return g->density + (size_t)at * (s->axis == 1 ? row : whole);
+}
+
+static void write_slice(lom_light_grid *g, const struct sweep *s, int at, const uint16_t *shares)
+{
+    int rows = s->size[s->across[1]];
+    for (int row = 0; row < rows; row++) {
+        int y = s->axis == 1 ? at : row, z = s->axis == 1 ? row : at;
+        lom_write_shares(g->light + cell_index(g->width, g->height, 0, y, z), shares + (size_t)row * s->pitch,
+                         g->width);
+    }
+}
+
+/* The scratch of a sweep. */
+struct buffers {
+    float *rows, *carried;
+    uint16_t *voxels, *shares; /* of a slab */
+};
+
+static bool allocate_buffers(const struct sweep *s, struct buffers *b, lom_error *error)
+{
+    size_t slab = s->pitch * (size_t)s->size[s->across[1]] * (size_t)s->slab;
+    b->rows = lom_allocate(4 * lom_row_pitch(s->size[s->across[0]]), sizeof *b->rows, error);
+    b->carried = lom_allocate(lom_ray_pitch(s->rays[0]) * (size_t)(s->rays[1] + 1), sizeof *b->carried, error);
+    b->shares = lom_allocate(slab, sizeof *b->shares, error);
+    b->voxels = s->slab > 1 ? lom_allocate(slab, sizeof *b->voxels, error) : NULL;
+    return b->rows != NULL && b->carried != NULL && b->shares != NULL && (s->slab == 1 || b->voxels != NULL);
+}
+
+static void free_buffers(struct buffers *b)
+{
+    lom_release(b->rows);
+    lom_release(b->carried);
+    lom_release(b->shares);
+    lom_release(b->voxels);
+}
+
+/* `count` slices from slice k on, counted from the light. */
+static void sweep_slab(lom_slice_sweep *sweep, lom_light_grid *grid, const struct sweep *s, struct lom_slice *slice,
+                       const struct buffers *b, int k, int count)
+{
+    int first = s->from_high ? s->size[s->axis] - k - count : k;
+    size_t size = s->pitch * (size_t)slice->height;
+    if (s->slab > 1)
+        lom_read_slab(grid, first, count, b->voxels);
+    else
+        slice->voxels = find_voxels(grid, s, first, &slice->voxel_pitch);
+    for (int i = 0; i < count; i++) {
+        size_t at = (size_t)(s->from_high ? count - 1 - i : i);
+        split_offset(offset_of(s, 0, k + i), &slice->whole_x, &slice->part_x);
+        split_offset(offset_of(s, 1, k + i), &slice->whole_y, &slice->part_y);
+        slice->shares = b->shares + at * size;
+        if (s->slab > 1)
+            slice->voxels = b->voxels + at * size;
+        sweep(slice);
+    }
+    if (s->slab > 1)
+        lom_write_slab(grid, first, count, b->shares);
+    else
+        write_slice(grid, s, first, b->shares);
+}
+
+bool lom_sweep_sun_by(lom_slice_sweep *sweep, lom_light_grid *grid, const lom_light_desc *desc, lom_error *error)
 {
     struct sweep s;
+    struct buffers buffers;
     plan_sweep(grid, desc, &s);
-    sweep_slice *sweep = widest_sweep();
-    struct lom_slice slice = { .width = s.size[s.across[0]],
-                               .height = s.size[s.across[1]],
-                               .rays_across = s.rays[0],
-                               .rays_down = s.rays[1],
-                               .scale = (float)((double)desc->extinction * s.thickness / 65535),
-                               .forward = desc->forward,
-                               .voxel_stride = s.stride[s.across[0]],
-                               .row_stride = s.stride[s.across[1]],
-                               .light_voxel_stride = s.light_stride[s.across[0]],
-                               .light_row_stride = s.light_stride[s.across[1]] };
-    size_t rays = lom_ray_pitch(s.rays[0]) * (size_t)(s.rays[1] + 1);
-    slice.rows = lom_allocate(lom_slice_pitch(&slice), ((size_t)slice.height + 2) * sizeof(float), error);
-    slice.carried = lom_allocate(rays, sizeof(float), error);
-    slice.middle = lom_allocate(rays, sizeof(float), error);
-    bool done = slice.rows != NULL && slice.carried != NULL && slice.middle != NULL;
-    if (done)
-        start_rays(&s, desc, slice.carried);
-    for (int k = 0; done && k < s.size[s.axis]; k++) {
-        int at = s.from_high ? s.size[s.axis] - 1 - k : k;
-        split_offset(offset_of(&s, 0, k), &slice.whole_x, &slice.part_x);
-        split_offset(offset_of(&s, 1, k), &slice.whole_y, &slice.part_y);
-        slice.voxels = grid->density + (size_t)at * s.stride[s.axis];
-        slice.light = grid->light + (size_t)at * s.light_stride[s.axis];
-        sweep(&slice);
-    }
-    lom_release(slice.rows);
-    lom_release(slice.carried);
-    lom_release(slice.middle);
-    if (done)
+    bool done = allocate_buffers(&s, &buffers, error);
+    if (done) {
+        struct lom_slice slice = { .width = s.size[s.across[0]],
+                                   .height = s.size[s.across[1]],
+                                   .rays_across = s.rays[0],
+                                   .scale = (float)((double)desc->extinction * s.thickness / 65535),
+                                   .forward = desc->forward,
+                                   .rows = buffers.rows,
+                                   .carried = buffers.carried,
+                                   .voxel_pitch = s.pitch,
+                                   .share_pitch = s.pitch };
+        start_rays(&s, desc, buffers.carried);
+        for (int k = 0, n = s.size[s.axis]; k < n; k += s.slab)
+            sweep_slab(sweep, grid, &s, &slice, &buffers, k, at_most(s.slab, n - k));
         repeat_borders(grid);
+    }
+    free_buffers(&buffers);
     return done;
+}
+
+bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error)
+{
+    return lom_sweep_sun_by(widest_sweep(), grid, desc, error);
 }
 
 /* ---- sky and ground ---- */

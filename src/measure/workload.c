@@ -21,24 +21,27 @@ static const lom_workload_view cloud_view = { .eye = { 0.25f, 0.15f, 1.05f },
                                               .far_plane = 10 };
 
 static const lom_workload_kind kinds[] = {
-    { "clear", "one colour and one depth", lom_draw_clear, NULL, 0, false, false, 0 },
-    { "fill", "8 opaque layers over the whole window", lom_draw_fill, NULL, 0, false, false, 0 },
-    { "blend", "8 translucent layers over the whole window", lom_draw_blend, NULL, 0, false, false, 0 },
+    { "clear", "one colour and one depth", lom_draw_clear, NULL, 0, false, false, NULL, 0 },
+    { "fill", "8 opaque layers over the whole window", lom_draw_fill, NULL, 0, false, false, NULL, 0 },
+    { "blend", "8 translucent layers over the whole window", lom_draw_blend, NULL, 0, false, false, NULL, 0 },
     { "depth", "a torus of 200 000 triangles, depth only", lom_draw_depth, &torus_view, LOM_NEEDS_TORUS, true, false,
-      0 },
+      NULL, 0 },
     { "mesh", "a torus of 200 000 triangles, lit at each pixel", lom_draw_mesh, &torus_view, LOM_NEEDS_TORUS, false,
-      false, 0 },
+      false, NULL, 0 },
     { "terrain", "522 242 triangles with colour and normal textures, and a sky", lom_draw_terrain, &lake_view,
-      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE, false, false, 0 },
+      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE, false, false, NULL, 0 },
     { "water", "the terrain three times, and a lake that reflects and refracts it", lom_draw_water, &lake_view,
-      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE | LOM_NEEDS_LAKE, false, false, 0 },
+      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE | LOM_NEEDS_LAKE, false, false, NULL, 0 },
     { "cloud", "100 steps through a volume, every one taken", lom_draw_cloud, &cloud_view,
-      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, false, 0 },
+      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, false, NULL, 0 },
     { "cloud-skip", "the same picture with empty space skipped", lom_draw_cloud, &cloud_view,
-      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, true, 0 },
-    { "fft256", "a complex Fourier transform of 256 x 256", lom_draw_fft, NULL, 0, false, false, 256 },
-    { "fft512", "a complex Fourier transform of 512 x 512", lom_draw_fft, NULL, 0, false, false, 512 },
-    { "fft1024", "a complex Fourier transform of 1024 x 1024", lom_draw_fft, NULL, 0, false, false, 1024 },
+      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, true, NULL, 0 },
+    { "fft256", "a complex Fourier transform of 256 x 256", lom_draw_fft, NULL, 0, false, false, &lom_fft_task, 256 },
+    { "fft512", "a complex Fourier transform of 512 x 512", lom_draw_fft, NULL, 0, false, false, &lom_fft_task, 512 },
+    { "fft1024", "a complex Fourier transform of 1024 x 1024", lom_draw_fft, NULL, 0, false, false, &lom_fft_task,
+      1024 },
+    { "light-grid", "a grid of light of 128^3 swept from a sun in the east, on one thread", lom_draw_light, NULL, 0,
+      false, false, &lom_light_task, 128 },
 };
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0], MAX_SIZE = 16384 };
 
@@ -136,8 +139,8 @@ static bool make_target(lom_workload *w, int target, lom_error *error)
 
 static bool make_all(lom_workload *w, lom_error *error)
 {
-    if (w->kind->transform != 0)
-        return lom_make_fft_workload(w, error);
+    if (w->kind->task != NULL)
+        return w->kind->task->make(w, error);
     unsigned needs = w->kind->needs;
     int targets = needs & LOM_NEEDS_LAKE ? LOM_TARGETS : 1;
     for (int i = 0; i < targets; i++)
@@ -177,8 +180,8 @@ lom_workload *lom_create_workload(const char *name, int width, int height, lom_e
     if (w == NULL)
         return NULL;
     w->kind = kind;
-    w->width = kind->transform != 0 ? kind->transform : width;
-    w->height = kind->transform != 0 ? kind->transform : height;
+    w->width = kind->task != NULL ? kind->size : width;
+    w->height = kind->task != NULL ? kind->size : height;
     set_view(w);
     if (!make_all(w, error)) {
         lom_free_workload(w);
@@ -204,6 +207,7 @@ void lom_free_workload(lom_workload *w)
     lom_peer_free_mesh(&w->water);
     lom_free_volume(w->cloud);
     lom_free_fft(w->fft);
+    lom_free_light_grid(w->grid);
     for (int i = 0; i < 2; i++) {
         lom_release(w->numbers[i]);
         lom_release(w->plane[i]);
@@ -221,12 +225,15 @@ static bool device_failed(const lom_device *device, lom_error *error)
 
 bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error *error)
 {
-    return workload->kind->transform == 0 || lom_prepare_fft(workload, device, error);
+    const lom_workload_task *task = workload->kind->task;
+    return task == NULL || task->prepare == NULL || task->prepare(workload, device, error);
 }
 
 bool lom_draw_prepared(lom_workload *workload, lom_device *device, lom_error *error)
 {
     workload->kind->draw(workload, device);
+    if (workload->error.code != LOM_OK)
+        return lom_fail(error, workload->error.code, "%s", workload->error.text);
     return !device_failed(device, error);
 }
 
@@ -237,8 +244,8 @@ bool lom_draw_workload(lom_workload *workload, lom_device *device, lom_error *er
 
 lom_image *lom_workload_picture(lom_workload *workload, lom_device *device, lom_error *error)
 {
-    if (workload->kind->transform != 0)
-        return lom_fft_picture(workload, error);
+    if (workload->kind->task != NULL)
+        return workload->kind->task->picture(workload, error);
     if (workload->kind->show_depth)
         lom_show_depth(workload, device);
     return device_failed(device, error) ? NULL : lom_read_texture(workload->color[LOM_MAIN], 0, 0, error);

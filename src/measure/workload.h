@@ -31,10 +31,18 @@ typedef struct lom_workload_kind {
     void (*draw)(lom_workload *workload, lom_device *device);
     const lom_workload_view *view; /* NULL: drawn in window coordinates */
     unsigned needs;
-    bool show_depth; /* the picture is of the depth */
-    bool skip;       /* marches over empty space */
-    int transform;   /* N: a Fourier transform of N x N; 0: a picture */
+    bool show_depth;                      /* the picture is of the depth */
+    bool skip;                            /* marches over empty space */
+    const struct lom_workload_task *task; /* NULL: a picture */
+    int size;                             /* of the task: values a side */
 } lom_workload_kind;
+
+/* What is timed where it is no picture. */
+typedef struct lom_workload_task {
+    bool (*make)(lom_workload *workload, lom_error *error);
+    bool (*prepare)(lom_workload *workload, lom_device *device, lom_error *error); /* before a frame; may be NULL */
+    lom_image *(*picture)(const lom_workload *workload, lom_error *error);
+} lom_workload_task;
 
 struct lom_workload {
     const lom_workload_kind *kind;
@@ -47,6 +55,8 @@ struct lom_workload {
     float light[3];               /* unit length */
     lom_fft *fft;                 /* made for the first device that needs it */
     float *numbers[2], *plane[2]; /* real and imaginary parts, as given and as transformed */
+    lom_light_grid *grid;
+    lom_error error; /* of a frame that uses no device */
 };
 
 /* Frames of the kinds, in workload_draw.c. */
@@ -59,14 +69,14 @@ void lom_draw_terrain(lom_workload *workload, lom_device *device);
 void lom_draw_water(lom_workload *workload, lom_device *device);
 void lom_draw_cloud(lom_workload *workload, lom_device *device);
 void lom_draw_fft(lom_workload *workload, lom_device *device);
+void lom_draw_light(lom_workload *workload, lom_device *device);
 /* What goes before a frame and is no part of its time, and the frame. */
 bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error *error);
 bool lom_draw_prepared(lom_workload *workload, lom_device *device, lom_error *error);
-/* Workloads of transforms, in workload_fft.c: the numbers; the plan and the numbers in place; real parts as red,
- * imaginary ones as blue. */
-bool lom_make_fft_workload(lom_workload *workload, lom_error *error);
-bool lom_prepare_fft(lom_workload *workload, lom_device *device, lom_error *error);
-lom_image *lom_fft_picture(const lom_workload *workload, lom_error *error);
+/* workload_fft.c: real parts as red, imaginary ones as blue. */
+extern const lom_workload_task lom_fft_task;
+/* workload_light.c: the slices of the grid side by side, the sun's share as gray. */
+extern const lom_workload_task lom_light_task;
 /* The depth of the main target as gray, into its colour. */
 void lom_show_depth(lom_workload *workload, lom_device *device);
 

@@ -9,7 +9,7 @@ static size_t plane_size(const lom_workload *w)
     return lom_fft_rows(w->width) * lom_fft_pitch(w->width);
 }
 
-bool lom_make_fft_workload(lom_workload *w, lom_error *error)
+static bool make_fft(lom_workload *w, lom_error *error)
 {
     for (int i = 0; i < 2; i++) {
         w->numbers[i] = lom_allocate(plane_size(w), sizeof(float), error);
@@ -27,7 +27,7 @@ bool lom_make_fft_workload(lom_workload *w, lom_error *error)
     return true;
 }
 
-bool lom_prepare_fft(lom_workload *w, lom_device *device, lom_error *error)
+static bool prepare_fft(lom_workload *w, lom_device *device, lom_error *error)
 {
     if (w->fft == NULL)
         w->fft = lom_create_fft(w->width, device, error);
@@ -48,7 +48,7 @@ static uint8_t shade_of(float part, int size)
     return (uint8_t)(x > 0 ? x < 255 ? x + 0.5 : 255 : 0);
 }
 
-lom_image *lom_fft_picture(const lom_workload *w, lom_error *error)
+static lom_image *fft_picture(const lom_workload *w, lom_error *error)
 {
     lom_image *picture = lom_create_image(w->width, w->height, 1, LOM_FORMAT_RGBA8, error);
     for (int y = 0; picture != NULL && y < w->height; y++)
@@ -62,3 +62,5 @@ lom_image *lom_fft_picture(const lom_workload *w, lom_error *error)
         }
     return picture;
 }
+
+const lom_workload_task lom_fft_task = { make_fft, prepare_fft, fft_picture };
