@@ -221,6 +221,7 @@ typedef struct lom_quality {
     bool scissor;           /* pictures are drawn only where lookups can reach; changes no byte */
     double terrain_error;   /* pixels that terrain may be off where it is drawn coarser; 0: full density */
     bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
+    int entity_shadows;     /* texels a side of the maps of what entities keep the sun off; 0: they do not */
     bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
 } lom_quality;
 

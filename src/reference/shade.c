@@ -72,6 +72,45 @@ static struct incident find_light(const lom_reference *world, double depth)
     return in;
 }
 
+/* Whether a triangle that throws shadows in this scene is hit from this side at low < t < high. */
+static bool is_blocked(const lom_reference *world, const struct lom_ray *ray, bool inside_out, double low, double high)
+{
+    const lom_quality *quality = &world->scene->quality;
+    struct lom_ray_triangles set = world->opaque;
+    struct lom_ray_hit hit = { .t = high };
+    set.inside_out = inside_out;
+    while (lom_hit_triangles(&set, ray, low, &hit)) {
+        bool is_ground = set.triangles[hit.triangle].material == LOM_TERRAIN_MATERIAL;
+        if (is_ground ? quality->terrain_shadows : quality->entity_shadows > 0)
+            return true;
+        low = hit.t;
+        hit.t = high;
+    }
+    return false;
+}
+
+static bool is_open(const lom_reference *world, const struct lom_ray *ray, double high)
+{
+    double low = 1e-6 * (1 + lom_double_sqrt(dot(ray->origin, ray->origin)));
+    return !is_blocked(world, ray, false, low, high) && !is_blocked(world, ray, true, low, high);
+}
+
+/* Whether the sun's beam comes to a place: along its bent way to the surface of the water, then straight. */
+static bool is_lit(const lom_reference *world, lom_vec3 place, double depth, lom_vec3 to_light)
+{
+    const lom_quality *quality = &world->scene->quality;
+    struct lom_ray ray = { place, to_light };
+    if (!quality->terrain_shadows && quality->entity_shadows == 0)
+        return true;
+    if (depth > 0) {
+        double length = depth / to_light.y;
+        if (!is_open(world, &ray, length))
+            return false;
+        ray = (struct lom_ray){ along(place, to_light, length), world->to_light };
+    }
+    return is_open(world, &ray, 1e300);
+}
+
 /* ambient m.ambient + light (m.diffuse N.L + m.specular (R.E)^s), the first two terms times albedo; the ambient
  * light goes from the ground's to the sky's with the cosine to up. */
 static lom_vec3 reflect_light(const struct incident *in, const struct lom_ray_material *m, lom_vec3 normal,
@@ -159,7 +198,10 @@ lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, co
                        double time)
 {
     struct surface s = find_surface(world, hit);
-    struct incident in = find_light(world, lom_water_above(world, s.place, time));
+    double depth = lom_water_above(world, s.place, time);
+    struct incident in = find_light(world, depth);
+    if (dot(in.light, in.light) > 0 && !is_lit(world, s.place, depth, in.to_light))
+        in.light = (lom_vec3){ 0, 0, 0 };
     if (world->cloud_count > 0)
         in.light = scaled(in.light, lom_cloud_shadow(world, s.place, time));
     lom_vec3 to_eye = scaled(ray->direction, -1);

@@ -127,6 +127,14 @@ static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *
     }
 }
 
+void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world)
+{
+    struct lom_caster_uniforms uniforms = { to_uniform(clip_from_world), to_uniform(&entity->world_from_model) };
+    lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .count = entity->drawn->index_count };
+    set_attributes(&draw, entity->drawn);
+    lom_draw(renderer->device, &draw);
+}
+
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
     const lom_scene *scene = renderer->scene;
@@ -137,6 +145,8 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
                                         .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
                                         .caustics = view->caustics };
     struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
+    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
+        uniform.entity_shadow[i] = renderer->entity_shadows[i].uniform;
     for (int i = 0; i < 4; i++)
         uniform.plane[i] = (float)view->plane[i];
     lom_draw_ground(renderer, &culler, &uniform, view->mirrored);

@@ -14,7 +14,8 @@ static const struct stage {
     bool (*run)(struct frame *f, lom_error *error);
     const char *name;
 } stages[] = {
-    { lom_prepare_ground, "terrain" },     /* its levels of detail and its shadow */
+    { lom_prepare_ground, "terrain" }, /* its levels of detail and its shadow */
+    { lom_prepare_entity_shadows, "entity_shadow" },
     { lom_prepare_clouds, "cloud_light" }, /* their light */
     { lom_prepare_sea_stage, "waves" },    /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },              /* terrain, entities and sky */

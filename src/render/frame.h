@@ -40,6 +40,7 @@ lom_image *lom_draw_reference(struct frame *f, lom_error *error);
 
 /* The stages of other files. False: the error, or the device's, says why. */
 bool lom_prepare_ground(struct frame *f, lom_error *error);
+bool lom_prepare_entity_shadows(struct frame *f, lom_error *error);
 bool lom_draw_lake_stage(struct frame *f, lom_error *error);
 bool lom_prepare_sea_stage(struct frame *f, lom_error *error);
 bool lom_find_sea_stage(struct frame *f, lom_error *error); /* where the scene leaves water to be seen */

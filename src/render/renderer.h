@@ -30,6 +30,7 @@ struct lom_loaded_entity {
     lom_mat4 world_from_model, normal_from_model;
     lom_box bounds; /* in the world */
     bool is_hidden; /* the camera is in it */
+    int shadow_map; /* that it is drawn into in this frame; -1: none */
 };
 
 /* What clouds let through of the sun, over a plane: the shadows that fall on the ground and the water. */
@@ -37,6 +38,13 @@ struct lom_ground_shadow {
     lom_texture *texture;
     bool falls;       /* on something, in this frame */
     float s[4], t[4]; /* texture coordinates of a place (x, y, z, 1) */
+    uint64_t made_for;
+};
+
+/* A map of what entities keep the sun off. */
+struct lom_entity_shadow {
+    lom_texture *map;
+    struct lom_shadow_map_uniform uniform; /* of this frame */
     uint64_t made_for;
 };
 
@@ -85,6 +93,7 @@ struct lom_renderer {
     size_t entity_count;
     struct lom_cloud_set *clouds; /* NULL: none */
     struct lom_ground_shadow ground_shadow;
+    struct lom_entity_shadow entity_shadows[LOM_ENTITY_SHADOWS];
     struct lom_impostors impostors;
 
     lom_texture *foam; /* its pattern, or NULL */
@@ -152,6 +161,8 @@ void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, co
 /* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
  * nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
+/* Draws the depth of an entity, both sides of its faces, into the pass that has begun. */
+void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world);
 /* Whether any of it but the sky would be drawn. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);

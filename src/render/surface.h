@@ -18,6 +18,16 @@ struct lom_caustics_uniform {
     float lod_scale; /* texels of the map a pixel covers, per metre of distance */
 };
 
+/* How near to the sun entities reach, seen from it. */
+struct lom_shadow_map_uniform {
+    const lom_texture *map;     /* depth, 0 where there is none; NULL: no shadows */
+    float s[4], t[4], depth[4]; /* rows: texture coordinates and depth of a place (x, y, z, 1) */
+    float size, texel;          /* texels a side, and 1 / size */
+    float offset;               /* metres that a place is moved along its normal, so that it does not shade itself */
+};
+
+enum { LOM_ENTITY_SHADOWS = 2 };
+
 /* What every surface of a pass shares. */
 struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_world;
@@ -26,12 +36,17 @@ struct lom_view_uniform {
     float eye[3];
     float plane[4]; /* clip distance 0 is plane . (world, 1); (0, 0, 0, 1) keeps everything */
     struct lom_caustics_uniform caustics;
+    struct lom_shadow_map_uniform entity_shadow[LOM_ENTITY_SHADOWS];
 };
 
 struct lom_entity_uniforms {
     struct lom_view_uniform view;
     struct lom_matrix_uniform world_from_model, normal_from_model;
     struct lom_material_uniform material;
+};
+
+struct lom_caster_uniforms {
+    struct lom_matrix_uniform clip_from_world, world_from_model;
 };
 
 enum { LOM_MAX_TERRAIN_LAYERS = 8 };
@@ -62,5 +77,6 @@ struct lom_terrain_uniforms {
 /* Indexed by lom_shading. */
 const lom_shader *lom_entity_shader(int shading);
 const lom_shader *lom_terrain_shader(int shading);
+extern const lom_shader lom_caster_shader; /* depth alone */
 
 #endif

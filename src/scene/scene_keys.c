@@ -346,6 +346,11 @@ static const lom_key quality[] = {
               "every pixel of the height map everywhere." },
     { "terrain_shadows", LOM_KEY_BOOL, AT(lom_quality, terrain_shadows),
       .text = "Terrain keeps the sun off terrain, entities and water that lie behind it." },
+    { "entity_shadows", LOM_KEY_INTEGER, AT(lom_quality, entity_shadows), .minimum = 0, .maximum = 8192,
+      .unit = "texels",
+      .text =
+          "Entities keep the sun off terrain and entities: a side of each of two maps, one of the entities near the "
+          "eye. 0: they do not." },
     { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion),
       .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
 };

@@ -7,13 +7,15 @@
 
 enum { WIDTH = 120, HEIGHT = 75 };
 
-#define THINGS                                                                                                         \
+#define THINGS_UNDER(light)                                                                                            \
     "[camera]\nposition = [0, 4, 17]\npitch = -12\nnear = 0.2\n"                                                       \
-    "[light]\nazimuth = 160\nelevation = 35\n[terrain]\nheight_map = \"heights.png\"\nsize = [40, 40]\nheight = 4\n"   \
+    "[light]\n" light "[terrain]\nheight_map = \"heights.png\"\nsize = [40, 40]\nheight = 4\n"                         \
     "base = -1\ntexture = \"texels.png\"\ntile = 9\n[terrain.material]\nspecular = [0.4, 0.4, 0.4]\nshininess = 12\n"  \
     "[[terrain.layer]]\nmap = \"texels.png\"\ntile = 30\nfrom_height = 1\nblend = 1\n"                                 \
     "[[entity]]\nmesh = \"quad.obj\"\nposition = [-4, 1.2, 4]\nrotation = [0, 30, 10]\n"                               \
     "[[entity]]\nmesh = \"quad.obj\"\nposition = [3.6, 0.3, 6]\nscale = [1, 2, 1]\non_ground = true\n"
+
+#define THINGS THINGS_UNDER("azimuth = 160\nelevation = 35\n")
 
 static lom_image *trace(const lom_scene *scene, double index, lom_reference_frame frame)
 {
@@ -70,6 +72,14 @@ static void opaque_scenes_are_the_pipelines(void)
 {
     double psnr = agreement(EXACT THINGS, 1);
     CHECK(psnr > 75, "%.1f dB", psnr);
+}
+
+/* Shadows have hard edges in the one and edges of a texel in the other; everywhere else they are the same. */
+static void shadows_fall_where_the_references_do(void)
+{
+    double psnr = agreement(
+        EXACT "entity_shadows = 2048\nterrain_shadows = true\n" THINGS_UNDER("azimuth = 30\nelevation = 40\n"), 1);
+    CHECK(psnr > 37, "%.1f dB", psnr);
 }
 
 /* The planar lake, still and all mirror, draws the scene mirrored in its plane: so does the reference's mirror. */
@@ -179,6 +189,7 @@ int main(int argc, char **argv)
         return 1;
     }
     RUN(opaque_scenes_are_the_pipelines);
+    RUN(shadows_fall_where_the_references_do);
     RUN(the_planar_reflection_is_the_mirrored_scene);
     RUN(threads_and_crops_change_no_byte);
     RUN(the_renderer_shows_it);

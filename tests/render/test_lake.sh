@@ -27,3 +27,12 @@ for camera in '[-14,0,458]|0' '[-14,1e-9,458]|-10' '[-14,-2,458]|10' '[-55,3,415
     case $narrow in *lom*) why="$camera: $narrow" ;; esac
 done
 verdict cameras_on_the_plane_and_mirrored_into_the_ground "$why"
+
+passes() { draw --stats - --hash "$@" | sed -n 's/.*"ran": "\([^"]*\)".*/\1/p'; }
+why=
+case $(passes) in *'near shadow far shadow scene'*) ;; *) why='the maps of what entities shadow are not made' ;; esac
+case $(passes --frames 0:1 | tail -n 1) in *'near shadow'*) why='what has not moved is drawn again' ;; esac
+case $(passes --set quality.entity_shadows=0) in *'near shadow'*) why='shadows that are off are drawn' ;; esac
+[ "$(hash --set quality.entity_shadows=0)" != "$(hash)" ] || why='entities have no shadow'
+[ "$(hash --frame 3)" = "$(hash --frames 2:3 | tail -n 1)" ] || why='a kept map gives another picture'
+verdict entities_shadow_what_is_seen "$why"

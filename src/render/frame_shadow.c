@@ -1,0 +1,241 @@
+/* The shadows of entities, before the scene is drawn. In: where the entities and the sun are. Out: two maps of how near
+ * to the sun they reach, one of the entities near the eye and one of the others, so that both have texels of about a
+ * pixel's size (Williams 1978; sorting what casts, not what receives, keeps every entity whole in one map).
+ *
+ * Invariant: the maps follow from the whole frame; their texels keep their places in the world while the eye moves, as
+ * long as their size stays. */
+#include "render/frame.h"
+
+static const double margin = 4; /* texels around what casts, which stay clear */
+
+/* Rows: right and up of a picture seen from the sun, and the way to it. */
+static lom_mat4 light_from_world(lom_vec3 to_light)
+{
+    lom_vec3 up = { to_light.y * to_light.y < 0.98 ? 0 : 1, to_light.y * to_light.y < 0.98 ? 1 : 0, 0 };
+    lom_vec3 from = { 0, 0, 0 }, to = { -to_light.x, -to_light.y, -to_light.z };
+    return lom_look_at(from, to, up);
+}
+
+/* The height of the lowest thing that a shadow could fall on. */
+static double lowest_receiver(const lom_renderer *r)
+{
+    double lowest = r->ground.blocks != NULL ? r->scene->terrain.base : 1e30;
+    for (size_t i = 0; i < r->entity_count; i++)
+        lowest = r->entities[i].bounds.low.y < lowest ? r->entities[i].bounds.low.y : lowest;
+    return lowest;
+}
+
+static double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* All that is between a box and the lowest receiver, away from the sun; at most 10 km of it. */
+static lom_box shadow_volume(lom_box box, lom_vec3 to_light, double lowest)
+{
+    double drop = greater(box.high.y - lowest, 0), length = 1e4;
+    if (drop < length * to_light.y)
+        length = drop / to_light.y;
+    lom_vec3 shift = { -to_light.x * length, -to_light.y * length, -to_light.z * length };
+    return (lom_box){
+        { box.low.x + lesser(shift.x, 0), box.low.y + lesser(shift.y, 0), box.low.z + lesser(shift.z, 0) },
+        { box.high.x + greater(shift.x, 0), box.high.y + greater(shift.y, 0), box.high.z + greater(shift.z, 0) }
+    };
+}
+
+/* From a point to the nearest one of a box. */
+static double distance_to(lom_vec3 p, lom_box box)
+{
+    double x = greater(greater(box.low.x - p.x, p.x - box.high.x), 0);
+    double y = greater(greater(box.low.y - p.y, p.y - box.high.y), 0);
+    double z = greater(greater(box.low.z - p.z, p.z - box.high.z), 0);
+    return lom_double_sqrt(x * x + y * y + z * z);
+}
+
+/* The eye's view and, where planar water mirrors it, the mirrored one. */
+struct views {
+    int count;
+    lom_frustum frustum[2];
+};
+
+static struct views find_views(const struct frame *f)
+{
+    const lom_water_params *water = &f->scene->water;
+    lom_mat4 clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
+    struct views v = { 1, { lom_view_frustum(&clip_from_world, false) } };
+    if (water->given != 0 && water->enabled) {
+        lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, water->level);
+        clip_from_world = lom_multiply(&clip_from_world, &mirror);
+        v.frustum[v.count++] = lom_view_frustum(&clip_from_world, false);
+    }
+    return v;
+}
+
+/* Whether an entity's shadow may be seen. */
+static bool casts(const struct lom_loaded_entity *entity, const struct views *views, lom_vec3 to_light, double lowest)
+{
+    lom_box volume = shadow_volume(entity->bounds, to_light, lowest);
+    for (int i = 0; i < views->count && !entity->is_hidden; i++)
+        if (lom_box_visibility(&views->frustum[i], volume) != LOM_OUTSIDE)
+            return true;
+    return false;
+}
+
+/* The casters of a map and their extent as seen from the sun. */
+struct casters {
+    size_t count;
+    lom_box extent;
+};
+
+static void add_extent(struct casters *c, lom_box box)
+{
+    if (c->count++ == 0) {
+        c->extent = box;
+        return;
+    }
+    lom_box *e = &c->extent;
+    *e =
+        (lom_box){ { lesser(e->low.x, box.low.x), lesser(e->low.y, box.low.y), lesser(e->low.z, box.low.z) },
+                   { greater(e->high.x, box.high.x), greater(e->high.y, box.high.y), greater(e->high.z, box.high.z) } };
+}
+
+/* Marks what casts with the number of its map: the nearer ones, up to the geometric middle of all distances, and the
+ * others. */
+static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *light, struct casters casters[2])
+{
+    lom_renderer *r = f->renderer;
+    struct views views = find_views(f);
+    double lowest = lowest_receiver(r), nearest = 1e30, farthest = 1;
+    for (size_t i = 0; i < r->entity_count; i++) {
+        struct lom_loaded_entity *e = &r->entities[i];
+        e->shadow_map = casts(e, &views, to_light, lowest) ? 0 : -1;
+        double distance = greater(distance_to(f->view.eye, e->bounds), 1);
+        if (e->shadow_map == 0) {
+            nearest = lesser(nearest, distance);
+            farthest = greater(farthest, distance);
+        }
+    }
+    double middle = lom_double_sqrt(nearest * farthest);
+    for (size_t i = 0; i < r->entity_count; i++) {
+        struct lom_loaded_entity *e = &r->entities[i];
+        if (e->shadow_map < 0)
+            continue;
+        e->shadow_map = greater(distance_to(f->view.eye, e->bounds), 1) > middle;
+        add_extent(&casters[e->shadow_map], lom_transform_box(light, e->bounds));
+    }
+}
+
+/* A size of texels from a scale of eighths, so that it changes seldom. */
+static double texel_size(double least)
+{
+    double size = 0.0009765625;
+    while (size < least)
+        size *= 1.125;
+    return size;
+}
+
+/* From the world to the map's clip space; depth grows towards the sun. */
+static lom_mat4 map_projection(const lom_box *extent, const lom_mat4 *light, int size, double *texel)
+{
+    double width = extent->high.x - extent->low.x, height = extent->high.y - extent->low.y;
+    double near = extent->high.z + 1, far = extent->low.z - 1;
+    *texel = texel_size(greater(width, height) / (size - 2 * margin));
+    double x = lom_double_floor((extent->low.x + width / 2) / *texel) * *texel;
+    double y = lom_double_floor((extent->low.y + height / 2) / *texel) * *texel;
+    double half = *texel * size / 2;
+    lom_mat4 square = { { { 1 / half, 0, 0, -x / half },
+                          { 0, 1 / half, 0, -y / half },
+                          { 0, 0, 1 / (near - far), -far / (near - far) },
+                          { 0, 0, 0, 1 } } };
+    return lom_multiply(&square, light);
+}
+
+static void set_uniform(struct lom_entity_shadow *shadow, const lom_mat4 *projection, int size, double texel)
+{
+    struct lom_shadow_map_uniform *u = &shadow->uniform;
+    *u = (struct lom_shadow_map_uniform){ .map = shadow->map, .size = (float)size, .texel = 1 / (float)size };
+    for (int i = 0; i < 4; i++) {
+        u->s[i] = (float)(projection->m[0][i] / 2 + (i == 3 ? 0.5 : 0));
+        u->t[i] = (float)(-projection->m[1][i] / 2 + (i == 3 ? 0.5 : 0));
+        u->depth[i] = (float)projection->m[2][i];
+    }
+    u->offset = (float)(2.5 * texel);
+}
+
+static bool make_map(struct frame *f, struct lom_entity_shadow *shadow, int size)
+{
+    if (shadow->map == NULL)
+        shadow->map =
+            lom_make_texture(f->renderer->device, &(lom_texture_desc){ .width = size,
+                                                                       .height = size,
+                                                                       .format = LOM_FORMAT_DEPTH32F,
+                                                                       .sampler = { .wrap_s = LOM_WRAP_BORDER,
+                                                                                    .wrap_t = LOM_WRAP_BORDER,
+                                                                                    .magnify = LOM_FILTER_NEAREST,
+                                                                                    .minify = LOM_FILTER_NEAREST } });
+    return shadow->map != NULL;
+}
+
+static uint64_t hash_casters(const lom_renderer *r, int map, const lom_mat4 *projection)
+{
+    uint64_t hash = lom_hash_bytes(LOM_HASH_START, projection, sizeof *projection);
+    for (size_t i = 0; i < r->entity_count; i++)
+        if (r->entities[i].shadow_map == map)
+            hash =
+                lom_hash_bytes(lom_hash_bytes(hash, &i, sizeof i), &r->entities[i].world_from_model, sizeof(lom_mat4));
+    return hash;
+}
+
+static bool draw_map(struct frame *f, int map, const struct casters *casters, const lom_mat4 *light)
+{
+    static const char *const names[2] = { "near shadow", "far shadow" };
+    lom_renderer *r = f->renderer;
+    struct lom_entity_shadow *shadow = &r->entity_shadows[map];
+    int size = f->scene->quality.entity_shadows;
+
+    if (casters->count == 0) {
+        lom_add_step(f, names[map], false, "no shadow of an entity%s is in view",
+                     map == 1 ? " farther than the middle" : "");
+        return true;
+    }
+    double texel;
+    lom_mat4 projection = map_projection(&casters->extent, light, size, &texel);
+    if (!make_map(f, shadow, size))
+        return false;
+    set_uniform(shadow, &projection, size, texel);
+    uint64_t hash = hash_casters(r, map, &projection);
+    if (shadow->made_for == hash) {
+        lom_add_step(f, names[map], false, "neither the sun nor an entity has moved");
+        return true;
+    }
+    shadow->made_for = hash;
+    lom_step *step =
+        lom_add_step(f, names[map], true, "%zu entities as the sun sees them, %.3g m a texel", casters->count, texel);
+    step->width = step->height = size;
+    lom_begin_pass(r->device, &(lom_pass_desc){ .depth = shadow->map });
+    for (size_t i = 0; i < r->entity_count; i++)
+        if (r->entities[i].shadow_map == map)
+            lom_draw_caster(r, &r->entities[i], &projection);
+    return lom_end_pass(r->device);
+}
+
+bool lom_prepare_entity_shadows(struct frame *f, lom_error *error)
+{
+    (void)error;
+    const lom_vec3 direction = f->scene->light.direction, to_light = { -direction.x, -direction.y, -direction.z };
+    struct casters casters[2] = { { .count = 0 }, { .count = 0 } };
+    if (f->renderer->entity_count == 0)
+        return true;
+    if (f->scene->quality.entity_shadows == 0) {
+        lom_add_step(f, "near shadow", false, "quality.entity_shadows is 0");
+        return true;
+    }
+    lom_mat4 light = light_from_world(to_light);
+    sort_casters(f, to_light, &light, casters);
+    return draw_map(f, 0, &casters[0], &light) && draw_map(f, 1, &casters[1], &light);
+}
