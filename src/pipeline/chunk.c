@@ -110,24 +110,16 @@ static void resolve_all_corners(struct lom_chunk *chunk)
     }
 }
 
-/* The same for the usual case, a list of 32-bit indices that are all in range: a copy with its extremes. */
-static bool copy_plain_corners(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
+/* The indices of the usual case, a list of 32-bit ones that are all in range, with their extremes; else NULL. */
+static const uint32_t *find_plain_indices(const struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
 {
     const lom_draw_desc *desc = &chunk->draw->desc;
     if (desc->topology != LOM_TRIANGLES || desc->indices == NULL || desc->index_bits != 32 || desc->base_vertex != 0 ||
-        desc->restart)
-        return false;
-    const uint32_t *from = (const uint32_t *)desc->indices + desc->first + 3 * chunk->first;
-    uint32_t smallest = UINT32_MAX, largest = 0;
-    for (size_t i = 0; i < 3 * chunk->count; i++) {
-        uint32_t index = from[i];
-        chunk->assembly->corners[i] = index;
-        smallest = index < smallest ? index : smallest;
-        largest = index > largest ? index : largest;
-    }
-    *low = smallest;
-    *high = largest;
-    return largest < desc->vertex_count;
+        desc->restart || chunk->count == 0)
+        return NULL;
+    const uint32_t *index = (const uint32_t *)desc->indices + desc->first + 3 * chunk->first;
+    lom_stages_of(chunk->draw->variant)->find_extremes(index, 3 * chunk->count, low, high);
+    return *high < desc->vertex_count ? index : NULL;
 }
 
 static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
@@ -177,22 +169,25 @@ static void rebase_corners(struct lom_chunk *chunk)
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
 static bool choose_vertices(struct lom_chunk *chunk)
 {
-    struct lom_assembly *assembly = chunk->assembly;
     uint32_t low, high;
-    if (!lom_reserve((void **)&assembly->corners, &assembly->corners_capacity, 3 * chunk->count, sizeof(uint32_t)))
+    struct lom_assembly *assembly = chunk->assembly;
+    size_t corners = 3 * chunk->count;
+    if (!lom_reserve((void **)&assembly->corners, &assembly->corners_capacity, corners, sizeof(uint32_t)))
         return false;
     chunk->has_gaps = false;
-    if (!copy_plain_corners(chunk, &low, &high)) {
+    const uint32_t *plain = find_plain_indices(chunk, &low, &high);
+    if (plain == NULL) {
         resolve_all_corners(chunk);
         find_extremes(chunk, &low, &high);
     }
     chunk->vertex_count = low > high ? 0 : (size_t)(high - low) + 1;
     chunk->vertex_base = low;
     chunk->listed = chunk->vertex_count > 6 * chunk->count;
-    if (chunk->listed)
-        return list_vertices(chunk);
-    rebase_corners(chunk);
-    return true;
+    if (plain != NULL)
+        lom_stages_of(chunk->draw->variant)->rebase_indices(plain, corners, chunk->listed ? 0 : low, assembly->corners);
+    else if (!chunk->listed)
+        rebase_corners(chunk);
+    return !chunk->listed || list_vertices(chunk);
 }
 
 struct group { /* triangles on their way to set-up */

@@ -220,6 +220,10 @@ struct lom_pass {
 
 /* The stages of one variant. */
 struct lom_stages {
+    /* The smallest and the largest of `count` >= 1 indices. */
+    void (*find_extremes)(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);
+    /* Writes index - base for each of them. */
+    void (*rebase_indices)(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);
     /* Shades the chunk's vertices: rows, clip positions and outcodes of vertex_count vertices. */
     void (*shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk);
     /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are three row
@@ -235,6 +239,8 @@ struct lom_stages {
 const struct lom_stages *lom_stages_of(int variant);
 
 #define LOM_DECLARE_STAGES(variant)                                                                                    \
+    void lom_find_extremes_##variant(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);              \
+    void lom_rebase_indices_##variant(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);          \
     void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
     void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners,           \
                               size_t count);                                                                           \

@@ -3,7 +3,8 @@
 
 #define STAGES(variant)                                                                                                \
     {                                                                                                                  \
-        lom_shade_vertices_##variant, lom_set_up_##variant, lom_raster_##variant, lom_flush_##variant                  \
+        lom_find_extremes_##variant, lom_rebase_indices_##variant, lom_shade_vertices_##variant, lom_set_up_##variant, \
+            lom_raster_##variant, lom_flush_##variant                                                                  \
     }
 
 static const struct lom_stages stages[] = {

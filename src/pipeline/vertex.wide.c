@@ -3,6 +3,39 @@
 #include "pipeline/project.h"
 #include "pipeline/stages.h"
 
+/* Signed comparison of numbers with the highest bit turned over is unsigned comparison of the numbers. */
+static const int32_t turned = INT32_MIN;
+
+void LOM_WIDE(lom_find_extremes)(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high)
+{
+    lom_int least = lom_splat_int((int32_t)index[0] ^ turned), most = least;
+    size_t i = 0;
+    for (; i + LOM_LANES <= count; i += LOM_LANES) {
+        lom_int x = lom_load_int((const int32_t *)index + i) ^ turned;
+        least = lom_min_int(least, x);
+        most = lom_max_int(most, x);
+    }
+    *low = *high = index[0];
+    for (int lane = 0; lane < LOM_LANES; lane++) {
+        uint32_t a = (uint32_t)(least[lane] ^ turned), b = (uint32_t)(most[lane] ^ turned);
+        *low = a < *low ? a : *low;
+        *high = b > *high ? b : *high;
+    }
+    for (; i < count; i++) {
+        *low = index[i] < *low ? index[i] : *low;
+        *high = index[i] > *high ? index[i] : *high;
+    }
+}
+
+void LOM_WIDE(lom_rebase_indices)(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased)
+{
+    size_t i = 0;
+    for (; i + LOM_LANES <= count; i += LOM_LANES)
+        lom_store_int((int32_t *)rebased + i, lom_load_int((const int32_t *)index + i) - (int32_t)base);
+    for (; i < count; i++)
+        rebased[i] = index[i] - base;
+}
+
 /* LOM_LANES vertex numbers of a chunk from `first` on, the last one repeated past its end. */
 struct numbers {
     uint32_t number[LOM_LANES], largest;
