@@ -14,32 +14,57 @@ static inline struct span tiles_of(const struct lom_pass *pass, const lom_triang
                           (b.right - pass->tile_x0) >> shift, (b.bottom - pass->tile_y0) >> shift };
 }
 
+/* Counts the triangles of each tile, into first[tile + 2]; returns the sum. */
+static size_t count_triangles(const struct lom_pass *pass, const struct lom_chunk *chunk, uint32_t *first)
+{
+    const int32_t *tile = chunk->assembly->tile;
+    size_t total = chunk->triangle_count;
+    for (size_t i = 0; i < chunk->triangle_count; i++) {
+        if (tile[i] != SEVERAL_TILES) {
+            first[tile[i] + 2]++;
+            continue;
+        }
+        struct span s = tiles_of(pass, &chunk->triangles[i]);
+        for (int y = s.y0; y <= s.y1; y++)
+            for (int x = s.x0; x <= s.x1; x++)
+                first[y * pass->tiles_x + x + 2]++;
+        total += (size_t)(s.x1 - s.x0 + 1) * (size_t)(s.y1 - s.y0 + 1) - 1;
+    }
+    return total;
+}
+
+/* Writes them; first[tile + 1] moves from where a tile's list begins to where it ends. */
+static void list_triangles(const struct lom_pass *pass, const struct lom_chunk *chunk, uint32_t *first)
+{
+    const int32_t *tile = chunk->assembly->tile;
+    uint32_t *list = chunk->tile_list;
+    for (size_t i = 0; i < chunk->triangle_count; i++) {
+        if (tile[i] != SEVERAL_TILES) {
+            list[first[tile[i] + 1]++] = (uint32_t)i;
+            continue;
+        }
+        struct span s = tiles_of(pass, &chunk->triangles[i]);
+        for (int y = s.y0; y <= s.y1; y++)
+            for (int x = s.x0; x <= s.x1; x++)
+                list[first[y * pass->tiles_x + x + 1]++] = (uint32_t)i;
+    }
+}
+
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
-    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y, total = 0;
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     if (!lom_reserve((void **)&chunk->tile_first, &chunk->tile_first_capacity, tiles + 2, sizeof(uint32_t))) {
         chunk->failed = true;
         return;
     }
     uint32_t *first = chunk->tile_first;
     memset(first, 0, (tiles + 2) * sizeof *first);
-    for (size_t i = 0; i < chunk->triangle_count; i++) {
-        struct span s = tiles_of(pass, &chunk->triangles[i]);
-        for (int y = s.y0; y <= s.y1; y++)
-            for (int x = s.x0; x <= s.x1; x++)
-                first[y * pass->tiles_x + x + 2]++;
-        total += (size_t)(s.x1 - s.x0 + 1) * (size_t)(s.y1 - s.y0 + 1);
-    }
+    size_t total = count_triangles(pass, chunk, first);
     if (!lom_reserve((void **)&chunk->tile_list, &chunk->tile_list_capacity, total, sizeof(uint32_t))) {
         chunk->failed = true;
         return;
     }
     for (size_t i = 2; i < tiles + 2; i++)
         first[i] += first[i - 1];
-    for (size_t i = 0; i < chunk->triangle_count; i++) {
-        struct span s = tiles_of(pass, &chunk->triangles[i]);
-        for (int y = s.y0; y <= s.y1; y++)
-            for (int x = s.x0; x <= s.x1; x++)
-                chunk->tile_list[first[y * pass->tiles_x + x + 1]++] = (uint32_t)i;
-    }
+    list_triangles(pass, chunk, first);
 }

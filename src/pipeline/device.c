@@ -80,6 +80,7 @@ static void free_assembly(struct lom_assembly *assembly)
     lom_release(assembly->vertex_list);
     lom_release(assembly->clip);
     lom_release(assembly->codes);
+    lom_release(assembly->tile);
 }
 
 void lom_close_device(lom_device *device)

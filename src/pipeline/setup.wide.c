@@ -222,15 +222,28 @@ LOM_INLINE lom_float4 pack_state(const struct packet *p, lom_int mask)
                          lom_as_float(state) };
 }
 
+/* The tile of the first pixel, where the last pixel lies in it too. */
+LOM_INLINE lom_int find_tile(const struct lom_pass *pass, const struct packet *p)
+{
+    int shift = __builtin_ctz((unsigned)pass->tile);
+    lom_int left = (p->left - pass->tile_x0) >> shift, right = (p->right - pass->tile_x0) >> shift;
+    lom_int top = (p->top - pass->tile_y0) >> shift, bottom = (p->bottom - pass->tile_y0) >> shift;
+    return lom_select_int((left == right) & (top == bottom), top * pass->tiles_x + left, lom_splat_int(SEVERAL_TILES));
+}
+
 /* Appends the lanes that are alive. The record of a lane that is not goes where the next one that is will be written.
  */
-static void append(struct lom_chunk *chunk, const struct packet *p, const struct edge_lanes *e, lom_int mask)
+static void append(const struct lom_pass *pass, struct lom_chunk *chunk, const struct packet *p,
+                   const struct edge_lanes *e, lom_int mask)
 {
     enum { WORDS = sizeof(lom_triangle) / sizeof(float) };
-    int32_t place[LOM_LANES], next = 0;
+    int32_t place[LOM_LANES], tile[LOM_LANES], next = 0;
+    int32_t *tiles = chunk->assembly->tile + chunk->triangle_count;
     uint32_t bits = lom_bits(p->alive);
+    lom_store_int(tile, find_tile(pass, p));
     for (int i = 0; i < LOM_LANES; i++) {
         place[i] = next;
+        tiles[next / WORDS] = tile[i];
         next += (int32_t)(bits >> i & 1) * WORDS;
     }
     lom_int at = lom_load_int(place);
@@ -270,13 +283,15 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     if (chunk->any_code != 0)
         p.clip = crossing_distances(chunk, corners);
     if (lom_any(p.alive))
-        append(chunk, &p, &e, mask);
+        append(pass, chunk, &p, &e, mask);
 }
 
 void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count)
 {
     size_t room = chunk->triangle_count + count + 1; /* append writes one more */
-    if (!lom_reserve((void **)&chunk->triangles, &chunk->triangles_capacity, room, sizeof(lom_triangle))) {
+    struct lom_assembly *assembly = chunk->assembly;
+    if (!lom_reserve((void **)&chunk->triangles, &chunk->triangles_capacity, room, sizeof(lom_triangle)) ||
+        !lom_reserve((void **)&assembly->tile, &assembly->tile_capacity, room, sizeof(int32_t))) {
         chunk->failed = true;
         return;
     }

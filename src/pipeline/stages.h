@@ -115,6 +115,8 @@ struct lom_draw {
     bool queues_depth; /* the fragment stage needs the depth */
 };
 
+enum { SEVERAL_TILES = -1 };
+
 /* What the first half of the pipeline needs of the chunk at hand and nobody after it; a worker's, so that it stays in
  * its cache. */
 struct lom_assembly {
@@ -122,7 +124,8 @@ struct lom_assembly {
     uint32_t *vertex_list; /* the index of each row, in a chunk that is listed */
     float *clip;           /* clip positions, 4 floats a row */
     uint16_t *codes;
-    size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity; /* in elements */
+    int32_t *tile; /* that each triangle of the chunk lies in, or SEVERAL_TILES */
+    size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity, tile_capacity; /* in elements */
 };
 
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
