@@ -1,6 +1,6 @@
 /* The two ends of tile memory. In: clear values or the attachments' texels. Out: after the pass, the attachments'
  * texels. Tile memory holds blocks of 2x2 pixels, rows of blocks from the top; attachments are rows of pixels. */
-#include "pipeline/stages.h"
+#include "pipeline/device.h"
 
 /* What of a tile lies inside the attachments, in their pixels. */
 struct part {
@@ -53,26 +53,82 @@ static uint32_t bits_of(float x)
     return bits;
 }
 
-/* Float planes of one pixel from a texel of one or four channels. */
-static void load_float_texel(const struct lom_pass *pass, int i, const float *texel, float *planes, size_t index)
+static const struct lom_stages *stages_of(const struct lom_pass *pass)
 {
-    bool single = pass->color[i].texture->storage == LOM_STORAGE_R32F;
-    for (size_t c = 0; c < 4; c++)
-        planes[c * tile_pixels(pass) + index] = c == 0 || !single ? texel[c] : c == 3 ? 1.0f : 0.0f;
+    return lom_stages_of(pass->device->variant);
 }
 
-static void load_color(const struct lom_pass *pass, int i, const struct part *p, void *memory)
+/* Pixel (p->x0, y) of the tile in an attachment. */
+static void *row_of(lom_texture *texture, const struct part *p, int y)
 {
-    const struct lom_color_target *target = &pass->color[i];
-    for (int y = p->y0; y < p->y1; y++)
-        for (int x = p->x0; x < p->x1; x++) {
-            const void *texel = lom_texel(target->texture, 0, p->x + x, p->y + y, 0);
-            size_t index = memory_index(pass->tile, x, y);
-            if (target->kind == COLOR_FLOAT)
-                load_float_texel(pass, i, texel, memory, index);
-            else
-                ((uint32_t *)memory)[index] = *(const uint32_t *)texel;
+    return lom_texel(texture, 0, p->x + p->x0, p->y + y, 0);
+}
+
+/* Pixels first to end (one past the last) of a row of tile memory, side by side: two of each block. */
+static void copy_row(uint32_t *restrict to, const uint32_t *restrict from, int first, int end)
+{
+    for (int x = first; x < end; x++)
+        to[x - first] = from[x * 2 - (x & 1)];
+}
+
+static void fill_row(uint32_t *restrict to, const uint32_t *restrict from, int first, int end)
+{
+    for (int x = first; x < end; x++)
+        to[x * 2 - (x & 1)] = from[x - first];
+}
+
+/* Whether rows y and y + 1 begin with a block and are both wanted. */
+static bool begins_blocks(const struct part *p, int y)
+{
+    return ((p->x0 | y) & 1) == 0 && y + 1 < p->y1;
+}
+
+static void load_words(const struct lom_pass *pass, lom_texture *texture, const struct part *p, uint32_t *memory)
+{
+    for (int y = p->y0; y < p->y1; y++) {
+        uint32_t *to = memory + memory_index(pass->tile, 0, y);
+        const uint32_t *row = row_of(texture, p, y);
+        if (!begins_blocks(p, y)) {
+            fill_row(to, row, p->x0, p->x1);
+            continue;
         }
+        size_t blocks = (size_t)(p->x1 - p->x0) / 2, words = blocks * 2;
+        const uint32_t *lower = row_of(texture, p, ++y);
+        stages_of(pass)->join_rows(row, lower, blocks, to + p->x0 * 2);
+        fill_row(to, row + words, p->x0 + (int)words, p->x1);
+        fill_row(to + 2, lower + words, p->x0 + (int)words, p->x1);
+    }
+}
+
+static void store_words(const struct lom_pass *pass, lom_texture *texture, const struct part *p, const uint32_t *memory)
+{
+    for (int y = p->y0; y < p->y1; y++) {
+        const uint32_t *from = memory + memory_index(pass->tile, 0, y);
+        uint32_t *row = row_of(texture, p, y);
+        if (!begins_blocks(p, y)) {
+            copy_row(row, from, p->x0, p->x1);
+            continue;
+        }
+        size_t blocks = (size_t)(p->x1 - p->x0) / 2, words = blocks * 2;
+        uint32_t *lower = row_of(texture, p, ++y);
+        stages_of(pass)->split_rows(from + p->x0 * 2, blocks, row, lower);
+        copy_row(row + words, from, p->x0 + (int)words, p->x1);
+        copy_row(lower + words, from + 2, p->x0 + (int)words, p->x1);
+    }
+}
+
+/* Float planes of a tile from texels of one or four channels. */
+static void load_floats(const struct lom_pass *pass, lom_texture *texture, const struct part *p, float *memory)
+{
+    size_t channels = texture->storage == LOM_STORAGE_R32F ? 1 : 4;
+    for (int y = p->y0; y < p->y1; y++) {
+        const float *texel = row_of(texture, p, y);
+        for (int x = p->x0; x < p->x1; x++, texel += channels) {
+            float *planes = memory + memory_index(pass->tile, x, y);
+            for (size_t c = 0; c < 4; c++)
+                planes[c * tile_pixels(pass)] = c < channels ? texel[c] : c == 3 ? 1.0f : 0.0f;
+        }
+    }
 }
 
 static void clear_color(const struct lom_pass *pass, int i, void *memory)
@@ -88,12 +144,11 @@ static void clear_color(const struct lom_pass *pass, int i, void *memory)
 
 static void load_depth(const struct lom_pass *pass, const struct part *p, float *memory)
 {
-    for (int y = p->y0; y < p->y1; y++)
+    load_words(pass, pass->depth, p, (uint32_t *)(void *)memory);
+    for (int y = p->y0; pass->depth_scale != 0 && y < p->y1; y++)
         for (int x = p->x0; x < p->x1; x++) {
-            float z = *(const float *)lom_texel(pass->depth, 0, p->x + x, p->y + y, 0);
-            if (pass->depth_scale != 0)
-                z = (float)__builtin_rint(z * pass->depth_scale);
-            memory[memory_index(pass->tile, x, y)] = z;
+            float *z = memory + memory_index(pass->tile, x, y);
+            *z = (float)__builtin_rint(*z * pass->depth_scale);
         }
 }
 
@@ -108,22 +163,12 @@ void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
     }
     for (int i = 0; i < pass->colors; i++) {
         clear_color(pass, i, memory);
-        if (pass->color[i].keep)
-            load_color(pass, i, &p, memory);
+        if (pass->color[i].keep && pass->color[i].kind == COLOR_FLOAT)
+            load_floats(pass, pass->color[i].texture, &p, (float *)(void *)memory);
+        else if (pass->color[i].keep)
+            load_words(pass, pass->color[i].texture, &p, (uint32_t *)(void *)memory);
         memory += color_bytes(pass, i);
     }
-}
-
-/* Pixels first to end (one past the last) of a row of tile memory, side by side: two of each block. */
-static void copy_row(uint32_t *restrict to, const uint32_t *restrict from, int first, int end)
-{
-    int x = first;
-    if ((x & 1) != 0 && x < end)
-        *to++ = from[x++ * 2 - 1];
-    for (; x + 1 < end; x += 2, to += 2)
-        memcpy(to, from + x * 2, 2 * sizeof *to);
-    if (x < end)
-        *to = from[x * 2];
 }
 
 /* Channels that the format lacks read as 0, a missing alpha as 1. */
@@ -137,11 +182,9 @@ static void hide_missing_channels(lom_format format, uint32_t *row, int count)
 
 static void resolve_bytes(const struct lom_pass *pass, int i, const struct part *p, const uint32_t *memory)
 {
-    for (int y = p->y0; y < p->y1; y++) {
-        uint32_t *row = lom_texel(pass->color[i].texture, 0, p->x + p->x0, p->y + y, 0);
-        copy_row(row, memory + memory_index(pass->tile, 0, y), p->x0, p->x1);
-        hide_missing_channels(pass->color[i].format, row, p->x1 - p->x0);
-    }
+    store_words(pass, pass->color[i].texture, p, memory);
+    for (int y = p->y0; y < p->y1; y++)
+        hide_missing_channels(pass->color[i].format, row_of(pass->color[i].texture, p, y), p->x1 - p->x0);
 }
 
 static void resolve_floats(const struct lom_pass *pass, int i, const struct part *p, const float *memory)
@@ -149,32 +192,29 @@ static void resolve_floats(const struct lom_pass *pass, int i, const struct part
     lom_texture *texture = pass->color[i].texture;
     bool single = texture->storage == LOM_STORAGE_R32F;
     int channels = lom_describe_format(pass->color[i].format)->channels;
-    for (int y = p->y0; y < p->y1; y++)
-        for (int x = p->x0; x < p->x1; x++) {
-            float *texel = lom_texel(texture, 0, p->x + x, p->y + y, 0);
-            size_t index = memory_index(pass->tile, x, y);
-            texel[0] = memory[index];
+    for (int y = p->y0; y < p->y1; y++) {
+        float *texel = row_of(texture, p, y);
+        for (int x = p->x0; x < p->x1; x++, texel += single ? 1 : 4) {
+            const float *planes = memory + memory_index(pass->tile, x, y);
+            texel[0] = planes[0];
             for (size_t c = 1; c < 4 && !single; c++)
-                texel[c] = (int)c < channels ? memory[c * tile_pixels(pass) + index] : c == 3 ? 1.0f : 0.0f;
+                texel[c] = (int)c < channels ? planes[c * tile_pixels(pass)] : c == 3 ? 1.0f : 0.0f;
         }
+    }
 }
 
 static void resolve_depth(const struct lom_pass *pass, const struct part *p, const float *memory)
 {
     float scale = (float)pass->depth_scale;
-    for (int y = p->y0; y < p->y1; y++) {
-        float *row = lom_texel(pass->depth, 0, p->x + p->x0, p->y + y, 0);
-        copy_row((uint32_t *)(void *)row, (const uint32_t *)(const void *)memory + memory_index(pass->tile, 0, y),
-                 p->x0, p->x1);
-        for (int x = 0; scale != 0 && x < p->x1 - p->x0; x++)
-            row[x] /= scale;
-    }
+    store_words(pass, pass->depth, p, (const uint32_t *)(const void *)memory);
+    for (int y = p->y0; scale != 0 && y < p->y1; y++)
+        stages_of(pass)->divide_row(row_of(pass->depth, p, y), (size_t)(p->x1 - p->x0), scale);
 }
 
 static void fill_texels(lom_texture *texture, const struct part *p, uint32_t value)
 {
     for (int y = p->y0; y < p->y1; y++)
-        fill_words(lom_texel(texture, 0, p->x + p->x0, p->y + y, 0), value, (size_t)(p->x1 - p->x0));
+        fill_words(row_of(texture, p, y), value, (size_t)(p->x1 - p->x0));
 }
 
 void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory)

@@ -236,6 +236,10 @@ struct lom_stages {
     void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
     /* Shades what is left in the queue. */
     void (*flush)(struct lom_tile *tile);
+    /* Tile memory from a block on as two rows of pixels, two of each block; and back. */
+    void (*split_rows)(const uint32_t *from, size_t blocks, uint32_t *upper, uint32_t *lower);
+    void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
+    void (*divide_row)(float *row, size_t count, float divisor);
 };
 
 /* NULL where the variant does not exist on this architecture. */
@@ -249,7 +253,10 @@ const struct lom_stages *lom_stages_of(int variant);
                               size_t count);                                                                           \
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
                               size_t count);                                                                           \
-    void lom_flush_##variant(struct lom_tile *tile);
+    void lom_flush_##variant(struct lom_tile *tile);                                                                   \
+    void lom_split_rows_##variant(const uint32_t *from, size_t blocks, uint32_t *upper, uint32_t *lower);              \
+    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
+    void lom_divide_row_##variant(float *row, size_t count, float divisor);
 LOM_DECLARE_STAGES(4)
 LOM_DECLARE_STAGES(8)
 LOM_DECLARE_STAGES(16)

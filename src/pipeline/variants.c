@@ -4,7 +4,8 @@
 #define STAGES(variant)                                                                                                \
     {                                                                                                                  \
         lom_find_extremes_##variant, lom_rebase_indices_##variant, lom_shade_vertices_##variant, lom_set_up_##variant, \
-            lom_raster_##variant, lom_flush_##variant                                                                  \
+            lom_raster_##variant, lom_flush_##variant, lom_split_rows_##variant, lom_join_rows_##variant,              \
+            lom_divide_row_##variant                                                                                   \
     }
 
 static const struct lom_stages stages[] = {
