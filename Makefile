@@ -62,8 +62,12 @@ lib_objects  := $(lib_sources:%.c=$(BUILD)/%.o) $(foreach v,$(VARIANTS),$(wide_s
 cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
 # What runs once and briefly is compiled for size.
+brief_sources := $(wildcard src/geometry/build*.c src/geometry/paint_*.c src/geometry/make_*.c src/geometry/shapes.c \
+	src/geometry/obj_*.c src/image/compare*.c src/measure/*.c src/render/load_*.c src/render/frame*.c src/cloud/*_keys.c \
+	src/water/*_keys.c src/water/make_*.c)
 ifeq ($(O),3)
-$(BUILD)/src/cli/%.o $(BUILD)/src/scene/%.o $(BUILD)/src/geometry/build%.o: private CFLAGS += -Os
+$(BUILD)/src/cli/%.o $(BUILD)/src/scene/%.o: private CFLAGS += -Os
+$(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c,$(brief_sources))): private CFLAGS += -Os
 endif
 
 tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))

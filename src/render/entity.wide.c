@@ -96,14 +96,6 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
     finish(out, in, uniforms, load3(in, TEXTURED), load3(in, HIGHLIGHT));
 }
 
-static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    const struct lom_caster_uniforms *caster = uniforms;
-    lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
-    out->position = lom_transform4(&caster->clip_from_world, lom_transform3(&caster->world_from_model, model));
-}
-
-LOM_DEPTH_SHADER(lom_caster_shader, caster_vertex, .attributes = 1, .uniforms_size = sizeof(struct lom_caster_uniforms))
 LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
            .reads = 0x7ff, .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1, .reads = 0x7ff,

@@ -28,41 +28,9 @@ LOM_INLINE lom_float lom_caustic_light(const struct lom_view_uniform *view, lom_
     return lom_max(lom_mix(one, light, share), (lom_float){ 0 });
 }
 
-/* The share of a map's texels around a place that have nothing nearer to the sun: 3 x 3 of them, weighted by the
- * quadratic B-spline (Reeves, Salesin, Cook 1987, with a smooth kernel), so that edges move by less than a texel. */
-LOM_INLINE lom_float lom_map_light(const struct lom_shadow_map_uniform *shadow, lom_float3 place)
-{
-    lom_float one = lom_splat(1.0f);
-    lom_float s = lom_transform_row(shadow->s, place), t = lom_transform_row(shadow->t, place);
-    lom_float depth = lom_transform_row(shadow->depth, place);
-    if (!lom_any((s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f)))
-        return one;
-    lom_float x = s * shadow->size, y = t * shadow->size, column = lom_floor(x), row = lom_floor(y);
-    lom_float dx = x - column - 0.5f, dy = y - row - 0.5f, shade = { 0 };
-    lom_float across[3] = { 0.5f * (0.5f - dx) * (0.5f - dx), 0.75f - dx * dx, 0.5f * (0.5f + dx) * (0.5f + dx) };
-    lom_float down[3] = { 0.5f * (0.5f - dy) * (0.5f - dy), 0.75f - dy * dy, 0.5f * (0.5f + dy) * (0.5f + dy) };
-    for (int j = 0; j < 3; j++)
-        for (int i = 0; i < 3; i++) {
-            lom_float at_s = (column + ((float)i - 0.5f)) * shadow->texel;
-            lom_float at_t = (row + ((float)j - 0.5f)) * shadow->texel;
-            lom_float nearest = lom_sample_depth(shadow->map, at_s, at_t);
-            lom_mask dark = (nearest > depth) & (nearest > 0.0f);
-            shade = shade + lom_select(dark, across[i] * down[j], (lom_float){ 0 });
-        }
-    return one - shade;
-}
-
-/* The share of the sunlight that entities let through to a place with this normal. */
-LOM_INLINE lom_float lom_entity_light(const struct lom_view_uniform *view, lom_float3 world, lom_float3 normal)
-{
-    lom_float light = lom_splat(1.0f);
-    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++) {
-        const struct lom_shadow_map_uniform *shadow = &view->entity_shadow[i];
-        if (shadow->map != NULL)
-            light = light * lom_map_light(shadow, lom_add3(world, lom_scale3(normal, lom_splat(shadow->offset))));
-    }
-    return light;
-}
+/* The share of the sunlight that entities let through to a place with this normal (entity_shadow.wide.c). */
+void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *world, const lom_float3 *normal,
+                                lom_float *share);
 
 /* sky: the share of the sky that the place sees. */
 LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
@@ -70,8 +38,12 @@ LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view,
 {
     const struct lom_light_uniform *light = &view->light;
     lom_float share = lom_light_share(light, world), facing = lom_lambert(light, normal);
-    if (lom_any(facing * share > 0.0f))
-        share = share * lom_entity_light(view, world, normal);
+    if (view->entity_shadow[0].map != NULL && /* the far one is only there with it */
+        lom_any(facing * share > 0.0f)) {
+        lom_float open;
+        LOM_WIDE(lom_entity_light)(view, &world, &normal, &open);
+        share = share * open;
+    }
     lom_float lambert = facing * share * lom_caustic_light(view, world);
     struct lom_lit lit;
     lom_float3 ambient = lom_mix3(lom_uniform3(light->ground), lom_uniform3(light->ambient), 0.5f + 0.5f * normal.y);
