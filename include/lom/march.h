@@ -324,8 +324,9 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
 void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, const lom_medium_desc *desc, int steps);
 
 /* Where rays cross the unit box: the distances between which they are inside, enter >= 0; lanes that miss it are
- * cleared in active. A component of `along` that is 0 divides nothing: such a ray is inside between the two faces or
- * not (the upper face excluded, so that two boxes share a face without a gap or doubling). */
+ * cleared in active. A component of `along` below 2^-126 divides nothing: such a ray is inside between the two
+ * faces or not (the upper face excluded, so that two boxes share a face without a gap or doubling). A ray of which all
+ * three are goes nowhere and misses. */
 void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays);
 
 #ifdef __cplusplus

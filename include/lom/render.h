@@ -30,7 +30,7 @@ typedef struct lom_frame_desc {
 
 /* ---- the plan ---- */
 
-enum { LOM_MAX_STEPS = 64, LOM_MAX_STEP_TEXT = 160 };
+enum { LOM_MAX_STEPS = 64, LOM_MAX_STEP_TEXT = 240 };
 
 /* One pass, or one that was left out. */
 typedef struct lom_step {

@@ -76,11 +76,31 @@ size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_
     return count;
 }
 
+static float step_of(const struct lom_cloud_set *set, const struct lom_placed_cloud *placed)
+{
+    const double *side = placed->cloud->size;
+    const float size[3] = { (float)side[0], (float)side[1], (float)side[2] };
+    return lom_medium_step(placed->density->medium, size, (float)set->quality.error);
+}
+
+size_t lom_count_capped_clouds(const struct lom_cloud_set *set, int *steps)
+{
+    size_t count = 0;
+    *steps = most_steps;
+    if (set->quality.model == LOM_CLOUDS_ORIGINAL || set->quality.model == LOM_CLOUDS_BILLBOARD)
+        return 0;
+    for (size_t i = 0; i < set->count; i++) {
+        const double *side = set->clouds[i].cloud->size;
+        double diagonal = lom_double_sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
+        count += diagonal > (double)step_of(set, &set->clouds[i]) * most_steps;
+    }
+    return count;
+}
+
 static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, const struct lom_placed_cloud *placed,
                       const struct lom_cloud_view *view)
 {
     const lom_cloud *cloud = placed->cloud;
-    const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
     const double grain = cloud->detail_size / set->detail->size;
     *march = (lom_medium_desc){ .medium = placed->density->medium,
                                 .light = placed->light,
@@ -89,7 +109,7 @@ static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, c
                                 .detail_near = (float)(0.6 * grain / view->pixel_angle),
                                 .detail_far = (float)(2.5 * grain / view->pixel_angle),
                                 .extinction = (float)(cloud->extinction * cloud->density),
-                                .step = lom_medium_step(placed->density->medium, size, (float)set->quality.error),
+                                .step = step_of(set, placed),
                                 .stop = (float)set->quality.stop,
                                 .most_steps = most_steps,
                                 .octaves = set->quality.model == LOM_CLOUDS_OCTAVES ? set->quality.octaves : 1 };

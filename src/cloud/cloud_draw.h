@@ -100,6 +100,9 @@ lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud);
 /* Indices of the clouds that are seen (all of them unless cull is set), the farthest first (by the middle's distance;
  * of equals the later one in the file first); order has room for set->count. */
 size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, bool cull, size_t *order);
+/* How many clouds have rays that would take more steps of the length that quality.cloud_error asks for than a ray takes
+ * (*steps), so that theirs are longer and the bound is not kept. */
+size_t lom_count_capped_clouds(const struct lom_cloud_set *set, int *steps);
 /* The corners of its box less its middle: corner c is at (c & 1, c >> 1 & 1, c >> 2) along its axes. */
 void lom_cloud_corners(const struct lom_placed_cloud *cloud, lom_vec3 corner[8]);
 /* Draws one cloud into the pass that has begun (colour alone; it keeps what it holds). */

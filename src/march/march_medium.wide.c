@@ -9,10 +9,12 @@ void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
     lom_float *enter = &rays->enter, *leave = &rays->leave;
     const lom_float start[3] = { rays->start.x, rays->start.y, rays->start.z };
     const lom_float along[3] = { rays->along.x, rays->along.y, rays->along.z };
+    lom_mask still = lom_splat_int(-1);
     *enter = (lom_float){ 0 };
     *leave = lom_splat(3e38f);
     for (int i = 0; i < 3; i++) {
-        lom_mask parallel = along[i] == 0.0f;
+        lom_mask parallel = lom_abs(along[i]) < 0x1p-126f; /* not a box's side in 3e38 m, and 1 / it may be infinite */
+        still &= parallel;
         lom_float inverse = 1.0f / lom_select(parallel, lom_splat(1.0f), along[i]);
         lom_float first = -start[i] * inverse, second = (1.0f - start[i]) * inverse;
         lom_mask outside = parallel & ((start[i] < 0.0f) | (start[i] >= 1.0f));
@@ -20,7 +22,7 @@ void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
         *leave = lom_select(parallel, *leave, lom_min(*leave, lom_max(first, second)));
         rays->active &= ~outside;
     }
-    rays->active &= *enter < *leave;
+    rays->active &= (*enter < *leave) & ~still;
 }
 
 /* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below

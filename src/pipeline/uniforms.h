@@ -78,8 +78,8 @@ LOM_INLINE lom_float3 lom_rotate3(const struct lom_matrix_uniform *m, lom_float3
                          v.x * m->m[2][0] + v.y * m->m[2][1] + v.z * m->m[2][2] };
 }
 
-/* Phong's specular term max(R.E, 0)^shininess of the light, R its reflection; 0 where the light is behind the surface.
- */
+/* Phong's specular term max(R.E, 0)^shininess of the light, R its reflection; 0 where the light is behind the surface
+ * and where R.E is not above 0, for a shininess of 0 too. */
 LOM_INLINE lom_float lom_phong_specular(const struct lom_light_uniform *light, lom_float3 normal, lom_float3 to_eye,
                                         float shininess)
 {
@@ -87,9 +87,10 @@ LOM_INLINE lom_float lom_phong_specular(const struct lom_light_uniform *light, l
     lom_float facing = lom_dot3(normal, to_light);
     lom_float3 reflected = lom_sub3(lom_scale3(normal, 2.0f * facing), to_light);
     lom_float cosine = lom_max(lom_dot3(reflected, to_eye), (lom_float){ 0 });
-    if (!lom_any((facing > 0.0f) & (cosine > 0.0f)))
+    lom_mask shines = (facing > 0.0f) & (cosine > 0.0f);
+    if (!lom_any(shines))
         return (lom_float){ 0 };
-    return lom_select(facing > 0.0f, lom_pow(cosine, lom_splat(shininess)), (lom_float){ 0 });
+    return lom_select(shines, lom_pow(cosine, lom_splat(shininess)), (lom_float){ 0 });
 }
 
 /* max(N.L, 0) */

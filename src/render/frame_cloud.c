@@ -4,6 +4,7 @@
 
 #include "cloud/cloud_draw.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static struct lom_cloud_view cloud_view(const struct frame *f, const struct lom_scene_view *view, int height)
@@ -209,6 +210,17 @@ static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_imposto
                         f->renderer->impostors.swept);
 }
 
+/* A bound that is not kept is said, never passed over. */
+static void add_capped(const struct lom_cloud_set *set, lom_step *step)
+{
+    int steps;
+    size_t count = lom_count_capped_clouds(set, &steps), length = strlen(step->text);
+    if (count != 0)
+        snprintf(step->text + length, sizeof step->text - length,
+                 "; %zu of all would take more than %d steps to keep quality.cloud_error: theirs are longer", count,
+                 steps);
+}
+
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
@@ -222,6 +234,8 @@ bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
     lom_impostor_counters before = *f->impostors;
     size_t count = lom_draw_clouds(f, &f->view, lom_frame_pass(f, r->color), r->depth, error);
     lom_step *step = add_cloud_step(f, count, &before);
+    if (count != 0)
+        add_capped(r->clouds, step);
     step->width = f->crop.width;
     step->height = f->crop.height;
     return lom_device_error(r->device)->code == LOM_OK;

@@ -139,7 +139,7 @@ static void test_parallax_follows_the_closed_form(void)
     }
 }
 
-static void test_threshold_exactly_equal_keeps(void) /* I3 */
+static void i3_threshold_exactly_equal_keeps(void)
 {
     lom_vec3 eye = { 0, 100, 5000 }, moved = { 60, 110, 4990 };
     struct lom_plate plate;
@@ -159,7 +159,7 @@ static void test_threshold_exactly_equal_keeps(void) /* I3 */
 }
 
 /* The eye swings by a hair about the place where the bound is passed: once at most. */
-static void test_swinging_about_the_bound_refreshes_once(void) /* I3 */
+static void i3_swinging_about_the_bound_refreshes_once(void)
 {
     lom_vec3 eye = { 0, 0, 5000 };
     struct lom_plate plate;
@@ -180,7 +180,7 @@ static void test_swinging_about_the_bound_refreshes_once(void) /* I3 */
     CHECK(refreshed == 1, "%d times", refreshed);
 }
 
-static void test_switches_have_hysteresis(void) /* I3 */
+static void i3_switches_have_hysteresis(void)
 {
     bool is_on = false;
     int changes = 0;
@@ -206,7 +206,7 @@ static void test_size_error(void)
 
 /* ---- extremes ---- */
 
-static void test_behind_straddling_and_inside_have_no_plate(void) /* I1 */
+static void i1_behind_straddling_and_inside_have_no_plate(void)
 {
     const lom_vec3 eyes[] = { { 0, 0, 0 }, { 100, 50, -30 }, { 800, 500, 700 }, { 0, 0, 700.2 }, { 810, 0, 0 } };
     lom_vec3 corner[8];
@@ -223,7 +223,7 @@ static void test_behind_straddling_and_inside_have_no_plate(void) /* I1 */
     CHECK(plate.width == 641 && plate.height == 361 && plate.distance > view.near_plane, "the whole picture");
 }
 
-static void test_sizes_from_nothing_to_huge(void) /* I2, I5 */
+static void i2_i5_sizes_from_nothing_to_huge(void)
 {
     struct lom_plate plate;
     CHECK(facing((lom_vec3){ 0, 0, 1e9 }, &plate) && plate.extent < 0.01 && plate.width == 16, "far: %g, %d",
@@ -237,7 +237,7 @@ static void test_sizes_from_nothing_to_huge(void) /* I2, I5 */
     CHECK(!facing((lom_vec3){ 0, 0, 0 }, &plate), "distance 0");
 }
 
-static void test_roll_and_pole(void) /* I4 */
+static void i4_roll_and_pole(void)
 {
     lom_vec3 eye = { 0, 5000, 0 }, corner[8];
     struct lom_plate plate;
@@ -314,7 +314,7 @@ static void test_painters_order_with_ties(void)
 
 /* The border is empty, colour never exceeds opacity without light, and no dark fringe: what is not the cloud is 0 in
  * every channel. */
-static void test_plate_border_is_empty(void) /* I6 */
+static void i6_plate_border_is_empty(void)
 {
     lom_cloud cloud = { .position = { 0, -500, 0 } };
     struct lom_cloud_set *set = load(&cloud, 1, &air);
@@ -354,15 +354,15 @@ int main(int argc, char **argv)
     RUN(test_plate_covers_the_box_with_a_border);
     RUN(test_no_parallax_without_moving);
     RUN(test_parallax_follows_the_closed_form);
-    RUN(test_threshold_exactly_equal_keeps);
-    RUN(test_swinging_about_the_bound_refreshes_once);
-    RUN(test_switches_have_hysteresis);
+    RUN(i3_threshold_exactly_equal_keeps);
+    RUN(i3_swinging_about_the_bound_refreshes_once);
+    RUN(i3_switches_have_hysteresis);
     RUN(test_size_error);
-    RUN(test_behind_straddling_and_inside_have_no_plate);
-    RUN(test_sizes_from_nothing_to_huge);
-    RUN(test_roll_and_pole);
+    RUN(i1_behind_straddling_and_inside_have_no_plate);
+    RUN(i2_i5_sizes_from_nothing_to_huge);
+    RUN(i4_roll_and_pole);
     RUN(test_misting);
     RUN(test_painters_order_with_ties);
-    RUN(test_plate_border_is_empty);
+    RUN(i6_plate_border_is_empty);
     return check_result();
 }

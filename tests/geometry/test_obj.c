@@ -228,6 +228,7 @@ static lom_bytes read_from_table(void *context, const char *name, lom_error *err
                            ? "newmtl blue\nKd 0 0 1\nmap_Kd b.png\nnewmtl red\nKd .5 0 0\n"
                        : strcmp(name, "broken.mtl") == 0   ? "newmtl a\nKd 1 2\n"
                        : strcmp(name, "nameless.mtl") == 0 ? "\nKd 1 2 3\n"
+                       : strcmp(name, "negative.mtl") == 0 ? "newmtl a\nNs 0\nNs -1\n"
                                                            : NULL;
     if (text == NULL) {
         lom_fail(error, LOM_ERROR_FILE, "no such file");
@@ -291,6 +292,8 @@ static void materials(void)
     CHECK(mesh == NULL && strncmp(error.text, "dir/broken.mtl:2: ", 18) == 0, "%s", error.text);
     mesh = decode_with(TRIANGLE "mtllib nameless.mtl\nf 1 2 3\n", &error, &calls);
     CHECK(mesh == NULL && strstr(error.text, "Kd before the first newmtl") != NULL, "%s", error.text);
+    mesh = decode_with(TRIANGLE "mtllib negative.mtl\nf 1 2 3\n", &error, &calls);
+    CHECK(mesh == NULL && strstr(error.text, "dir/negative.mtl:3:") != NULL, "%s", error.text);
 }
 
 /* Files on disk: material files are looked for beside the OBJ file. */

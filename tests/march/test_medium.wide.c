@@ -2,86 +2,10 @@
  * uniform, converges at the designed order elsewhere, keeps its bounds, starts anywhere, and skips empty space without
  * changing a byte. */
 #include "check.h"
-
-#include <lom/march.h>
-
-#define ALL lom_splat_int(-1)
-
-static double uniform(uint32_t *state, double low, double high)
-{
-    return low + (high - low) * lom_random_uniform(77, (*state)++);
-}
-
-/* A medium of n voxels along x whose density is given. */
-static lom_medium *medium_along_x(int n, double (*density)(double x))
-{
-    lom_image *image = lom_create_image(n, 1, 1, LOM_FORMAT_R32F, NULL);
-    for (int i = 0; i < n; i++)
-        ((float *)image->pixels)[i] = (float)density((i + 0.5) / n);
-    lom_medium *medium = lom_create_medium(image, NULL);
-    lom_free_image(image);
-    return medium;
-}
-
-static double one(double x)
-{
-    (void)x;
-    return 1;
-}
-
-static double nothing(double x)
-{
-    (void)x;
-    return 0;
-}
-
-static double ramp(double x)
-{
-    return x;
-}
-
-static double exponential(double x)
-{
-    return lom_double_exp(-3 * x);
-}
-
-static lom_medium_rays rays_along_x(double enter, double leave)
-{
-    lom_medium_rays rays = { .start = lom_splat3(0, 0.5f, 0.5f),
-                             .along = lom_splat3(1, 0, 0),
-                             .enter = lom_splat((float)enter),
-                             .leave = lom_splat((float)leave),
-                             .shift = lom_splat(1.0f),
-                             .active = ALL };
-    for (int k = 0; k < LOM_MAX_OCTAVES; k++)
-        rays.phase[k] = lom_splat(1.0f);
-    return rays;
-}
-
-static lom_medium_desc plain(const lom_medium *medium, double extinction, double step)
-{
-    return (lom_medium_desc){ .medium = medium,
-                              .extinction = (float)extinction,
-                              .step = (float)step,
-                              .most_steps = 65536,
-                              .octaves = 1,
-                              .weight = { 1 } };
-}
-
-static lom_medium_result march(const lom_medium_rays *rays, const lom_medium_desc *desc)
-{
-    lom_medium_result result;
-    LOM_WIDE(lom_march_medium)(&result, rays, desc, NULL);
-    return result;
-}
-
-static double magnitude(double x)
-{
-    return x < 0 ? -x : x;
-}
+#include "media.h"
 
 /* V13, V3: alpha of a slab is 1 - exp(-t) for thin, thick and opaque ones, whatever the step and its shift. */
-static void test_V13_slab_is_exact(void)
+static void v2_v3_v13_slab_is_exact(void)
 {
     static const double depths[] = { 1e-8, 1e-6, 1e-3, 0.1, 1, 7, 40, 1e6 };
     lom_medium *medium = medium_along_x(8, one);
@@ -103,7 +27,7 @@ static void test_V13_slab_is_exact(void)
 }
 
 /* V14: one segment against two halves. */
-static void test_V14_split_changes_nothing(void)
+static void v14_split_changes_nothing(void)
 {
     lom_medium *medium = medium_along_x(8, one);
     for (int i = 0; i < 40; i++) {
@@ -118,7 +42,7 @@ static void test_V14_split_changes_nothing(void)
 }
 
 /* V15: forwards or backwards, the same comes through. */
-static void test_V15_order_reversed(void)
+static void v15_order_reversed(void)
 {
     lom_medium *medium = medium_along_x(64, exponential);
     lom_medium_desc desc = plain(medium, 5, 0.01);
@@ -132,7 +56,7 @@ static void test_V15_order_reversed(void)
 
 /* V13: midpoint is exact on a linear ramp, of order 2 on an exponential one; samples at the left end of each step (a
  * shift of the ray by half a step) are of order 1. The ramp is read inside the outermost voxels' centres. */
-static void test_V13_order_of_convergence(void)
+static void v13_order_of_convergence(void)
 {
     enum { N = 512 };
     lom_medium *linear = medium_along_x(N, ramp), *curved = medium_along_x(N, exponential);
@@ -159,7 +83,7 @@ static void test_V13_order_of_convergence(void)
 }
 
 /* V5: where there is nothing the result is exactly nothing, and the colour behind keeps every bit. */
-static void test_V5_empty_medium(void)
+static void v5_empty_medium(void)
 {
     lom_medium *medium = medium_along_x(16, nothing);
     lom_medium_desc desc = plain(medium, 50, 0.001);
@@ -170,43 +94,7 @@ static void test_V5_empty_medium(void)
     lom_free_medium(medium);
 }
 
-static lom_image *blobs(uint32_t *state, int size)
-{
-    lom_image *image = lom_create_image(size, size, size, LOM_FORMAT_R16, NULL);
-    for (int b = 0; b < 3; b++) {
-        int c[3], r = 2 + (int)uniform(state, 0, size / 6.0);
-        for (int k = 0; k < 3; k++)
-            c[k] = (int)uniform(state, 0, size);
-        for (int z = 0; z < size; z++)
-            for (int y = 0; y < size; y++)
-                for (int x = 0; x < size; x++)
-                    if ((x - c[0]) * (x - c[0]) + (y - c[1]) * (y - c[1]) + (z - c[2]) * (z - c[2]) < r * r)
-                        *(uint16_t *)lom_image_pixel(image, x, y, z) = (uint16_t)uniform(state, 0, 65536);
-    }
-    return image;
-}
-
-/* A ray a lane, near each other or not, from anywhere, around the box. */
-static lom_medium_rays random_rays(uint32_t *state, double width)
-{
-    lom_medium_rays rays = rays_along_x(0, 1);
-    float at[3][LOM_LANES], along[3][LOM_LANES], shift[LOM_LANES];
-    for (int k = 0; k < 3; k++) {
-        double from = uniform(state, -0.5, 1.5), way = uniform(state, -1, 1);
-        for (int i = 0; i < LOM_LANES; i++) {
-            at[k][i] = (float)(from + width * uniform(state, -1, 1));
-            along[k][i] = (float)(way + width * uniform(state, -1, 1));
-            shift[i] = (float)uniform(state, 0.01, 1);
-        }
-    }
-    rays.start = (lom_float3){ lom_load(at[0]), lom_load(at[1]), lom_load(at[2]) };
-    rays.along = (lom_float3){ lom_load(along[0]), lom_load(along[1]), lom_load(along[2]) };
-    rays.shift = lom_load(shift);
-    LOM_WIDE(lom_cross_box)(&rays);
-    return rays;
-}
-
-static void test_skipping_changes_no_byte(void)
+static void skipping_changes_no_byte(void)
 {
     uint32_t state = 1;
     lom_march_count count = { 0 };
@@ -233,7 +121,7 @@ static void test_skipping_changes_no_byte(void)
 
 /* V10: ending a ray early changes what it brings by at most `stop` times the largest radiance, which is 1 here. V11:
  * shares stay in [0, 1]. */
-static void test_V10_early_stop_keeps_its_bound(void)
+static void v10_early_stop_keeps_its_bound(void)
 {
     static const float stops[] = { 0.1f, 0.01f, 0.001f };
     uint32_t state = 9;
@@ -260,7 +148,7 @@ static void test_V10_early_stop_keeps_its_bound(void)
 }
 
 /* The step of lom_medium_step keeps its bound on any ray and with any shift: against a hundred times finer steps. */
-static void test_step_keeps_its_error_bound(void)
+static void step_keeps_its_error_bound(void)
 {
     uint32_t state = 5;
     const float size[3] = { 1, 1, 1 };
@@ -296,7 +184,7 @@ static void test_step_keeps_its_error_bound(void)
 
 /* V6, V7, V8: a camera inside, on a face, an edge, a corner, beyond; rays parallel to faces; directions of any length.
  */
-static void test_V7_boxes_are_entered_once(void)
+static void v6_v7_boxes_are_entered_once(void)
 {
     static const struct {
         float start[3], along[3], enter, leave; /* leave 0: missed */
@@ -332,7 +220,7 @@ static void test_V7_boxes_are_entered_once(void)
 
 /* V17: a ray longer than the greatest number of steps takes longer ones, to its end. V1: no stall for the shortest
  * steps. */
-static void test_V17_step_cap_covers_the_ray(void)
+static void v17_step_cap_covers_the_ray(void)
 {
     lom_medium *medium = medium_along_x(8, one);
     lom_medium_desc desc = plain(medium, 2, 1e-9);
@@ -347,7 +235,7 @@ static void test_V17_step_cap_covers_the_ray(void)
 }
 
 /* V19: full density is full from 8 bits, 16 bits and floats; negative floats and those above 1 are clamped. */
-static void test_V19_full_voxels(void)
+static void v19_full_voxels(void)
 {
     static const lom_format formats[] = { LOM_FORMAT_R8, LOM_FORMAT_R16, LOM_FORMAT_R32F };
     for (int f = 0; f < 3; f++)
@@ -373,16 +261,16 @@ int main(int argc, char **argv)
         printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
         return 0;
     }
-    RUN(test_V13_slab_is_exact);
-    RUN(test_V14_split_changes_nothing);
-    RUN(test_V15_order_reversed);
-    RUN(test_V13_order_of_convergence);
-    RUN(test_V5_empty_medium);
-    RUN(test_skipping_changes_no_byte);
-    RUN(test_V10_early_stop_keeps_its_bound);
-    RUN(test_step_keeps_its_error_bound);
-    RUN(test_V7_boxes_are_entered_once);
-    RUN(test_V17_step_cap_covers_the_ray);
-    RUN(test_V19_full_voxels);
+    RUN(v2_v3_v13_slab_is_exact);
+    RUN(v14_split_changes_nothing);
+    RUN(v15_order_reversed);
+    RUN(v13_order_of_convergence);
+    RUN(v5_empty_medium);
+    RUN(skipping_changes_no_byte);
+    RUN(v10_early_stop_keeps_its_bound);
+    RUN(step_keeps_its_error_bound);
+    RUN(v6_v7_boxes_are_entered_once);
+    RUN(v17_step_cap_covers_the_ray);
+    RUN(v19_full_voxels);
     return check_result();
 }
