@@ -1,5 +1,6 @@
 /* lom/particles.h - drops of spray and of waterfalls whose places are closed forms of their number and the time: any
- * moment alone equals that moment of a run, in any order of calls. Lengths are metres, times seconds, y is up. */
+ * moment alone equals that moment of a run, in any order of calls; and the [[spray]] tables of a scene that are drawn
+ * of them. Lengths are metres, times seconds, y is up. */
 #ifndef LOM_PARTICLES_H
 #define LOM_PARTICLES_H
 
@@ -27,15 +28,17 @@ typedef struct lom_emitter {
 
 typedef struct lom_particle {
     double place[3];
-    double share; /* of its life that has passed, 0 <= share < 1 */
-    double alpha; /* 0 at birth and at death, 1 from a tenth of the life to nine tenths; continuous in time */
-    int64_t life; /* number of the life; negative before time 0 */
+    double velocity[3]; /* m/s */
+    double share;       /* of its life that has passed, 0 <= share < 1 */
+    double alpha;       /* 0 at birth and at death, 1 from a tenth of the life to nine tenths; continuous in time */
+    int64_t life;       /* number of the life; negative before time 0 */
 } lom_particle;
 
-/* Writes place[3] of a drop age >= 0 seconds after it left `start` with `velocity`. It falls at 9.80665 m/s^2 with
- * Stokes drag, dv/dt = g - drag (v - wind), of which this is the exact solution; drag 0 is the parabola. */
+/* Writes place[3], and unless it is NULL now[3], the velocity there, of a drop age >= 0 seconds after it left `start`
+ * with `velocity`. It falls at 9.80665 m/s^2 with Stokes drag, dv/dt = g - drag (v - wind), of which this is the exact
+ * solution; drag 0 is the parabola. */
 void lom_particle_flight(const double start[3], const double velocity[3], const double wind[3], double drag, double age,
-                         double place[3]);
+                         double place[3], double now[3]);
 
 /* Seconds in which a drop falls by `height` >= 0 from rest in still air; drag >= 0 as above. A fall from a lip to a
  * pool has this life. */
@@ -50,6 +53,31 @@ bool lom_place_particles(const lom_emitter *emitter, double time, lom_particle *
  * negative, zero or no number counts as nearest. `scratch` has room for count numbers; depth, order and scratch do not
  * overlap. */
 void lom_order_particles(const float *depth, size_t count, uint32_t *order, uint32_t *scratch);
+
+/* ---- [[spray]] ---- */
+
+/* An emitter whose drops are drawn: each a round, soft spot of light, drawn out along its way. */
+typedef struct lom_spray {
+    uint32_t given;
+    const char *name; /* NULL when it has none; unique in the scene */
+    bool visible;
+    int seed, count;
+    double from[3], to[3], velocity[3], spread, wind[3], drag; /* as of lom_emitter */
+    double life;     /* s; the reader has put the time of the fall here when the file gives a height */
+    double height;   /* metres; 0: the file gives none */
+    double size[2];  /* radius at birth and at death, metres; linear between them */
+    double stretch;  /* seconds of its way that a drop is drawn along; its light is spread over them */
+    double color[3]; /* linear: the share of light that it sends on */
+    double opacity;  /* of the middle of a drop that is not drawn out, 0..1 */
+    double soft;     /* metres over which a drop fades before what stands behind it, and before the near plane */
+    double forward;  /* of the lobe towards which drops throw the sun's light, 0..10 */
+} lom_spray;
+
+/* The emitter that a spray describes; its numbers are in their ranges when the scene's reader filled it. */
+lom_emitter lom_spray_emitter(const lom_spray *spray);
+
+/* A box that no drop leaves in its life: by the bounds of lom_random_normal. low[3], high[3]. */
+void lom_bound_emitter(const lom_emitter *emitter, double low[3], double high[3]);
 
 #ifdef __cplusplus
 }

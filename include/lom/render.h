@@ -57,6 +57,12 @@ typedef struct lom_impostor_counters {
     int culled;    /* clouds outside the view */
 } lom_impostor_counters;
 
+/* What became of the drops of [[spray]]. */
+typedef struct lom_spray_counters {
+    uint64_t moved; /* of emitters that may be in view */
+    uint64_t drawn; /* of them in view, and not clear */
+} lom_spray_counters;
+
 /* The time of a stage of a frame. */
 enum { LOM_MAX_STAGES = 16 };
 typedef struct lom_stage_time {
@@ -69,6 +75,7 @@ typedef struct lom_frame {
     lom_plan plan;         /* what was done for it */
     lom_counters counters; /* work of this frame */
     lom_impostor_counters impostors;
+    lom_spray_counters spray;
     lom_stage_time stage[LOM_MAX_STAGES]; /* in their order; name NULL behind the last */
 } lom_frame;
 

@@ -9,6 +9,7 @@
 
 #include <lom/cloud.h>
 #include <lom/geometry.h>
+#include <lom/particles.h>
 #include <lom/sky.h>
 #include <lom/water.h>
 
@@ -210,6 +211,7 @@ typedef struct lom_quality {
     int cloud_octaves;        /* of multiple scattering, 1..8 */
     bool cloud_jitter;        /* samples are shifted along the ray by a table of blue noise */
     double cloud_light_scale; /* voxels of the light's grid a voxel of the density, along each axis */
+    bool spray;               /* the drops of [[spray]] are drawn */
     int impostors;            /* lom_impostor_rule */
     lom_impostor_dials impostor;
     int shading;             /* lom_shading */
@@ -243,6 +245,8 @@ typedef struct lom_scene {
     size_t entity_count;
     lom_cloud *cloud; /* [[cloud]] */
     size_t cloud_count;
+    lom_spray *sprays; /* [[spray]] */
+    size_t spray_count;
     const char *path;                /* of the scene file, as it was named */
     struct lom_scene_memory *memory; /* what the strings and arrays live in */
 } lom_scene;

@@ -174,7 +174,9 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
                   { "impostors_refreshed", (uint64_t)frame->impostors.refreshed },
                   { "impostors_reused", (uint64_t)frame->impostors.reused },
                   { "impostors_skipped", (uint64_t)frame->impostors.skipped },
-                  { "clouds_culled", (uint64_t)frame->impostors.culled } };
+                  { "clouds_culled", (uint64_t)frame->impostors.culled },
+                  { "drops_moved", frame->spray.moved },
+                  { "drops_drawn", frame->spray.drawn } };
     char ran[LOM_MAX_STEPS * 25] = "";
     size_t length = 0;
     lom_json json = lom_json_begin(run->stats);

@@ -23,6 +23,7 @@ static const struct stage {
     { lom_find_sea_stage, "sea_waves" },   /* the waves of a sea where one is seen */
     { lom_draw_sea_stage, "sea" },         /* or water with waves */
     { lom_draw_cloud_stage, "clouds" },    /* clouds over all */
+    { lom_draw_spray_stage, "spray" },     /* drops, nearer than most clouds */
 };
 
 static void report(const struct frame *f, const char *pass)
@@ -130,9 +131,12 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    struct frame f = {
-        .renderer = renderer, .scene = scene, .plan = &out->plan, .desc = desc, .impostors = &out->impostors
-    };
+    struct frame f = { .renderer = renderer,
+                       .scene = scene,
+                       .plan = &out->plan,
+                       .desc = desc,
+                       .impostors = &out->impostors,
+                       .spray = &out->spray };
     *out = (lom_frame){ .image = NULL };
     f.width = desc->width != 0 ? desc->width : scene->output.width;
     f.height = desc->height != 0 ? desc->height : scene->output.height;

@@ -24,6 +24,7 @@ struct frame {
     const lom_frame_desc *desc;
     double done; /* the share of the stages behind this one */
     lom_impostor_counters *impostors;
+    lom_spray_counters *spray;
 };
 
 /* Adds a step to the plan with its text; the caller sets the size of its target. A plan that is full keeps its last
@@ -47,6 +48,7 @@ bool lom_find_sea_stage(struct frame *f, lom_error *error); /* where the scene l
 bool lom_draw_sea_stage(struct frame *f, lom_error *error);
 bool lom_prepare_clouds(struct frame *f, lom_error *error); /* makes their light before anything is drawn */
 bool lom_draw_cloud_stage(struct frame *f, lom_error *error);
+bool lom_draw_spray_stage(struct frame *f, lom_error *error);
 
 /* frame_impostor.c: whether this frame goes on with the run's impostors; then lom_draw_clouds by them. */
 bool lom_begin_impostors(struct frame *f, lom_error *error);

@@ -30,7 +30,8 @@ static bool load(lom_renderer *renderer, lom_error *error)
     if (renderer->sky == NULL && scene->sky.given != 0 && scene->sky.faces[0] != NULL)
         return false;
     return load_sun(renderer, error) && lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) &&
-           lom_load_water(renderer, error) && lom_load_waves(renderer, error) && lom_load_scene_clouds(renderer, error);
+           lom_load_water(renderer, error) && lom_load_waves(renderer, error) &&
+           lom_load_scene_clouds(renderer, error) && lom_load_spray(renderer, error);
 }
 
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)
@@ -70,6 +71,7 @@ void lom_free_renderer(lom_renderer *renderer)
     lom_free_sea(renderer->sea);
     lom_free_polar_mesh(&renderer->polar);
     lom_free_scene_clouds(renderer);
+    lom_free_spray(renderer);
     lom_free_ground(&renderer->ground);
     lom_release(renderer->entities);
     lom_release(renderer->paths);

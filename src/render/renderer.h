@@ -5,6 +5,7 @@
 #include "cloud/impostor.h"
 #include "render/ground.h"
 #include "render/surface.h"
+#include "water/spray.h"
 #include "water/surface.h"
 
 #include <lom/reference.h>
@@ -74,6 +75,16 @@ struct lom_impostors {
     int frame, width, height; /* of the last frame */
 };
 
+/* What drops need in a frame: room for all of them, and a picture of them. */
+struct lom_spray_memory {
+    size_t capacity; /* drops of visible emitters; 0: none */
+    lom_particle *particles;
+    struct lom_sprite *sprites;
+    float *depth;
+    uint32_t *order, *indices;
+    lom_texture *layer; /* a target */
+};
+
 struct lom_renderer {
     lom_scene moment;       /* the scene at the time of the frame: its light moves */
     const lom_scene *scene; /* moment, for those who read it */
@@ -95,6 +106,7 @@ struct lom_renderer {
     struct lom_ground_shadow ground_shadow;
     struct lom_entity_shadow entity_shadows[LOM_ENTITY_SHADOWS];
     struct lom_impostors impostors;
+    struct lom_spray_memory spray;
 
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
@@ -135,6 +147,9 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error);
 void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
 bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
 double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
+/* frame_spray.c: room for the drops of the scene. */
+bool lom_load_spray(lom_renderer *renderer, lom_error *error);
+void lom_free_spray(lom_renderer *renderer);
 /* load_clouds.c */
 bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error);
 void lom_free_scene_clouds(lom_renderer *renderer);

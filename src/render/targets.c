@@ -20,8 +20,10 @@ static lom_texture *make_target(lom_renderer *renderer, int width, int height, l
 
 static void release_targets(lom_renderer *r)
 {
-    lom_texture **targets[] = { &r->color,      &r->depth,           &r->mask, &r->reflection, &r->reflection_depth,
-                                &r->refraction, &r->refraction_depth };
+    lom_texture **targets[] = {
+        &r->color,      &r->depth, &r->mask, &r->reflection, &r->reflection_depth, &r->refraction, &r->refraction_depth,
+        &r->spray.layer
+    };
     if (r->reflection_depth == r->refraction_depth)
         r->reflection_depth = NULL;
     if (r->mask == r->refraction)
@@ -76,6 +78,8 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, 
     r->target_height = target_height;
     r->color = make_target(r, target_width, target_height, color_format(r->scene), LOM_MIPS_NONE);
     r->depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
+    if (r->spray.sprites != NULL)
+        r->spray.layer = make_target(r, target_width, target_height, LOM_FORMAT_RGBA32F, LOM_MIPS_NONE);
     if (r->scene->water.given != 0 && r->scene->water.enabled)
         make_water_targets(r, width, height);
     const lom_error *failed = lom_device_error(r->device);

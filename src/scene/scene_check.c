@@ -372,11 +372,45 @@ static bool check_clouds(lom_reader *reader, const lom_toml_value *root)
     return true;
 }
 
+/* ---- [[spray]] ---- */
+
+static bool check_spray(lom_reader *reader, const lom_toml_value *root, const lom_toml_value *place, lom_spray *spray)
+{
+    if (child(place, "to") == NULL)
+        memcpy(spray->to, spray->from, sizeof spray->to);
+    if (child(place, "height") == NULL)
+        return true;
+    if (child(place, "life") != NULL)
+        return fail_at(reader, root, place, "height", "spray has either a life or a height, not both.");
+    spray->life = lom_fall_time(spray->height, spray->drag);
+    return (spray->life >= 0.001 && spray->life <= 3600) ||
+           fail_at(reader, root, place, "height", "a fall through this height must take from 0.001 to 3600 s.");
+}
+
+static bool check_sprays(lom_reader *reader, const lom_toml_value *root)
+{
+    const lom_scene *scene = reader->scene;
+    size_t drops = 0;
+    for (size_t i = 0; i < scene->spray_count; i++) {
+        const lom_toml_value *place = element(root, "spray", i);
+        const char *name = scene->sprays[i].name;
+        drops += (size_t)scene->sprays[i].count;
+        if (drops > LOM_MAX_PARTICLES)
+            return fail_at(reader, root, place, "count", "the drops of all emitters together are more than 1000000.");
+        for (size_t j = 0; j < i && name != NULL; j++)
+            if (scene->sprays[j].name != NULL && strcmp(scene->sprays[j].name, name) == 0)
+                return fail_at(reader, root, place, "name", "another emitter has this name already.");
+        if (!check_spray(reader, root, place, &scene->sprays[i]))
+            return false;
+    }
+    return true;
+}
+
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
     static bool (*const checks[])(lom_reader *, const lom_toml_value *) = { check_camera,  check_light, check_sky,
                                                                             check_terrain, check_water, check_entities,
-                                                                            check_clouds };
+                                                                            check_clouds,  check_sprays };
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         if (!checks[i](reader, root))
             return false;

@@ -320,6 +320,7 @@ static const lom_key quality[] = {
       .text = "Shift samples along the ray by a table of blue noise, which breaks up bands." },
     { "cloud_light_scale", LOM_KEY_NUMBER, AT(lom_quality, cloud_light_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 0.5 }, .text = "Size of the grid of light, in parts of the density's, along each axis." },
+    { "spray", LOM_KEY_BOOL, AT(lom_quality, spray), .initial = { 1 }, .text = "Draw the drops of `[[spray]]`." },
     { "impostors", LOM_KEY_CHOICE, AT(lom_quality, impostors), .choices = { "off", "reference", "bounded" },
       .text =
           "Whether a cloud's picture is kept on a plate and shown again while the camera moves: never; by the "
@@ -371,6 +372,8 @@ static const lom_key root[] = {
     { "clouds", LOM_KEY_TABLE, AT(lom_scene, clouds), .table = &lom_clouds_keys },
     { "cloud", LOM_KEY_TABLES, AT(lom_scene, cloud), .table = &lom_cloud_keys,
       .length_offset = AT(lom_scene, cloud_count), .text = "Clouds in the scene." },
+    { "spray", LOM_KEY_TABLES, AT(lom_scene, sprays), .table = &lom_spray_keys,
+      .length_offset = AT(lom_scene, spray_count), .text = "Drops of spray and of waterfalls." },
     { "quality", LOM_KEY_TABLE, AT(lom_scene, quality), .table = &quality_table },
 };
 const lom_key_table lom_scene_keys = { sizeof(lom_scene), root, COUNT(root), "The scene as a whole." };

@@ -7,5 +7,7 @@
 extern const lom_key_table lom_water_keys;
 /* The tables inside it. */
 extern const lom_key_table lom_water_waves_keys, lom_water_optics_keys, lom_water_foam_keys;
+/* [[spray]]: lom_spray of lom/particles.h. */
+extern const lom_key_table lom_spray_keys;
 
 #endif

@@ -29,7 +29,7 @@ static void flight_is_the_integral_of_the_equation(void)
         const double start[3] = { 1, 2, 3 }, first[3] = { 4, 5, -6 }, wind[3] = { -2, 0.5, 1 };
         const int steps = 20000;
         const double step = 2.0 / steps, k = drags[d];
-        double x[3] = { 1, 2, 3 }, v[3] = { 4, 5, -6 }, place[3];
+        double x[3] = { 1, 2, 3 }, v[3] = { 4, 5, -6 }, place[3], now[3];
         for (int n = 0; n < steps; n++)
             for (int i = 0; i < 3; i++) {
                 double force = (i == 1 ? -9.80665 : 0) + k * wind[i];
@@ -38,9 +38,10 @@ static void flight_is_the_integral_of_the_equation(void)
                 x[i] += step * (v[i] + step / 6 * (a + b + c));
                 v[i] += step / 6 * (a + 2 * b + 2 * c + e);
             }
-        lom_particle_flight(start, first, wind, k, 2, place);
+        lom_particle_flight(start, first, wind, k, 2, place, now);
         for (int i = 0; i < 3; i++)
-            CHECK(distance(place[i], x[i]) < 1e-9, "drag %g axis %d: %.15g, integrated %.15g", k, i, place[i], x[i]);
+            CHECK(distance(now[i], v[i]) < 1e-9 && distance(place[i], x[i]) < 1e-9,
+                  "drag %g axis %d: %.15g, integrated %.15g", k, i, place[i], x[i]);
     }
 }
 
@@ -51,7 +52,7 @@ static void fall_time_inverts_the_flight(void)
         for (size_t d = 0; d < sizeof drags / sizeof *drags; d++) {
             const double zero[3] = { 0, 0, 0 };
             double place[3];
-            lom_particle_flight(zero, zero, zero, drags[d], lom_fall_time(heights[h], drags[d]), place);
+            lom_particle_flight(zero, zero, zero, drags[d], lom_fall_time(heights[h], drags[d]), place, NULL);
             CHECK(distance(-place[1], heights[h]) <= 1e-12 * heights[h], "%g m, drag %g: %.17g", heights[h], drags[d],
                   -place[1]);
         }
@@ -168,6 +169,24 @@ static void order_is_far_to_near_and_stable(void)
     CHECK(order[0] == 5, "none is none");
 }
 
+/* Over many lives, with wind and spread against the velocity; and the bound is not far from the drops. */
+static void no_drop_leaves_its_bounds(void)
+{
+    lom_emitter e = fall(400);
+    lom_particle p[400];
+    double low[3], high[3], lowest = 1e9;
+    lom_bound_emitter(&e, low, high);
+    for (int n = 0; n < 200; n++) {
+        CHECK(lom_place_particles(&e, 0.7 * n, p, NULL), "valid");
+        for (int i = 0; i < 400; i++)
+            for (int k = 0; k < 3; k++) {
+                CHECK(p[i].place[k] >= low[k] && p[i].place[k] <= high[k], "particle %d axis %d", i, k);
+                lowest = p[i].place[1] < lowest ? p[i].place[1] : lowest;
+            }
+    }
+    CHECK(lowest - low[1] < 0.1, "the lowest drop is at %g, the bound at %g", lowest, low[1]);
+}
+
 int main(int argc, char **argv)
 {
     RUN(flight_is_the_integral_of_the_equation);
@@ -177,6 +196,7 @@ int main(int argc, char **argv)
     RUN(a_moment_that_rounds_to_a_birth_is_that_birth);
     RUN(a_moment_alone_is_that_of_a_run);
     RUN(limits_are_refused_with_a_sentence);
+    RUN(no_drop_leaves_its_bounds);
     RUN(order_is_far_to_near_and_stable);
     return check_result();
 }
