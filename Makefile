@@ -141,7 +141,8 @@ fuzz:
 	done
 
 demo: $(BUILD)/lom
-	$(BUILD)/lom render assets/scenes/lake.toml -o demo.png
+	$(BUILD)/lom render assets/scenes/lake.toml -o demo-lake.png
+	$(BUILD)/lom render assets/scenes/flight.toml -o demo.png
 
 check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)

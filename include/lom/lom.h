@@ -13,6 +13,7 @@
 #include <lom/scene.h>
 #include <lom/sea.h>
 #include <lom/particles.h>
+#include <lom/shallow.h>
 #include <lom/sky.h>
 #include <lom/water.h>
 #include <lom/reference.h>

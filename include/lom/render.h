@@ -53,6 +53,7 @@ typedef struct lom_impostor_counters {
     int plates;    /* shown */
     int refreshed; /* of them made anew */
     int reused;    /* of them shown again */
+    int split;     /* of them in two parts, around the aircraft in the cloud */
     int skipped;   /* clouds too small to be seen */
     int culled;    /* clouds outside the view */
 } lom_impostor_counters;

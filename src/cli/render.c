@@ -173,6 +173,7 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
                   { "impostors_shown", (uint64_t)frame->impostors.plates },
                   { "impostors_refreshed", (uint64_t)frame->impostors.refreshed },
                   { "impostors_reused", (uint64_t)frame->impostors.reused },
+                  { "impostors_split", (uint64_t)frame->impostors.split },
                   { "impostors_skipped", (uint64_t)frame->impostors.skipped },
                   { "clouds_culled", (uint64_t)frame->impostors.culled },
                   { "drops_moved", frame->spray.moved },

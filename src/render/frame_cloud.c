@@ -199,15 +199,16 @@ static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_imposto
     if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF)
         return lom_add_step(f, "clouds", true, "%zu of %zu clouds are in view; each is marched, the farthest first",
                             count, all);
+    const char *split = now->split != before->split ? "; one is cut in two around the aircraft" : "";
     if (!f->renderer->impostors.continues)
         return lom_add_step(f, "clouds", true,
                             "%zu of %zu clouds are in view; no frame of a run before this one: each is drawn afresh on "
-                            "its plate",
-                            count, all);
+                            "its plate%s",
+                            count, all, split);
     return lom_add_step(f, "clouds", true,
-                        "%zu of %zu clouds are in view; %d plates made anew, %d shown again, %d grids of light swept",
+                        "%zu of %zu clouds are in view; %d plates made anew, %d shown again, %d grids of light swept%s",
                         count, all, now->refreshed - before->refreshed, now->reused - before->reused,
-                        f->renderer->impostors.swept);
+                        f->renderer->impostors.swept, split);
 }
 
 /* A bound that is not kept is said, never passed over. */

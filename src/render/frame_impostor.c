@@ -261,6 +261,7 @@ static bool update(const struct looking *l, struct lom_impostor *impostor, const
     int parts = find_cut(l, &plate, cloud, &cut);
     bool is_whole = parts == 1 && impostor->parts == 1; /* a cut moves with the aircraft */
     counts->plates++;
+    counts->split += parts == 2;
     if (is_whole && why_refresh(l, impostor, cloud, corner, eye) == LOM_REFRESH_NONE) {
         counts->reused++;
         return true;
