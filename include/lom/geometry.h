@@ -246,8 +246,8 @@ typedef struct lom_height_map_desc {
 lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error);
 
 /* The height map of a coast, 16-bit gray, size (2..4096) pixels a side, for a terrain of 400 x 400 m and 64 m height
- * with its base at -20: "lagoon" (a bay behind a reef), "cove" (a beach between headlands), "river". The sea, or the
- * river's water, stands at 0. Freed with lom_free_image. */
+ * with its base at -20: "lagoon" (a bay behind a reef), "cove" (a beach between headlands), "river", "falls" (cliffs
+ * around a plunge pool). The sea, or the river's water, stands at 0. Freed with lom_free_image. */
 lom_image *lom_make_coast(const char *name, int size, uint64_t seed, lom_error *error);
 /* The names of the coasts, from 0; NULL behind the last. */
 const char *lom_coast_name(size_t index);

@@ -21,9 +21,15 @@ typedef struct lom_emitter {
     double to[3];       /* (the lip of a fall) */
     double velocity[3]; /* mean at the start, m/s, |component| <= 1000 */
     double spread;      /* standard deviation of each horizontal component of it, m/s, 0..100 */
+    double spread_up;   /* the same of the upward component */
     double wind[3];     /* velocity of the air, m/s, |component| <= 1000 */
     double drag;        /* 1/s, 0..1000: the rate at which a drop takes on the velocity of the air */
     double life;        /* s, 0.001..3600 */
+    /* Jets, 0..LOM_MAX_PARTICLES; 0: every life begins anywhere on the segment. Else as many places of it at a time let
+     * drops out, each for jet_time (s, 0.001..3600) within jet_width (metres, 0..1000; it tapers to the jet's ends),
+     * with a velocity of their own that makes 0.8 of the spread; then the jet begins at another place. */
+    int jets;
+    double jet_time, jet_width;
 } lom_emitter;
 
 typedef struct lom_particle {
@@ -62,7 +68,9 @@ typedef struct lom_spray {
     const char *name; /* NULL when it has none; unique in the scene */
     bool visible;
     int seed, count;
-    double from[3], to[3], velocity[3], spread, wind[3], drag; /* as of lom_emitter */
+    double from[3], to[3], velocity[3], spread, spread_up, wind[3], drag; /* as of lom_emitter */
+    int jets;
+    double jet_time, jet_width;
     double life;     /* s; the reader has put the time of the fall here when the file gives a height */
     double height;   /* metres; 0: the file gives none */
     double size[2];  /* radius at birth and at death, metres; linear between them */

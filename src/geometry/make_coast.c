@@ -94,10 +94,39 @@ static double river(const lom_noise *noise, double x, double z)
     return lom_mix_double(bed < 0.2 ? bed : 0.2, land + hills, lom_smooth_step(-2.5, 3.5, bank));
 }
 
+/* A cirque: a plateau in the north breaks off in ribs and ledges around a plunge pool, from which a stream leaves to
+ * the south between banks of gravel. The stream's notch in the rim is at x = 200. */
+static double falls(const lom_noise *noise, double x, double z)
+{
+    lom_octaves octaves = { .count = 5, .period = 256, .gain = 0.55 };
+    double side_way = x - 200 - bend(noise, 30, z, 60, 10) * lom_smooth_step(215, 260, z);
+    double away = side_way < 0 ? -side_way : side_way;
+    double ribs = lom_ridged2(noise, x / 26 + 3.7, z / 70 + 1.3, octaves);
+    double worn = lom_double_exp(-away * away / 90), mouth = lom_double_exp(-away * away / 18);
+    double rim = 174 + 0.0095 * (x - 197) * (x - 197) + bend(noise, x, z * 0.5, 48, 12) - 11 * worn;
+    double d = rim - z + (ribs - 0.5) * 10 * (1 - 0.8 * worn) + bend(noise, x, z, 7, 1.8) * (1 - 0.6 * worn);
+    double ledge = (1 - worn) * larger(0, 2.5 + bend(noise, x, z, 22, 9)), step = 8 + 5 * ribs;
+    double low = lom_smooth_step(0, 2.8, d), high = lom_smooth_step(2.8 + ledge, 6 + ledge, d);
+    double shelf = (1 - worn) * larger(0, 2 + bend(noise, x + 70, z, 19, 8)), third = 6 + ledge + shelf;
+    double top = 17 + bend(noise, x, z, 30, 3) * (1 - worn) + 0.1 * larger(d - 8, 0);
+    double crown = (1 - worn) * (4 + 9 * lom_ridged2(noise, x / 60 + 6.5, z / 60 + 2.5, octaves)) + 6 * worn;
+    double notch = (3 + bend(noise, x, z, 5, 1.5)) * mouth;
+    double wall = low * step + high * (top - step) + lom_smooth_step(third, third + 2.6, d) * (crown - notch);
+    double pool_z = (z - 186) / 31, pool_x = (x - 200) / 27, pool = lom_double_sqrt(pool_x * pool_x + pool_z * pool_z);
+    double banks = (pool - 1) * 9 + bend(noise, x, z, 11, 4), stream = away - 6.5 + bend(noise, x, z, 10, 3);
+    double past = lom_smooth_step(206, 222, z);
+    double shore = lom_mix_double(banks, stream < banks ? stream : banks, past);
+    double ground =
+        shore < 0 ? -2.6 * (1 - lom_double_exp(shore / 5)) - 0.35 : -0.35 + 0.24 * shore + 0.0035 * shore * shore;
+    ground = ground < 12 ? ground : 12 + 0.2 * (ground - 12);
+    double gravel = larger(0, bend(noise, x + 50, z, 4.5, 2.2) - 0.1) * lom_smooth_step(-5, 3, shore);
+    return ground + 0.55 * gravel + bend(noise, x, z, 2.6, 0.3) + lom_smooth_step(-0.5, 0.5, d) * wall;
+}
+
 static const struct coast {
     const char *name;
     coast_height *height;
-} coasts[] = { { "lagoon", lagoon }, { "cove", cove }, { "river", river } };
+} coasts[] = { { "lagoon", lagoon }, { "cove", cove }, { "river", river }, { "falls", falls } };
 enum { COASTS = sizeof coasts / sizeof coasts[0] };
 
 const char *lom_coast_name(size_t index)
