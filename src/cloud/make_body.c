@@ -1,5 +1,5 @@
-/* Cumulus and cumulonimbus: heaps of bubbles (turrets that rise and narrow, a broad base, an anvil), in metres. In: a
- * volume and a seed. Out: densities. Invariant: bubbles lie inside the box, with room for billows. */
+/* Cumulus and cumulonimbus: heaps of bubbles (turrets that rise and narrow, a broad base) and an anvil, in metres. In:
+ * a volume and a seed. Out: densities. Invariant: bubbles lie inside the box, with room for billows. */
 #include "cloud/cloud_kinds.h"
 #include "cloud/shape.h"
 
@@ -9,8 +9,7 @@ struct recipe {
     double spread;                  /* of the turrets, in parts of the half width */
     double low_radius, high_radius; /* of a turret's bubbles at its foot and its head */
     double height;                  /* of the highest turret, in parts of the room above the base */
-    double anvil;                   /* radius of an anvil; 0: none */
-    struct lom_cloud_body body;     /* all but the bubbles */
+    struct lom_cloud_body body;     /* all but the bubbles; the anvil from the middle of the box */
 };
 
 static const struct recipe recipes[] = {
@@ -22,7 +21,6 @@ static const struct recipe recipes[] = {
       92,
       70,
       0.66,
-      0,
       { .base = 40,
         .base_depth = 70,
         .billow = 105,
@@ -39,7 +37,6 @@ static const struct recipe recipes[] = {
       165,
       115,
       0.7,
-      0,
       { .base = 35,
         .base_depth = 45,
         .billow = 85,
@@ -56,7 +53,6 @@ static const struct recipe recipes[] = {
       265,
       175,
       0.84,
-      0,
       { .base = 50,
         .base_depth = 50,
         .billow = 125,
@@ -73,7 +69,6 @@ static const struct recipe recipes[] = {
       520,
       310,
       0.9,
-      0,
       { .base = 90,
         .base_depth = 75,
         .billow = 215,
@@ -90,7 +85,6 @@ static const struct recipe recipes[] = {
       1650,
       1200,
       0.86,
-      4700,
       { .base = 300,
         .base_depth = 260,
         .billow = 700,
@@ -98,7 +92,8 @@ static const struct recipe recipes[] = {
         .warp = 560,
         .warp_size = 2900,
         .softness = 400,
-        .thin = 0.6f } },
+        .thin = 0.6f,
+        .anvil = { .x = 500, .height = 8200, .radius = 4500, .thickness = 3600, .drawn = 1.15f } } },
 };
 
 static void add_bubble(struct lom_cloud_body *body, const struct recipe *r, double x, double y, double z, double radius,
@@ -152,19 +147,6 @@ static void add_turret(struct lom_cloud_body *body, const struct recipe *r, int 
     }
 }
 
-/* Flat bubbles at the top that spread to one side, with the wind at that height. */
-static void add_anvil(struct lom_cloud_body *body, const struct recipe *r, uint64_t seed, uint64_t *counter)
-{
-    for (int k = 0; k < 14; k++) {
-        double turn = 6.283185307179586 * uniform(seed, counter), along = lom_double_sqrt(uniform(seed, counter));
-        double radius = r->anvil * (0.42 + 0.28 * uniform(seed, counter)) * (1 - 0.35 * along);
-        double x = (0.16 + 0.62 * along * lom_double_cos(turn)) * r->anvil * 1.25;
-        double z = 0.75 * along * lom_double_sin(turn) * r->anvil;
-        double y = r->size[1] * (0.85 + 0.03 * uniform(seed, counter));
-        add_bubble(body, r, x, y, z, radius, 4.2);
-    }
-}
-
 bool lom_make_body(lom_image *volume, int variety, uint64_t seed, lom_error *error)
 {
     (void)error;
@@ -173,8 +155,8 @@ bool lom_make_body(lom_image *volume, int variety, uint64_t seed, lom_error *err
     uint64_t key = lom_random_bits(seed, (uint64_t)variety + 100), counter = 0;
     for (int i = 0; i < r->turrets; i++)
         add_turret(&body, r, i, key, &counter);
-    if (r->anvil > 0)
-        add_anvil(&body, r, key, &counter);
+    body.anvil.x += r->size[0] / 2;
+    body.anvil.z += r->size[2] / 2;
     struct lom_cloud_shape shape = { .voxels = { volume->width, volume->height, volume->depth },
                                      .size = { r->size[0], r->size[1], r->size[2] },
                                      .seed = (uint32_t)key,

@@ -12,6 +12,14 @@ struct lom_cloud_bubble {
     float flatness; /* how many times its height goes into its width */
 };
 
+/* The plate of ice that spreads from the head of a tower where the air stops rising, drawn out to one side by the wind
+ * there: flat above, its lower side rising outwards. */
+struct lom_cloud_anvil {
+    float x, z, height;      /* of the middle of its upper side */
+    float radius, thickness; /* radius 0: there is none */
+    float drawn;             /* how many times it is longer along x than along z */
+};
+
 struct lom_cloud_body {
     int bubble_count;
     struct lom_cloud_bubble bubble[LOM_MAX_BUBBLES];
@@ -20,6 +28,7 @@ struct lom_cloud_body {
     float warp, warp_size;     /* displacement by slow noise */
     float softness;            /* depth below the surface at which the density is full */
     float thin;                /* density at the base, in parts of that at the top */
+    struct lom_cloud_anvil anvil;
 };
 
 struct lom_cloud_layer {

@@ -29,7 +29,32 @@ static lom_float depth_inside(const struct lom_cloud_body *body, lom_float3 p)
     return depth;
 }
 
-static lom_float body_density(const struct lom_cloud_shape *shape, lom_float3 p)
+/* The plate is a fifth of `thickness` thick at its rim and all of it at the tower, which widens into it. Fibres along
+ * the wind fray its rim, and it thins out towards it; low billows hang from it. */
+static lom_float anvil_density(const struct lom_cloud_shape *shape, lom_float3 p)
+{
+    const struct lom_cloud_anvil *a = &shape->body->anvil;
+    float billow_size = 0.6f * a->thickness, soft = 0.13f * a->thickness;
+    if (a->radius == 0 || !lom_any((p.y > a->height - 1.5f * a->thickness) & (p.y < a->height + soft)))
+        return (lom_float){ 0 };
+    lom_float3 moved =
+        lom_add3(p, lom_scale3(slow_noise(p, 0.8f * a->radius, shape->seed + 40), lom_splat(0.1f * a->radius)));
+    lom_float dx = (moved.x - a->x) * (1 / (a->radius * a->drawn)), dz = (moved.z - a->z) * (1 / a->radius);
+    lom_float r = lom_sqrt(dx * dx + dz * dz);
+    lom_float3 along = { moved.x * (1.1f / a->radius), moved.y * (1.5f / a->radius), moved.z * (9.0f / a->radius) };
+    lom_float rim = 1.0f - r + 0.55f * lom_gradient_octaves(along, 4, -1, shape->seed + 50);
+    if (!lom_any(rim > 0.0f))
+        return (lom_float){ 0 };
+    lom_float inner = lom_max(1.0f - r, (lom_float){ 0 }), core = lom_max(1.0f - 1.35f * r, (lom_float){ 0 });
+    lom_float lower = a->height - a->thickness * (0.18f + 0.1f * inner + 0.72f * core * core);
+    lom_float billow = lom_billow_octaves(lom_scale3(moved, lom_splat(1 / billow_size)), 4, -1, shape->seed + 60);
+    lom_float depth = lom_min(a->height - moved.y, moved.y - lower) + 0.35f * a->thickness * (billow - 0.45f) * inner;
+    return lom_smoothstep((lom_float){ 0 }, lom_splat(soft), depth) *
+           lom_smoothstep((lom_float){ 0 }, lom_splat(0.5f), rim) * (0.45f + 0.55f * inner);
+}
+
+/* The tower alone. */
+static lom_float heap_density(const struct lom_cloud_shape *shape, lom_float3 p)
 {
     const struct lom_cloud_body *body = shape->body;
     float reach = body->billow + body->softness + body->warp;
@@ -50,6 +75,11 @@ static lom_float body_density(const struct lom_cloud_shape *shape, lom_float3 p)
     density = density * lom_smoothstep((lom_float){ 0 }, lom_splat(body->base_depth), above);
     lom_float height = lom_saturate((p.y - body->base) * (1 / (0.6f * shape->size[1])));
     return density * lom_mix(lom_splat(body->thin), lom_splat(1.0f), height);
+}
+
+static lom_float body_density(const struct lom_cloud_shape *shape, lom_float3 p)
+{
+    return lom_max(heap_density(shape, p), anvil_density(shape, p));
 }
 
 static lom_float layer_density(const struct lom_cloud_shape *shape, lom_float3 p)

@@ -35,6 +35,76 @@ static void test_every_kind_by_seed(void)
     }
 }
 
+enum { BODY = 64, BODY_CELLS = BODY * BODY * BODY };
+
+/* The mass of the largest part whose voxels of more than a twentieth of full density touch by faces, in parts of all.
+ */
+static double largest_part(const uint16_t *volume)
+{
+    static int32_t stack[BODY_CELLS];
+    static uint8_t seen[BODY_CELLS];
+    static const int steps[3] = { 1, BODY, BODY * BODY };
+    double largest = 0, all = 0;
+    memset(seen, 0, sizeof seen);
+    for (int first = 0; first < BODY_CELLS; first++) {
+        int count = 0;
+        double mass = 0;
+        all += volume[first];
+        if (volume[first] > 3276 && !seen[first]) {
+            stack[count++] = first;
+            seen[first] = 1;
+        }
+        while (count > 0) {
+            int at = stack[--count];
+            mass += volume[at];
+            for (int k = 0; k < 6; k++) {
+                int axis = k / 2, along = at / steps[axis] % BODY, to = at + (k & 1 ? steps[axis] : -steps[axis]);
+                if ((k & 1 ? along == BODY - 1 : along == 0) || volume[to] <= 3276 || seen[to])
+                    continue;
+                seen[to] = 1;
+                stack[count++] = to;
+            }
+        }
+        largest = mass > largest ? mass : largest;
+    }
+    return largest / all;
+}
+
+/* Heaps hang together: nothing of weight floats beside them. */
+static void test_heaps_are_one_piece(void)
+{
+    static const char *const kinds[] = { "cumulus_humilis", "cumulus_mediocris", "cumulus_congestus", "cumulonimbus" };
+    for (int i = 0; i < 4; i++)
+        for (uint64_t seed = 1; seed < 4; seed++) {
+            lom_image *volume = make(kinds[i], BODY, BODY, BODY, seed);
+            double share = largest_part(voxels(volume));
+            CHECK(share > 0.95, "%s %llu: its largest part has %.3f of it", kinds[i], (unsigned long long)seed, share);
+            lom_free_image(volume);
+        }
+}
+
+/* Columns that have cloud in a slice of the height, in parts of all. */
+static double cover(const lom_image *volume, double height)
+{
+    int y = (int)(height * volume->height), columns = 0;
+    for (int z = 0; z < volume->depth; z++)
+        for (int x = 0; x < volume->width; x++)
+            columns += voxels(volume)[(z * volume->height + y) * volume->width + x] > 3276;
+    return (double)columns / (volume->width * volume->depth);
+}
+
+/* A thunderstorm's anvil is wider than the tower below it, and there is nothing above it. */
+static void test_an_anvil_spreads_over_its_tower(void)
+{
+    for (uint64_t seed = 1; seed < 4; seed++) {
+        lom_image *volume = make("cumulonimbus", BODY, BODY, BODY, seed);
+        double anvil = cover(volume, 0.87), neck = cover(volume, 0.55), top = cover(volume, 0.97);
+        CHECK(anvil > 1.8 * neck && neck > 0.02 && top == 0, "seed %llu: %.3f over %.3f, %.3f above",
+              (unsigned long long)seed, anvil, neck, top);
+        lom_free_image(volume);
+    }
+}
+
 static void test_names(void)
 {
     lom_error error = { 0 };
@@ -107,6 +177,8 @@ int main(int argc, char **argv)
         return 0;
     }
     RUN(test_every_kind_by_seed);
+    RUN(test_heaps_are_one_piece);
+    RUN(test_an_anvil_spreads_over_its_tower);
     RUN(test_names);
     RUN(test_hemisphere_keeps_its_formula);
     RUN(test_tiny_and_flat_volumes);
