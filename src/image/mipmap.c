@@ -98,20 +98,46 @@ static void shrink_row_of_bytes(const uint32_t *upper, const uint32_t *lower, in
     }
 }
 
+/* The same of floats, of so many a texel: means of four in double. */
+static void shrink_row_of_floats(const float *upper, const float *lower, int width, int floats, float *to)
+{
+    for (int x = 0; x < width; x++, upper += 2 * floats, lower += 2 * floats)
+        for (int c = 0; c < floats; c++) {
+            double sum = 0.0 + (double)upper[c];
+            sum = sum + upper[floats + c] + lower[c] + lower[floats + c];
+            *to++ = (float)(sum / 4);
+        }
+}
+
+/* Rows of an even level of two dimensions. */
+static void shrink_even_row(const lom_texture *texture, const void *upper, const void *lower, int width, void *to)
+{
+    switch (texture->storage) {
+    case LOM_STORAGE_RGBA8:
+        shrink_row_of_bytes(upper, lower, width, to);
+        return;
+    case LOM_STORAGE_RGBA32F:
+        shrink_row_of_floats(upper, lower, width, 4, to);
+        return;
+    case LOM_STORAGE_R32F:
+        shrink_row_of_floats(upper, lower, width, 1, to);
+        return;
+    }
+}
+
 void lom_shrink_level(lom_texture *texture, int level)
 {
     const lom_level *from = &texture->level[level - 1], *to = &texture->level[level];
     bool deep = texture->kind == LOM_TEXTURE_3D;
-    bool bytes = texture->storage == LOM_STORAGE_RGBA8 && !texture->srgb && !deep && from->width % 2 == 0 &&
-                 from->height % 2 == 0;
+    bool even = !texture->srgb && !deep && from->width % 2 == 0 && from->height % 2 == 0;
     size_t texel = lom_texel_size(texture);
     for (int layer = 0; layer < lom_level_layers(texture, level); layer++) {
         span z = span_of(deep ? from->depth : 1, deep ? layer : 0);
         for (int v = 0; v < to->height; v++) {
             uint8_t *row = lom_texel(texture, level, 0, v, layer);
-            if (bytes) {
-                shrink_row_of_bytes(lom_texel(texture, level - 1, 0, 2 * v, layer),
-                                    lom_texel(texture, level - 1, 0, 2 * v + 1, layer), to->width, (uint32_t *)row);
+            if (even) {
+                shrink_even_row(texture, lom_texel(texture, level - 1, 0, 2 * v, layer),
+                                lom_texel(texture, level - 1, 0, 2 * v + 1, layer), to->width, row);
                 continue;
             }
             span y = span_of(from->height, v);

@@ -174,6 +174,16 @@ static void pack_floats(int channels, const double (*rgba)[4], int count, float 
         }
 }
 
+/* The same of floats as they are. */
+static void copy_floats(const float *from, size_t count, float *to)
+{
+    const float most = 0x1p123f;
+    for (size_t i = 0; i < count; i++) {
+        float x = from[i] == from[i] ? from[i] : 0;
+        to[i] = x > -most ? (x < most ? x : most) : -most;
+    }
+}
+
 /* The number of floats of a texel; 0 for bytes. */
 static int floats_of(const lom_texture *texture)
 {
@@ -189,6 +199,10 @@ static void store_level(lom_texture *texture, int level, const uint8_t *pixels, 
             void *row = lom_texel(texture, level, 0, y, z);
             if (texture->storage == LOM_STORAGE_RGBA8) {
                 pack_bytes(lom_describe_format(texture->format)->channels, pixels, l->width, row);
+                continue;
+            }
+            if (texture->format == LOM_FORMAT_RGBA32F || texture->format == LOM_FORMAT_R32F) {
+                copy_floats((const float *)(const void *)pixels, (size_t)l->width * (size_t)floats_of(texture), row);
                 continue;
             }
             lom_decode_row(texture->format, pixels, (size_t)l->width, rgba);
