@@ -76,7 +76,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-light-grid bench-clouds bench-mathematics bench-sampling install clean
+.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -186,6 +186,14 @@ bench-particles: $(BUILD)/lom $(BUILD)/bench/particles
 $(BUILD)/bench/particles: bench/particles.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
+# Steps of shallow water (bench/results/shallow.md).
+bench-shallow: $(BUILD)/bench/shallow
+	BUILD='$(BUILD)' bench/shallow.sh
+
+$(BUILD)/bench/shallow: bench/shallow.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # Sweeps of a grid of light, towards suns all around (bench/results/light-grid.md).
 bench-light-grid: $(BUILD)/bench/light_grid

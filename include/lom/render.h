@@ -77,6 +77,7 @@ typedef struct lom_frame {
     lom_counters counters; /* work of this frame */
     lom_impostor_counters impostors;
     lom_spray_counters spray;
+    uint64_t shallow_steps;               /* of shallow water, run for this frame */
     lom_stage_time stage[LOM_MAX_STAGES]; /* in their order; name NULL behind the last */
 } lom_frame;
 

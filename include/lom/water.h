@@ -84,6 +84,35 @@ typedef struct lom_water_foam {
     double tile;        /* metres of one repetition of its pattern */
 } lom_water_foam;
 
+/* ---- [shallow]: the surface as a height field that flows over the terrain (lom/shallow.h) ---- */
+
+typedef struct lom_shallow_spring {
+    uint32_t given;
+    double position[2], radius; /* x and z, metres */
+    double rate;                /* m^3/s */
+} lom_shallow_spring;
+
+typedef struct lom_shallow_body {
+    uint32_t given;
+    const char *entity; /* that it goes with, or NULL */
+    double position[2], half[2], heading, draft;
+    double time, duration, every; /* of dipping in, seconds; duration 0: it is always in the water */
+    size_t followed;              /* number of the entity, plus one; 0: none */
+} lom_shallow_body;
+
+typedef struct lom_shallow_water {
+    uint32_t given;
+    double position[2], size[2]; /* of the region; the reader has put the water's here when the file gives none */
+    int cells;                   /* along the longer side */
+    double start; /* seconds: when it stands still at the level */
+    double step, friction, implicitness;
+    int edge; /* lom_shallow_edge */
+    lom_shallow_spring *springs;
+    size_t spring_count;
+    lom_shallow_body *bodies;
+    size_t body_count;
+} lom_shallow_water;
+
 /* The planar lake. Its nine steps can be switched one by one (spec: reflection, refraction, projection, flow, normals,
  * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */

@@ -176,6 +176,7 @@ static void print_stats(const struct run *run, const lom_frame *frame, int numbe
                   { "impostors_split", (uint64_t)frame->impostors.split },
                   { "impostors_skipped", (uint64_t)frame->impostors.skipped },
                   { "clouds_culled", (uint64_t)frame->impostors.culled },
+                  { "shallow_steps", frame->shallow_steps },
                   { "drops_moved", frame->spray.moved },
                   { "drops_drawn", frame->spray.drawn } };
     char ran[LOM_MAX_STEPS * 25] = "";

@@ -19,6 +19,7 @@ struct frame {
     lom_rect water;                 /* where a surface of water is seen, in frame pixels; width 0: nowhere */
     struct lom_waves_uniform waves; /* of water with waves, at this time */
     enum { WAVES_BOUNDED, WAVES_PLACED, WAVES_FILLED } sea; /* how much of a sea `waves` has: what was needed */
+    uint64_t shallow_run;                                   /* steps of shallow water before this frame */
     bool below;                                             /* the eye is under water with waves */
     lom_plan *plan;
     const lom_frame_desc *desc;

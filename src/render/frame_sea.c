@@ -435,6 +435,7 @@ bool lom_find_sea_stage(struct frame *f, lom_error *error)
     if (!find_waves(&sea, f, &why, error))
         return false;
     lom_report_trochoids(f, why);
+    lom_report_shallow(f, why);
     return why == NULL || lom_skip_water(f, why);
 }
 

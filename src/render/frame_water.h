@@ -33,6 +33,7 @@ bool lom_has_waves(const struct frame *f);
 bool lom_place_frame_waves(struct frame *f, lom_error *error);
 bool lom_fill_frame_waves(struct frame *f, lom_error *error);
 /* The plan's step of trochoids: how steep they are; or, with a reason, why no water is drawn. */
+void lom_report_shallow(struct frame *f, const char *why);
 void lom_report_trochoids(struct frame *f, const char *why);
 
 #endif

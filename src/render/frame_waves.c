@@ -62,13 +62,27 @@ void lom_report_trochoids(struct frame *f, const char *why)
                      report.steepness);
 }
 
+void lom_report_shallow(struct frame *f, const char *why)
+{
+    const struct lom_shallow_waves *waves = &f->renderer->shallow;
+    if (waves->first == NULL)
+        return;
+    if (f->sea == WAVES_BOUNDED)
+        lom_add_step(f, "shallow", false, "%s: no step of it is run", why);
+    else
+        lom_add_step(f, "shallow", true,
+                     "%lld steps from the beginning, %llu of them for this frame; %d of %d cells are wet",
+                     (long long)lom_view_shallow(waves->now).steps, (unsigned long long)(waves->run - f->shallow_run),
+                     waves->wet, waves->columns * waves->rows);
+}
+
 /* An eye that is above all that waves could be needs the sea where it is drawn, if it is. */
 bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
 {
     if (!lom_has_waves(f))
         return true;
     lom_bound_waves(f->renderer, &f->waves, f->time);
-    if (f->renderer->sea != NULL && !is_below(f))
+    if ((f->renderer->sea != NULL || f->renderer->shallow.first != NULL) && !is_below(f))
         return true;
     if (!lom_place_frame_waves(f, error))
         return false;

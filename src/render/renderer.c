@@ -69,6 +69,7 @@ void lom_free_renderer(lom_renderer *renderer)
         lom_release(renderer->paths[i]);
     lom_free_reference(renderer->reference);
     lom_free_sea(renderer->sea);
+    lom_free_shallow_waves(renderer);
     lom_free_polar_mesh(&renderer->polar);
     lom_free_scene_clouds(renderer);
     lom_free_spray(renderer);

@@ -11,6 +11,7 @@
 #include <lom/reference.h>
 #include <lom/sea.h>
 #include <lom/render.h>
+#include <lom/shallow.h>
 
 struct lom_cached_texture {
     const char *path; /* the scene's string, or one of the mesh's materials' */
@@ -85,6 +86,18 @@ struct lom_spray_memory {
     lom_texture *layer; /* a target */
 };
 
+/* Shallow water of the scene. */
+struct lom_shallow_waves {
+    lom_shallow *first, *now; /* before the first step; after the last one, or NULL. first NULL: there is none */
+    double corner[2], cell;   /* x and z of its corner, metres */
+    double lowest;            /* of its bed, metres from the level, or 0 */
+    int columns, rows;
+    float (*surface)[4], (*moments)[4]; /* of the last moment */
+    lom_texture *map[2];
+    int wet;      /* cells */
+    uint64_t run; /* steps, in all */
+};
+
 struct lom_renderer {
     lom_scene moment;       /* the scene at the time of the frame: its light moves */
     const lom_scene *scene; /* moment, for those who read it */
@@ -112,7 +125,8 @@ struct lom_renderer {
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
     lom_texture *photons, *caustics;
     lom_texture *flow; /* field of velocities, or NULL */
-    lom_sea *sea;      /* or NULL */
+    struct lom_shallow_waves shallow;
+    lom_sea *sea; /* or NULL */
     lom_texture *sea_fields[LOM_SURFACE_CASCADES][3];
     struct lom_polar_mesh polar; /* of displaced water */
 
@@ -141,6 +155,12 @@ bool lom_place_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double
 bool lom_fill_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
 /* Over a point where the places were made last, metres. */
 double lom_sea_height(const lom_renderer *renderer, double x, double z);
+/* shallow_waves.c: like the sea's: bounds at any time, then the surface at a time. */
+bool lom_load_shallow(lom_renderer *renderer, lom_error *error);
+void lom_free_shallow_waves(lom_renderer *renderer); /* its textures are the device's */
+void lom_bound_shallow(const lom_renderer *renderer, struct lom_waves_uniform *out);
+bool lom_place_shallow(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
+double lom_shallow_height(const lom_renderer *renderer, double x, double z);
 /* What water with waves needs; its waves at a time, of a sea the bounds or the places alone; and their height over a
  * point of the world, metres. */
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);

@@ -87,23 +87,25 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
     const lom_scene *scene = renderer->scene;
     if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP)
         return true;
-    return load_foam(renderer, error) && load_flow(renderer, error) && lom_load_sea(renderer, error);
+    return load_foam(renderer, error) && load_flow(renderer, error) && lom_load_shallow(renderer, error) &&
+           lom_load_sea(renderer, error);
 }
 
 void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time)
 {
     lom_fill_trochoids(out, &renderer->scene->water, time);
     fill_flow(renderer, &out->flow, time);
+    lom_bound_shallow(renderer, out);
     lom_bound_sea(renderer, out);
 }
 
 bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
 {
     lom_fill_trochoids(out, &renderer->scene->water, time);
-    return lom_place_sea(renderer, out, time, error);
+    return lom_place_shallow(renderer, out, time, error) && lom_place_sea(renderer, out, time, error);
 }
 
 double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z)
 {
-    return lom_trochoid_height(waves, x, z) + lom_sea_height(renderer, x, z);
+    return lom_shallow_height(renderer, x, z) + lom_trochoid_height(waves, x, z) + lom_sea_height(renderer, x, z);
 }

@@ -4,6 +4,8 @@
 #include "reader.h"
 #include "water/sea_desc.h"
 
+#include <lom/shallow.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -294,13 +296,59 @@ static bool check_entity_keys(lom_reader *reader, const lom_toml_value *root, co
     return true;
 }
 
+/* The number of the entity of this name, plus one; 0 when there is none. */
+static size_t find_entity(const lom_scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->entity_count; i++)
+        if (scene->entities[i].name != NULL && strcmp(scene->entities[i].name, name) == 0)
+            return i + 1;
+    return 0;
+}
+
+static bool check_bodies(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->shallow.body_count; i++) {
+        lom_shallow_body *body = &scene->shallow.bodies[i];
+        const lom_toml_value *place = element(child(root, "shallow"), "body", i);
+        if (body->entity == NULL && child(place, "position") == NULL)
+            return fail_at(reader, root, place, "entity", "a body needs a position or an entity.");
+        body->followed = body->entity == NULL ? 0 : find_entity(scene, body->entity);
+        if (body->entity != NULL && body->followed == 0)
+            return fail_at(reader, root, place, "entity", "no entity has this name.");
+        if (body->every > 0 && !(body->duration > 0 && body->duration <= body->every))
+            return fail_at(reader, root, place, "every", "it dips in again after its duration, which is above 0.");
+    }
+    return true;
+}
+
+static bool check_shallow(lom_reader *reader, const lom_toml_value *root)
+{
+    lom_scene *scene = reader->scene;
+    lom_shallow_water *shallow = &scene->shallow;
+    const lom_toml_value *table = child(root, "shallow");
+    if (shallow->given == 0)
+        return true;
+    if (scene->water.given == 0)
+        return fail_at(reader, root, table, "", "shallow water is the surface of [water], which there is not.");
+    if (scene->quality.water == LOM_WATER_REFERENCE)
+        return fail_at(reader, root, table, "", "the reference has no shallow water.");
+    if (child(table, "position") == NULL)
+        memcpy(shallow->position, scene->water.position, sizeof shallow->position);
+    if (child(table, "size") == NULL)
+        memcpy(shallow->size, scene->water.size, sizeof shallow->size);
+    if (shallow->spring_count > LOM_SHALLOW_SOURCES)
+        return fail_at(reader, root, table, "spring", "there are at most 64 springs.");
+    if (shallow->body_count > LOM_SHALLOW_OBSTACLES)
+        return fail_at(reader, root, table, "body", "there are at most 64 bodies.");
+    return check_bodies(reader, root);
+}
+
 static bool check_follow(lom_reader *reader, const lom_toml_value *root)
 {
     lom_scene *scene = reader->scene;
     lom_camera *camera = &scene->camera;
-    for (size_t i = 0; camera->follow != NULL && i < scene->entity_count; i++)
-        if (scene->entities[i].name != NULL && strcmp(scene->entities[i].name, camera->follow) == 0)
-            camera->followed = i + 1;
+    camera->followed = camera->follow == NULL ? 0 : find_entity(scene, camera->follow);
     if (camera->follow != NULL && camera->followed == 0)
         return fail_at(reader, root, child(root, "camera"), "follow", "no entity has this name.");
     return true;
@@ -408,9 +456,9 @@ static bool check_sprays(lom_reader *reader, const lom_toml_value *root)
 
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
-    static bool (*const checks[])(lom_reader *, const lom_toml_value *) = { check_camera,  check_light, check_sky,
-                                                                            check_terrain, check_water, check_entities,
-                                                                            check_clouds,  check_sprays };
+    static bool (*const checks[])(lom_reader *, const lom_toml_value *) = { check_camera,  check_light,  check_sky,
+                                                                            check_terrain, check_water,  check_entities,
+                                                                            check_shallow, check_clouds, check_sprays };
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         if (!checks[i](reader, root))
             return false;

@@ -41,8 +41,15 @@ struct lom_flow_uniform {
     float drift[2], weight[2], jump[2][2]; /* metres at speed 1; shares; offsets in repetitions */
 };
 
+/* A region whose surface is computed (water/shallow_surface.h): a texel a cell. */
+struct lom_shallow_uniform {
+    const lom_texture *surface, *moments; /* NULL: there is none */
+    float corner[2], scale[2];            /* s = (x - corner[0]) scale[0] */
+};
+
 struct lom_waves_uniform {
     struct lom_flow_uniform flow;
+    struct lom_shallow_uniform shallow;
     int trochoid_count, cascade_count;
     struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
     struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
@@ -98,6 +105,21 @@ LOM_INLINE lom_float lom_phase_change(const struct lom_trochoid_uniform *t, cons
     return lom_max(lom_abs(t->kx * f->ax + t->kz * f->az), lom_abs(t->kx * f->bx + t->kz * f->bz));
 }
 
+/* What is looked up of the region: 0 outside. */
+struct lom_shallow_place {
+    lom_float s, t, lod;
+    lom_mask inside;
+};
+
+LOM_INLINE struct lom_shallow_place lom_shallow_place_of(const struct lom_shallow_uniform *u, lom_float x, lom_float z,
+                                                         const struct lom_footprint *f)
+{
+    struct lom_shallow_place p = { (x - u->corner[0]) * u->scale[0], (z - u->corner[1]) * u->scale[1], { 0 }, { 0 } };
+    p.inside = (p.s >= 0.0f) & (p.s <= 1.0f) & (p.t >= 0.0f) & (p.t <= 1.0f);
+    p.lod = lom_lod_of(u->surface, f->ax * u->scale[0], f->az * u->scale[1], f->bx * u->scale[0], f->bz * u->scale[1]);
+    return p;
+}
+
 LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                                               const struct lom_footprint *f)
 {
@@ -111,6 +133,11 @@ LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *wa
         p.h = p.h + t->amplitude * (lom_cos(angle) * weight);
         p.dx = p.dx - t->across_x * s;
         p.dz = p.dz - t->across_z * s;
+    }
+    if (waves->shallow.surface != NULL) {
+        struct lom_shallow_place at = lom_shallow_place_of(&waves->shallow, x, z, f);
+        lom_float height = lom_sample(waves->shallow.surface, at.s, at.t, at.lod).x;
+        p.h = p.h + lom_select(at.inside, height, (lom_float){ 0 });
     }
     for (int i = 0; i < waves->cascade_count; i++) {
         const struct lom_cascade_uniform *c = &waves->cascade[i];
@@ -187,6 +214,20 @@ LOM_INLINE void lom_add_cascade_slopes(const struct lom_cascade_uniform *c, lom_
     w->foam = w->foam + m.w;
 }
 
+LOM_INLINE void lom_add_shallow_slopes(const struct lom_shallow_uniform *u, lom_float x, lom_float z,
+                                       const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    struct lom_shallow_place at = lom_shallow_place_of(u, x, z, f);
+    lom_float zero = { 0 };
+    lom_float4 d = lom_sample(u->surface, at.s, at.t, at.lod), m = lom_sample(u->moments, at.s, at.t, at.lod);
+    w->sx = w->sx + lom_select(at.inside, d.y, zero);
+    w->sz = w->sz + lom_select(at.inside, d.z, zero);
+    w->vxx = w->vxx + lom_select(at.inside, lom_max(m.x - d.y * d.y, zero), zero);
+    w->vzz = w->vzz + lom_select(at.inside, lom_max(m.y - d.z * d.z, zero), zero);
+    w->vxz = w->vxz + lom_select(at.inside, m.z - d.y * d.z, zero);
+    w->foam = w->foam + lom_select(at.inside, d.w, zero);
+}
+
 /* Two waves of independent phase: their variances add up as w0^2 + w1^2, which is divided out, so that the ripples
  * never pulse. What the map's levels average away shortens the normals: (1 - l) / l is its variance (Toksvig 2005). */
 LOM_INLINE void lom_add_flow_slopes(const struct lom_flow_uniform *flow, lom_float x, lom_float z,
@@ -225,6 +266,8 @@ LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform
         w.foam = lom_trochoid_foam(waves, x, z, f);
     for (int i = 0; i < waves->cascade_count; i++)
         lom_add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
+    if (waves->shallow.surface != NULL)
+        lom_add_shallow_slopes(&waves->shallow, x, z, f, &w);
     if (waves->flow.field != NULL)
         lom_add_flow_slopes(&waves->flow, x, z, f, &w);
     return w;

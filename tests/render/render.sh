@@ -3,6 +3,10 @@
 lom=${BUILD:-build}/lom
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
+pool_heights() { # a bowl with bumps, as a height map
+    awk 'BEGIN { print "P2 33 33 255"; for (j = 0; j < 33; j++) for (i = 0; i < 33; i++)
+        print int(255 * ((i - 16) ^ 2 + (j - 16) ^ 2 + 40 * (i * j % 5)) / 700) }' >"$folder/height.pgm"
+}
 verdict() { # name, why (empty: passed)
     if [ -z "$2" ]; then echo "PASS $1"; else echo "FAIL $1: $2; repeat: $0"; fi
 }

@@ -4,8 +4,7 @@
 # changes no byte; and no pass runs that the picture cannot show. The models differ, from each other and from below.
 . "$(dirname "$0")/render.sh"
 scene=$folder/pool.toml
-awk 'BEGIN { print "P2 33 33 255"; for (j = 0; j < 33; j++) for (i = 0; i < 33; i++)
-    print int(255 * ((i - 16) ^ 2 + (j - 16) ^ 2 + 40 * (i * j % 5)) / 700) }' >"$folder/height.pgm"
+pool_heights
 cat >"$scene" <<END
 [camera]
 position = [-3, 0.9, 14]
