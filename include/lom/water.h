@@ -104,7 +104,7 @@ typedef struct lom_shallow_water {
     uint32_t given;
     double position[2], size[2]; /* of the region; the reader has put the water's here when the file gives none */
     int cells;                   /* along the longer side */
-    double start; /* seconds: when it stands still at the level */
+    double start;                /* seconds: when it stands still at the level */
     double step, friction, implicitness;
     int edge; /* lom_shallow_edge */
     lom_shallow_spring *springs;
