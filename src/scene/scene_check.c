@@ -251,6 +251,8 @@ static bool check_waves(lom_reader *reader, const lom_toml_value *root, const lo
         return fail_at(reader, root, table, "length", "the longest wave comes first, then the shortest.");
     if (waves->kind != LOM_WAVES_SEA)
         return true;
+    if (reader->scene->quality.water == LOM_WATER_REFERENCE || reader->scene->quality.clouds == LOM_CLOUDS_REFERENCE)
+        return fail_at(reader, root, table, "kind", "the reference has no sea: it traces still water and trochoids.");
     lom_error error = { 0 };
     lom_sea_desc desc = lom_scene_sea(waves), resolved;
     if (waves->wind_level != NULL && lom_find_wind_level(waves->wind_level, &error) == NULL)
@@ -331,7 +333,7 @@ static bool check_shallow(lom_reader *reader, const lom_toml_value *root)
         return true;
     if (scene->water.given == 0)
         return fail_at(reader, root, table, "", "shallow water is the surface of [water], which there is not.");
-    if (scene->quality.water == LOM_WATER_REFERENCE)
+    if (scene->quality.water == LOM_WATER_REFERENCE || scene->quality.clouds == LOM_CLOUDS_REFERENCE)
         return fail_at(reader, root, table, "", "the reference has no shallow water.");
     if (child(table, "position") == NULL)
         memcpy(shallow->position, scene->water.position, sizeof shallow->position);
