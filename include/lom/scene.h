@@ -239,6 +239,7 @@ typedef struct lom_scene {
     lom_terrain terrain; /* there is none when given is 0 */
     lom_sky_params sky;
     lom_water_params water;    /* drawn when given is not 0 and enabled is set */
+    lom_water_surf surf;       /* when its height is not 0 waves come in to the terrain */
     lom_shallow_water shallow; /* when given is not 0 the water flows */
     lom_clouds clouds;
     lom_quality quality;

@@ -113,6 +113,15 @@ typedef struct lom_shallow_water {
     size_t body_count;
 } lom_shallow_water;
 
+/* Waves that come in to a shore: one period, whose crests turn and rise over the bed and break. */
+typedef struct lom_water_surf {
+    uint32_t given;
+    double height;    /* metres where they reach the terrain; 0: there are none */
+    double period;    /* seconds */
+    double direction; /* radians, as of lom_water_waves */
+    double variation; /* of the heights, in groups of crests and along them: 0 none .. 0.9 */
+} lom_water_surf;
+
 /* The planar lake. Its nine steps can be switched one by one (spec: reflection, refraction, projection, flow, normals,
  * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */

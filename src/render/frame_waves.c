@@ -18,7 +18,7 @@ static bool is_below(const struct frame *f)
     if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
         return false;
     if (f->scene->quality.water != LOM_WATER_NORMAL_MAP)
-        level += f->sea != WAVES_BOUNDED ? lom_wave_height(f->renderer, &f->waves, eye->x, eye->z)
+        level += f->sea != WAVES_BOUNDED ? lom_wave_height(f->renderer, &f->waves, eye->x, eye->z, f->time)
                                          : (double)f->waves.highest;
     return eye->y < level;
 }
@@ -76,11 +76,24 @@ void lom_report_shallow(struct frame *f, const char *why)
                      waves->wet, waves->columns * waves->rows);
 }
 
+static void report_surf(struct frame *f)
+{
+    const struct lom_surf_map *map = &f->renderer->surf;
+    const lom_water_surf *surf = &f->scene->surf;
+    if (map->cells != NULL && map->breaking_depth > 0)
+        lom_add_step(f, "surf", true, "waves of %g m and %g s rise to %.2f m and break from %.2f m of water on",
+                     surf->height, surf->period, map->highest, map->breaking_depth);
+    else if (map->cells != NULL)
+        lom_add_step(f, "surf", true, "waves of %g m and %g s rise to %.2f m; none breaks", surf->height, surf->period,
+                     map->highest);
+}
+
 /* An eye that is above all that waves could be needs the sea where it is drawn, if it is. */
 bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
 {
     if (!lom_has_waves(f))
         return true;
+    report_surf(f);
     lom_bound_waves(f->renderer, &f->waves, f->time);
     if ((f->renderer->sea != NULL || f->renderer->shallow.first != NULL) && !is_below(f))
         return true;

@@ -73,6 +73,7 @@ void lom_free_renderer(lom_renderer *renderer)
     lom_free_polar_mesh(&renderer->polar);
     lom_free_scene_clouds(renderer);
     lom_free_spray(renderer);
+    lom_free_surf_map(&renderer->surf);
     lom_free_ground(&renderer->ground);
     lom_release(renderer->entities);
     lom_release(renderer->paths);

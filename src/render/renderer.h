@@ -6,6 +6,7 @@
 #include "render/ground.h"
 #include "render/surface.h"
 #include "water/spray.h"
+#include "water/surf.h"
 #include "water/surface.h"
 
 #include <lom/reference.h>
@@ -124,6 +125,8 @@ struct lom_renderer {
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
     lom_texture *photons, *caustics;
+    struct lom_surf_map surf; /* cells NULL: none */
+    lom_texture *surf_maps[2];
     lom_texture *flow; /* field of velocities, or NULL */
     struct lom_shallow_waves shallow;
     lom_sea *sea; /* or NULL */
@@ -161,12 +164,16 @@ void lom_free_shallow_waves(lom_renderer *renderer); /* its textures are the dev
 void lom_bound_shallow(const lom_renderer *renderer, struct lom_waves_uniform *out);
 bool lom_place_shallow(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
 double lom_shallow_height(const lom_renderer *renderer, double x, double z);
+/* surf_waves.c: maps of waves that come in to the shore; those waves at a time, added to the others. */
+bool lom_load_surf(lom_renderer *renderer, lom_error *error);
+void lom_add_surf(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
 /* What water with waves needs; its waves at a time, of a sea the bounds or the places alone; and their height over a
  * point of the world, metres. */
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
 void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
 bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
-double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
+double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z,
+                       double time);
 /* frame_spray.c: room for the drops of the scene. */
 bool lom_load_spray(lom_renderer *renderer, lom_error *error);
 void lom_free_spray(lom_renderer *renderer);

@@ -88,7 +88,7 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
     if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP)
         return true;
     return load_foam(renderer, error) && load_flow(renderer, error) && lom_load_shallow(renderer, error) &&
-           lom_load_sea(renderer, error);
+           lom_load_surf(renderer, error) && lom_load_sea(renderer, error);
 }
 
 void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time)
@@ -96,16 +96,22 @@ void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out
     lom_fill_trochoids(out, &renderer->scene->water, time);
     fill_flow(renderer, &out->flow, time);
     lom_bound_shallow(renderer, out);
+    lom_add_surf(renderer, out, time);
     lom_bound_sea(renderer, out);
 }
 
 bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
 {
     lom_fill_trochoids(out, &renderer->scene->water, time);
+    lom_add_surf(renderer, out, time);
     return lom_place_shallow(renderer, out, time, error) && lom_place_sea(renderer, out, time, error);
 }
 
-double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z)
+double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z,
+                       double time)
 {
-    return lom_shallow_height(renderer, x, z) + lom_trochoid_height(waves, x, z) + lom_sea_height(renderer, x, z);
+    double surf =
+        renderer->surf.cells == NULL ? 0 : lom_surf_height(&renderer->surf, &renderer->scene->surf, x, z, time);
+    return surf + lom_shallow_height(renderer, x, z) + lom_trochoid_height(waves, x, z) +
+           lom_sea_height(renderer, x, z);
 }

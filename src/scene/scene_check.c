@@ -249,9 +249,15 @@ static bool check_waves(lom_reader *reader, const lom_toml_value *root, const lo
     const lom_water_waves *waves = &reader->scene->water.waves;
     if (waves->length[0] < waves->length[1])
         return fail_at(reader, root, table, "length", "the longest wave comes first, then the shortest.");
+    if (reader->scene->surf.height > 0 && reader->scene->terrain.given == 0)
+        return fail_at(reader, root, child(root, "surf"), "height", "waves come in to a shore: there is no terrain.");
+    bool traced =
+        reader->scene->quality.water == LOM_WATER_REFERENCE || reader->scene->quality.clouds == LOM_CLOUDS_REFERENCE;
+    if (traced && reader->scene->surf.height > 0)
+        return fail_at(reader, root, child(root, "surf"), "height", "the reference has no surf.");
     if (waves->kind != LOM_WAVES_SEA)
         return true;
-    if (reader->scene->quality.water == LOM_WATER_REFERENCE || reader->scene->quality.clouds == LOM_CLOUDS_REFERENCE)
+    if (traced)
         return fail_at(reader, root, table, "kind", "the reference has no sea: it traces still water and trochoids.");
     lom_error error = { 0 };
     lom_sea_desc desc = lom_scene_sea(waves), resolved;

@@ -367,6 +367,7 @@ static const lom_key root[] = {
     { "sky", LOM_KEY_TABLE, AT(lom_scene, sky), .table = &lom_sky_keys },
     { "terrain", LOM_KEY_TABLE, AT(lom_scene, terrain), .table = &terrain_table },
     { "water", LOM_KEY_TABLE, AT(lom_scene, water), .table = &lom_water_keys },
+    { "surf", LOM_KEY_TABLE, AT(lom_scene, surf), .table = &lom_water_surf_keys },
     { "shallow", LOM_KEY_TABLE, AT(lom_scene, shallow), .table = &lom_shallow_keys },
     { "entity", LOM_KEY_TABLES, AT(lom_scene, entities), .table = &entity_table,
       .length_offset = AT(lom_scene, entity_count), .text = "Meshes in the scene." },

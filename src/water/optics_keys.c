@@ -1,5 +1,5 @@
-/* The tables of the keys inside [water]: waves, optics, foam. In: nothing. Out: names, ranges, defaults and
- * documentation of the members of lom_water_waves, lom_water_optics and lom_water_foam. */
+/* The tables of the keys inside [water]: waves, surf, optics, foam. In: nothing. Out: names, ranges, defaults and
+ * documentation of the members of lom_water_waves, lom_water_surf, lom_water_optics and lom_water_foam. */
 #include "water_keys.h"
 
 #include <lom/water.h>
@@ -63,6 +63,24 @@ static const lom_key waves[] = {
 };
 const lom_key_table lom_water_waves_keys = { sizeof(lom_water_waves), waves, COUNT(waves),
                                              "The waves of every model but `tinted` and `planar`." };
+
+#undef AT
+#define AT(member) offsetof(lom_water_surf, member)
+static const lom_key surf[] = {
+    { "height", LOM_KEY_NUMBER, AT(height), .maximum = 30, .unit = "m",
+      .text = "Height from trough to crest where the waves reach the terrain; 0: there are none." },
+    { "period", LOM_KEY_NUMBER, AT(period), .minimum = 1, .maximum = 30, .initial = { 8 }, .unit = "s",
+      .text = "From crest to crest." },
+    { "direction", LOM_KEY_ANGLE, AT(direction), .minimum = -360, .maximum = 360, .unit = "degrees",
+      .text = "Where they travel to, far from the shore: 0 is +x, 90 is +z." },
+    { "variation", LOM_KEY_NUMBER, AT(variation), .maximum = 0.9, .initial = { 0.3 },
+      .text = "How much higher and lower than the mean crests are, in groups and along each of them." },
+};
+const lom_key_table lom_water_surf_keys = {
+    sizeof(lom_water_surf), surf, COUNT(surf),
+    "Waves of `[water]` that come in from the open water to the terrain's shore, over the "
+    "other waves: they rise, turn and break over the bed."
+};
 
 #undef AT
 #define AT(member) offsetof(lom_water_optics, member)

@@ -7,6 +7,8 @@
 extern const lom_key_table lom_water_keys;
 /* The tables inside it. */
 extern const lom_key_table lom_water_waves_keys, lom_water_optics_keys, lom_water_foam_keys;
+/* [surf]: lom_water_surf. */
+extern const lom_key_table lom_water_surf_keys;
 /* [shallow]: lom_shallow_water. */
 extern const lom_key_table lom_shallow_keys;
 /* [[spray]]: lom_spray of lom/particles.h. */

@@ -47,9 +47,20 @@ struct lom_shallow_uniform {
     float corner[2], scale[2];            /* s = (x - corner[0]) scale[0] */
 };
 
+/* Waves that come to a shore (water/surf.h), by maps over it. */
+struct lom_surf_uniform {
+    const lom_texture *waves;  /* phase, kx, kz, amplitude; NULL: there are none */
+    const lom_texture *shapes; /* r cos f, r sin f, how much the wave breaks */
+    float corner[2], last[2];  /* x and z of the first and of the last cell */
+    float scale[2], half[2];   /* a place is at (x - corner) scale + half */
+    float time, rate;          /* w t in radians, less whole turns; w in rad/s */
+    float variation, group_time[2], group_rate[2], group_share[2], group_along[2][2];
+};
+
 struct lom_waves_uniform {
     struct lom_flow_uniform flow;
     struct lom_shallow_uniform shallow;
+    struct lom_surf_uniform surf;
     int trochoid_count, cascade_count;
     struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
     struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
@@ -120,6 +131,54 @@ LOM_INLINE struct lom_shallow_place lom_shallow_place_of(const struct lom_shallo
     return p;
 }
 
+/* A wave of surf at a place: its amplitude times its size in its group, the angle w t - theta, and what follows of the
+ * angle: its height in amplitudes and the derivative of that. */
+struct lom_surf_wave {
+    lom_float amplitude, kx, kz, angle, lean_angle, breaking;
+    lom_float height, change;
+};
+
+/* eta = a s (sin t + r sin f / (1 + s)) / (1 - r cos(t + f)), s = sqrt(1 - r^2) (Abreu, Silva, Sancho, Temperville
+ * 2010, equation 7): a sine, peaked crests or a steep front. Beyond the maps the phase goes on straight. */
+LOM_INLINE struct lom_surf_wave lom_find_surf(const struct lom_surf_uniform *u, lom_float x, lom_float z)
+{
+    lom_float s = (x - u->corner[0]) * u->scale[0] + u->half[0], t = (z - u->corner[1]) * u->scale[1] + u->half[1];
+    lom_float4 wave = lom_sample(u->waves, s, t, (lom_float){ 0 }),
+               shape = lom_sample(u->shapes, s, t, (lom_float){ 0 });
+    lom_float outside_x = x - lom_clamp(x, lom_splat(u->corner[0]), lom_splat(u->last[0]));
+    lom_float outside_z = z - lom_clamp(z, lom_splat(u->corner[1]), lom_splat(u->last[1]));
+    lom_float theta = wave.x + wave.y * outside_x + wave.z * outside_z, size = lom_splat(1.0f);
+    for (int i = 0; i < 2; i++)
+        size = size + u->variation * u->group_share[i] *
+                          lom_sin(u->group_time[i] - theta * u->group_rate[i] + x * u->group_along[i][0] +
+                                  z * u->group_along[i][1]);
+    struct lom_surf_wave w = { .amplitude = wave.w * size, .kx = wave.y, .kz = wave.z, .angle = u->time - theta };
+    lom_float sine = lom_sin(w.angle), cosine = lom_cos(w.angle);
+    lom_float root = lom_sqrt(lom_max(1.0f - shape.x * shape.x - shape.y * shape.y, lom_splat(0.01f)));
+    lom_float above = sine + shape.y / (1.0f + root), below = 1.0f - shape.x * cosine + shape.y * sine;
+    w.height = root * above / below;
+    w.change = root * (cosine * below - above * (shape.x * sine + shape.y * cosine)) / (below * below);
+    w.breaking = shape.z;
+    w.lean_angle = w.angle + lom_atan2(shape.y, lom_max(shape.x, lom_splat(1e-6f)));
+    return w;
+}
+
+/* How much of it a footprint leaves. */
+LOM_INLINE lom_float lom_surf_weight(const struct lom_surf_wave *w, const struct lom_footprint *f)
+{
+    return lom_wave_weight(lom_max(lom_abs(w->kx * f->ax + w->kz * f->az), lom_abs(w->kx * f->bx + w->kz * f->bz)));
+}
+
+/* Foam of a breaking wave: it begins at the foot of the front, half a radian before the steepest place t = -f, and
+ * lies behind it until it has faded, whatever broke before: the same at every moment at which the angle is the same. */
+LOM_INLINE lom_float lom_surf_foam(const struct lom_surf_uniform *u, const struct lom_surf_wave *w, float window)
+{
+    lom_float turns = (w->lean_angle + 0.5f) * 0.15915494f, part = turns - lom_floor(turns);
+    lom_float behind = lom_exp(part * (-6.2831855f / (u->rate * window)));
+    lom_float ahead = lom_saturate(1.0f - (1.0f - part) * 20.0f);
+    return w->breaking * lom_max(behind, ahead);
+}
+
 LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                                               const struct lom_footprint *f)
 {
@@ -138,6 +197,10 @@ LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *wa
         struct lom_shallow_place at = lom_shallow_place_of(&waves->shallow, x, z, f);
         lom_float height = lom_sample(waves->shallow.surface, at.s, at.t, at.lod).x;
         p.h = p.h + lom_select(at.inside, height, (lom_float){ 0 });
+    }
+    if (waves->surf.waves != NULL) {
+        struct lom_surf_wave w = lom_find_surf(&waves->surf, x, z);
+        p.h = p.h + w.amplitude * w.height * lom_surf_weight(&w, f);
     }
     for (int i = 0; i < waves->cascade_count; i++) {
         const struct lom_cascade_uniform *c = &waves->cascade[i];
@@ -228,6 +291,20 @@ LOM_INLINE void lom_add_shallow_slopes(const struct lom_shallow_uniform *u, lom_
     w->foam = w->foam + lom_select(at.inside, d.w, zero);
 }
 
+LOM_INLINE void lom_add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                    const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    struct lom_surf_wave wave = lom_find_surf(&waves->surf, x, z);
+    lom_float weight = lom_surf_weight(&wave, f), slope = -(wave.amplitude * wave.change * weight);
+    lom_float lost = 0.5f * (1.0f - weight * weight) * wave.amplitude * wave.amplitude;
+    w->sx = w->sx + slope * wave.kx;
+    w->sz = w->sz + slope * wave.kz;
+    w->vxx = w->vxx + lost * wave.kx * wave.kx;
+    w->vzz = w->vzz + lost * wave.kz * wave.kz;
+    w->vxz = w->vxz + lost * wave.kx * wave.kz;
+    w->foam = w->foam + lom_surf_foam(&waves->surf, &wave, waves->foam_window);
+}
+
 /* Two waves of independent phase: their variances add up as w0^2 + w1^2, which is divided out, so that the ripples
  * never pulse. What the map's levels average away shortens the normals: (1 - l) / l is its variance (Toksvig 2005). */
 LOM_INLINE void lom_add_flow_slopes(const struct lom_flow_uniform *flow, lom_float x, lom_float z,
@@ -264,6 +341,8 @@ LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform
         lom_add_trochoid_slopes(&waves->trochoid[i], x, z, f, &w);
     if (waves->foam_threshold > 0)
         w.foam = lom_trochoid_foam(waves, x, z, f);
+    if (waves->surf.waves != NULL)
+        lom_add_surf_slopes(waves, x, z, f, &w);
     for (int i = 0; i < waves->cascade_count; i++)
         lom_add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
     if (waves->shallow.surface != NULL)

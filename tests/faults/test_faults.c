@@ -208,27 +208,32 @@ static int fail_each(task *run, const char *file, fault_kind kind, bool lasting,
     }
 }
 
-static void fail_memory(task *run, const char *file, int least)
+/* Both loops see the same allocations, but for `slack` of them. */
+static void fail_memory(task *run, const char *file, int least, int slack)
 {
     int once = fail_each(run, file, MEMORY, false, NULL), lasting = fail_each(run, file, MEMORY, true, NULL);
-    CHECK(once >= least && once == lasting, "%s: %d allocations, %d", file, once, lasting);
+    CHECK(once >= least && once - lasting <= slack && lasting - once <= slack, "%s: %d allocations, %d", file, once,
+          lasting);
 }
 
 static void every_failing_allocation_is_an_error(void)
 {
     static const char *const pictures[] = { "color.png", "gray.png", "p.ppm", "p.pgm", "p.pam", "p.pfm" };
     for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++)
-        fail_memory(read_picture, pictures[i], 3);
-    fail_memory(make_mip_levels, "color.png", 6);
-    fail_memory(read_mesh, "box.obj", 8);
-    fail_memory(read_scene, "scene.toml", 3);
-    fail_memory(write_picture, "out.png", 3);
-    fail_memory(write_picture, "out.ppm", 1);
+        fail_memory(read_picture, pictures[i], 3, 0);
+    fail_memory(make_mip_levels, "color.png", 6, 0);
+    fail_memory(read_mesh, "box.obj", 8, 0);
+    fail_memory(read_scene, "scene.toml", 3, 0);
+    fail_memory(write_picture, "out.png", 3, 0);
+    fail_memory(write_picture, "out.ppm", 1, 0);
 }
+
+/* A worker reserves its five arrays when it first gets a chunk; how many of the three do depends on the moment. */
+enum { WORKERS_ARRAYS = 3 * 5 };
 
 static void every_failing_allocation_of_a_frame_is_an_error(void)
 {
-    fail_memory(draw_scene, "scene.toml", 100);
+    fail_memory(draw_scene, "scene.toml", 100, WORKERS_ARRAYS);
 }
 
 static void every_fault_of_reading_is_an_error(void)
