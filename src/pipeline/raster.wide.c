@@ -68,11 +68,21 @@ static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *
     return inside;
 }
 
-LOM_INLINE lom_float interpolate_depth(const lom_triangle *t, const lom_float l[3])
+/* The depth of a triangle: at vertex 0, its differences at the other two, and its range. */
+struct depth_plane {
+    float at, by1, by2, low, high;
+};
+
+LOM_INLINE struct depth_plane find_depth(const lom_triangle *t)
 {
-    lom_float z0 = lom_splat(t->depth[0]), z1 = z0 + t->depth[1], z2 = z0 + t->depth[2];
-    lom_float low = lom_min(lom_min(z0, z1), z2), high = lom_max(lom_max(z0, z1), z2);
-    return lom_clamp(z0 + l[1] * t->depth[1] + l[2] * t->depth[2], low, high);
+    float z0 = t->depth[0], z1 = z0 + t->depth[1], z2 = z0 + t->depth[2];
+    float low = z0 < z1 ? z0 : z1, high = z0 > z1 ? z0 : z1;
+    return (struct depth_plane){ z0, t->depth[1], t->depth[2], low < z2 ? low : z2, high > z2 ? high : z2 };
+}
+
+LOM_INLINE lom_float interpolate_depth(const struct depth_plane *p, const lom_float l[3])
+{
+    return lom_clamp(p->at + l[1] * p->by1 + l[2] * p->by2, lom_splat(p->low), lom_splat(p->high));
 }
 
 /* The depth with the draw's bias, rounded once to what the attachment holds. Not inlined: few draws have one. */
@@ -104,6 +114,7 @@ struct part {
     const lom_triangle *triangle;
     int32_t number;
     int base, part;
+    struct depth_plane depth;
 };
 
 /* One part of a window: clip distances, early depth, and on to the fragment stage. */
@@ -115,7 +126,7 @@ LOM_INLINE void emit(struct lom_tile *tile, struct part at, lom_mask covered, co
     if (t->state >> TRIANGLE_CLIP != 0)
         covered &= test_distances(tile, t, l);
     if (tile->depth != NULL || draw->queues_depth)
-        z = interpolate_depth(t, l);
+        z = interpolate_depth(&at.depth, l);
     if (draw->biased) {
         lom_float moved = z;
         offset_depth(tile, t, &moved);
@@ -151,7 +162,7 @@ static lom_mask inside_bounds(const struct lom_tile *tile, const struct lom_boun
 static void raster_window(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
     int left = (int)(t->first & 0xfffe) - tile->x, top = (int)(t->first >> 16 & 0xfffe) - tile->y;
-    struct part at = { t, number, memory_index(tile, left, top), 0 };
+    struct part at = { t, number, memory_index(tile, left, top), 0, find_depth(t) };
     for (; at.part < PARTS; at.part++) {
         uint32_t bits = (t->state & 0xffff) >> at.part * LOM_LANES & ((1u << LOM_LANES) - 1);
         if (bits == 0)
@@ -219,7 +230,7 @@ static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t n
     struct small_edge e[3];
     bool cut = t->state >> TRIANGLE_CUT & 1;
     find_small_edges(tile, t, &b, e);
-    struct part at = { t, number, 0, 0 };
+    struct part at = { t, number, 0, 0, find_depth(t) };
     for (; at.part < PARTS; at.part++) {
         lom_int lanes[3];
         for (int i = 0; i < 3; i++)
@@ -298,6 +309,7 @@ static edge_class reduce_edge(const struct edges *e, int i, int edge, struct til
 struct large {
     const lom_triangle *triangle;
     struct lom_bounds bounds;
+    struct depth_plane depth;
     struct edges edges;
     struct tile_edge k[3];
     lom_double offset[2][PARTS]; /* edge functions 1 and 2 of a window's pixels less that of its first, exact */
@@ -350,7 +362,7 @@ LOM_INLINE lom_mask cover_large(const struct tile_edge k[3], int x, int y, int p
 static void raster_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y, bool full)
 {
     const struct edges *e = &g->edges;
-    struct part at = { g->triangle, number, memory_index(tile, x, y), 0 };
+    struct part at = { g->triangle, number, memory_index(tile, x, y), 0, g->depth };
     double start1 = (double)(e->start[1] + e->dx[1] * x + e->dy[1] * y);
     double start2 = (double)(e->start[2] + e->dx[2] * x + e->dy[2] * y), area = (double)e->area;
     for (; at.part < PARTS; at.part++) {
@@ -379,6 +391,7 @@ static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struc
     const struct lom_draw *draw = tile->draw;
     g->triangle = t;
     g->bounds = lom_bounds_of(t);
+    g->depth = find_depth(t);
     g->cut = t->state >> TRIANGLE_CUT & 1;
     g->edges = find_edges(tile, t);
     for (int i = 0; i < 3; i++)
