@@ -81,7 +81,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds bench-mathematics bench-sampling install clean
+.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds bench-impostors bench-mathematics bench-sampling install clean
 .DELETE_ON_ERROR:
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
@@ -211,6 +211,10 @@ $(BUILD)/bench/light_grid: bench/light_grid.c $(BUILD)/liblom.a
 # The experiments on clouds (bench/results/clouds-*.csv, docs/cloud-experiments.md).
 bench-clouds: $(BUILD)/lom $(BUILD)/bench/next_power.w4
 	BUILD='$(BUILD)' bench/clouds.sh
+
+# Milliseconds of every stage of a flight past 30 clouds on impostors (bench/results/impostors.md).
+bench-impostors: $(BUILD)/lom
+	BUILD='$(BUILD)' bench/impostors.sh
 
 # Nanoseconds a value of the lane mathematics (bench/results/lane-mathematics.md).
 bench-mathematics: $(foreach v,4 8 16,$(BUILD)/bench/lane_mathematics.w$(v))

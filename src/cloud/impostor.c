@@ -47,7 +47,57 @@ bool lom_find_window(const lom_vec3 corner[8], lom_vec3 eye, const lom_vec3 axes
             plate->high[a] = tangent > plate->high[a] ? tangent : plate->high[a];
         }
     }
+    for (int a = 0; a < 2; a++) {
+        plate->whole_low[a] = plate->low[a];
+        plate->whole_high[a] = plate->high[a];
+    }
     return true;
+}
+
+/* Of the polygon in[0..count) what lies where side.x x + side.y y + side.z >= 0 (Sutherland and Hodgman 1974). */
+static int cut_polygon(double (*in)[2], int count, lom_vec3 side, double (*out)[2])
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        const double *a = in[i], *b = in[(i + 1) % count];
+        double at = side.x * a[0] + side.y * a[1] + side.z, next = side.x * b[0] + side.y * b[1] + side.z;
+        if (at >= 0) {
+            out[kept][0] = a[0];
+            out[kept++][1] = a[1];
+        }
+        if ((at < 0) != (next < 0)) {
+            double part = at / (at - next);
+            out[kept][0] = a[0] + part * (b[0] - a[0]);
+            out[kept++][1] = a[1] + part * (b[1] - a[1]);
+        }
+    }
+    return kept;
+}
+
+bool lom_find_visible(const struct lom_plate *plate, lom_vec3 eye, const struct lom_impostor_eye *view, double margin,
+                      double low[2], double high[2])
+{
+    const double *l = plate->whole_low, *h = plate->whole_high;
+    double polygon[2][8][2] = { { { l[0], l[1] }, { h[0], l[1] }, { h[0], h[1] }, { l[0], h[1] } } };
+    int count = 4;
+    lom_vec3 moved = lom_vec3_subtract(plate->eye, eye);
+    for (int s = 0; s < 4; s++) { /* the plane through the eye and a side of the picture: normal . (point - eye) >= 0 */
+        lom_vec3 across = s & 1 ? view->up : view->right;
+        lom_vec3 normal = lom_vec3_add(lom_vec3_scale(across, s & 2 ? -1 : 1),
+                                       lom_vec3_scale(view->forward, view->tangent[s & 1] * (1 + margin)));
+        lom_vec3 side = { lom_vec3_dot(normal, plate->right), lom_vec3_dot(normal, plate->up),
+                          lom_vec3_dot(normal, plate->forward) + lom_vec3_dot(normal, moved) / plate->distance };
+        count = cut_polygon(polygon[s & 1], count, side, polygon[~s & 1]);
+    }
+    for (int a = 0; a < 2; a++) {
+        low[a] = 1e300;
+        high[a] = -1e300;
+        for (int i = 0; i < count; i++) {
+            low[a] = polygon[0][i][a] < low[a] ? polygon[0][i][a] : low[a];
+            high[a] = polygon[0][i][a] > high[a] ? polygon[0][i][a] : high[a];
+        }
+    }
+    return count != 0;
 }
 
 bool lom_make_reference_plate(const lom_vec3 corner[8], lom_vec3 eye, const struct lom_impostor_eye *view, int largest,
@@ -65,8 +115,10 @@ bool lom_make_reference_plate(const lom_vec3 corner[8], lom_vec3 eye, const stru
     return true;
 }
 
+static const double view_margin = 0.15;
+
 bool lom_make_facing_plate(const lom_vec3 corner[8], lom_vec3 eye, const struct lom_impostor_eye *view, double scale,
-                           int largest, struct lom_plate *plate)
+                           double finest, int largest, struct lom_plate *plate)
 {
     lom_mat4 look = lom_look_at(eye, (lom_vec3){ 0, 0, 0 }, (lom_vec3){ 0, 1, 0 });
     const lom_vec3 axes[3] = { { look.m[0][0], look.m[0][1], look.m[0][2] },
@@ -76,10 +128,16 @@ bool lom_make_facing_plate(const lom_vec3 corner[8], lom_vec3 eye, const struct 
         return false;
     plate->distance = lom_vec3_length(eye);
     double width = plate->high[0] - plate->low[0], height = plate->high[1] - plate->low[1];
+    plate->extent = (width > height ? width : height) / view->pixel;
+    if (!lom_find_visible(plate, eye, view, view_margin, plate->low, plate->high))
+        for (int a = 0; a < 2; a++)
+            plate->low[a] = plate->high[a] = (plate->whole_low[a] + plate->whole_high[a]) / 2;
+    width = plate->high[0] - plate->low[0];
+    height = plate->high[1] - plate->low[1];
     double texel = view->pixel / scale, longest = width > height ? width : height;
+    texel = texel > finest / plate->distance ? texel : finest / plate->distance;
     if (longest / texel > largest - 2)
         texel = longest / (largest - 2);
-    plate->extent = longest / view->pixel;
     plate->pitch = texel / view->pixel;
     for (int a = 0; a < 2; a++) {
         double extent = plate->high[a] - plate->low[a], middle = (plate->high[a] + plate->low[a]) / 2;
@@ -153,6 +211,11 @@ enum lom_refresh lom_bounded_refresh(const struct lom_plate *plate, const lom_ve
     double pitch = lom_plate_pitch(plate, eye, view);
     if (pitch - plate->pitch > bound || pitch < plate->pitch / 2)
         return LOM_REFRESH_SIZE;
+    double low[2], high[2];
+    if (lom_find_visible(plate, eye, view, 0, low, high))
+        for (int a = 0; a < 2; a++)
+            if (low[a] < plate->low[a] || high[a] > plate->high[a])
+                return LOM_REFRESH_VIEW;
     return lom_parallax_error(plate, corner, eye, view) > bound ? LOM_REFRESH_VIEW : LOM_REFRESH_NONE;
 }
 

@@ -17,11 +17,12 @@ struct lom_impostor_eye {
 /* Where a plate is and what it was made from. */
 struct lom_plate {
     lom_vec3 eye, right, up, forward;
-    double low[2], high[2]; /* window: tangents along right and up */
-    double distance;        /* along forward, of the plane that shows it */
-    int width, height;      /* texels */
-    double extent;          /* pixels of the frame: the longer side of what the cloud's box covers */
-    double pitch;           /* pixels a texel covered when it was made, in the middle of its plane */
+    double whole_low[2], whole_high[2]; /* tangents along right and up between which the box was seen */
+    double low[2], high[2];             /* the window that the texels cover: what of that was in view, and a margin */
+    double distance;                    /* along forward, of the plane that shows it */
+    int width, height;                  /* texels */
+    double extent;                      /* pixels of the frame: the longer side of what the cloud's box covers */
+    double pitch;                       /* pixels a texel covered when it was made, in the middle of its plane */
 };
 
 /* The edge of a square plate by the reference work's rule: the next power of two of the smaller extent times 3 x 64 /
@@ -38,10 +39,15 @@ bool lom_find_window(const lom_vec3 corner[8], lom_vec3 eye, const lom_vec3 axes
  * near plane. */
 bool lom_make_reference_plate(const lom_vec3 corner[8], lom_vec3 eye, const struct lom_impostor_eye *view, int largest,
                               struct lom_plate *plate);
-/* Ours: facing the eye, through the middle, `scale` texels a pixel, at most `largest` along an edge, with a border of
- * one empty texel. */
+/* Ours: facing the eye, through the middle, of the part of the box that a picture wider and taller by 0.15 would show.
+ * `scale` texels a pixel, but none finer than `finest` metres at the middle, at most `largest` along an edge; a plate
+ * of the whole box has a border of one empty texel. */
 bool lom_make_facing_plate(const lom_vec3 corner[8], lom_vec3 eye, const struct lom_impostor_eye *view, double scale,
-                           int largest, struct lom_plate *plate);
+                           double finest, int largest, struct lom_plate *plate);
+/* The bounds of what a picture from eye, its tangents times (1 + margin), shows of the whole box on the plate's plane.
+ * False: nothing of it. */
+bool lom_find_visible(const struct lom_plate *plate, lom_vec3 eye, const struct lom_impostor_eye *view, double margin,
+                      double low[2], double high[2]);
 /* The whole picture, drawn anew each frame: what a cloud around the eye gets. */
 void lom_make_screen_plate(lom_vec3 eye, const struct lom_impostor_eye *view, double scale, int width, int height,
                            struct lom_plate *plate);
@@ -70,7 +76,8 @@ enum lom_refresh {
  * twice the cloud's longest side. */
 enum lom_refresh lom_reference_refresh(const struct lom_plate *plate, lom_vec3 eye, const struct lom_impostor_eye *view,
                                        double longest);
-/* Ours: the parallax above the bound, a texel that has grown by more than the bound or shrunk to less than half. */
+/* Ours: the parallax above the bound, a texel that has grown by more than the bound or shrunk to less than half, or a
+ * part of the box in view that the plate does not cover. */
 enum lom_refresh lom_bounded_refresh(const struct lom_plate *plate, const lom_vec3 corner[8], lom_vec3 eye,
                                      const struct lom_impostor_eye *view, double bound);
 

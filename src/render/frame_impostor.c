@@ -6,6 +6,8 @@
 
 static const double around_on = 0.25, around_off = 0.3; /* distance to the box in parts of its longest side */
 static const double small_on = 1, small_off = 1.25;     /* extent in pixels */
+static const double least_texel =
+    0.7; /* of a plate, in parts of the finest grain: more than two a period of anything */
 
 void lom_free_impostors(lom_renderer *renderer)
 {
@@ -118,7 +120,20 @@ static double distance_to_box(const struct lom_placed_cloud *cloud, lom_vec3 eye
     return lom_double_sqrt(sum);
 }
 
-static bool make_plate(const struct looking *l, const lom_vec3 corner[8], lom_vec3 eye, struct lom_plate *plate)
+/* Metres of the finest thing a cloud's density holds: a voxel of its volume, or of the noise that eats into it. */
+static double finest_grain(const struct looking *l, const struct lom_placed_cloud *cloud)
+{
+    const lom_medium *m = cloud->density->medium;
+    const double *size = cloud->cloud->size, noise = l->f->renderer->clouds->detail->size;
+    const double voxel[3] = { size[0] / m->width, size[1] / m->height, size[2] / m->depth };
+    double finest = cloud->detail > 0 ? cloud->cloud->detail_size / noise : voxel[0];
+    for (int i = 0; i < 3; i++)
+        finest = voxel[i] < finest ? voxel[i] : finest;
+    return finest;
+}
+
+static bool make_plate(const struct looking *l, const struct lom_placed_cloud *cloud, const lom_vec3 corner[8],
+                       lom_vec3 eye, struct lom_plate *plate)
 {
     const lom_impostor_dials *d = l->dials;
     if (l->is_reference) {
@@ -127,7 +142,8 @@ static bool make_plate(const struct looking *l, const lom_vec3 corner[8], lom_ve
             plate->width = plate->height = d->largest_reference;
         return done;
     }
-    return lom_make_facing_plate(corner, eye, &l->eye, d->lod ? d->scale : 1e9, d->largest, plate);
+    return lom_make_facing_plate(corner, eye, &l->eye, d->lod ? d->scale : 1e9,
+                                 d->lod ? least_texel * finest_grain(l, cloud) : 0, d->largest, plate);
 }
 
 /* Whether a plate is so small that the cloud is not drawn. */
@@ -244,7 +260,7 @@ static bool update(const struct looking *l, struct lom_impostor *impostor, const
     lom_vec3 corner[8], eye = lom_vec3_subtract(l->seen.eye, cloud->middle);
     struct lom_plate plate;
     lom_cloud_corners(cloud, corner);
-    bool was_around = impostor->is_around, fits = make_plate(l, corner, eye, &plate);
+    bool was_around = impostor->is_around, fits = make_plate(l, cloud, corner, eye, &plate);
     double away = distance_to_box(cloud, eye) / longest_side(cloud);
     impostor->is_around =
         !fits || away == 0 || (!l->is_reference && lom_switch(was_around, away, around_on, around_off));

@@ -37,7 +37,7 @@ static bool facing(lom_vec3 eye, struct lom_plate *plate)
     lom_vec3 corner[8];
     struct lom_impostor_eye view = look(eye, origin, upwards);
     set_corners(corner);
-    return lom_make_facing_plate(corner, eye, &view, 1, 1024, plate);
+    return lom_make_facing_plate(corner, eye, &view, 1, 0, 1024, plate);
 }
 
 static enum lom_refresh rule(const struct lom_plate *plate, lom_vec3 eye, double bound)
@@ -100,6 +100,99 @@ static void test_plate_covers_the_box_with_a_border(void)
                       y <= p.high[1] - 0.99 * texel,
                   "eye %d, corner %d reaches the border", i, c);
         }
+    }
+}
+
+static double at_random(uint64_t *n)
+{
+    return lom_random_uniform(11, (*n)++);
+}
+
+/* A point of the box that a picture from `eye` shows, in plate's tangents; false: the picture does not show it there.
+ */
+static bool shown_at(const struct lom_plate *plate, lom_vec3 point, lom_vec3 eye, const struct lom_impostor_eye *view,
+                     double at[2])
+{
+    lom_vec3 ray = lom_vec3_subtract(point, plate->eye);
+    double away = lom_vec3_dot(ray, plate->forward);
+    lom_vec3 on_plane = lom_vec3_add(plate->eye, lom_vec3_scale(ray, plate->distance / away));
+    lom_vec3 to = lom_vec3_subtract(on_plane, eye);
+    double ahead = lom_vec3_dot(to, view->forward);
+    at[0] = lom_vec3_dot(ray, plate->right) / away;
+    at[1] = lom_vec3_dot(ray, plate->up) / away;
+    double x = lom_vec3_dot(to, view->right) / ahead, y = lom_vec3_dot(to, view->up) / ahead;
+    return ahead > 0 && x >= -view->tangent[0] && x <= view->tangent[0] && y >= -view->tangent[1] &&
+           y <= view->tangent[1];
+}
+
+/* Eyes close to the box that look past it: the plate is smaller than the box, holds every point of the box that the
+ * picture shows, and is kept by an eye that moved and turned only while that stays so. */
+static void test_plate_covers_what_is_in_view(void)
+{
+    int smaller = 0, kept = 0, made = 0, points = 0;
+    uint64_t n = 0;
+    for (int i = 0; i < 3000; i++) {
+        lom_vec3 eye = { 1500 + 2000 * at_random(&n), 1800 * at_random(&n) - 900, 3000 * at_random(&n) - 1500 },
+                 corner[8];
+        lom_vec3 target = { 6000 * at_random(&n) - 3000, 4000 * at_random(&n) - 2000, 6000 * at_random(&n) - 3000 };
+        struct lom_impostor_eye view = look(eye, target, upwards);
+        struct lom_plate plate;
+        set_corners(corner);
+        if (!lom_make_facing_plate(corner, eye, &view, 1, 0, 1024, &plate))
+            continue;
+        smaller += plate.high[0] - plate.low[0] < 0.9 * (plate.whole_high[0] - plate.whole_low[0]);
+        double step = 3 * at_random(&n);
+        lom_vec3 next = { eye.x + step, eye.y + step * at_random(&n), eye.z - step };
+        target.x += 400 * at_random(&n);
+        target.y += 400 * at_random(&n);
+        struct lom_impostor_eye after = look(next, target, upwards);
+        bool is_kept = lom_bounded_refresh(&plate, corner, next, &after, 1e6) == LOM_REFRESH_NONE;
+        *(is_kept ? &kept : &made) += 1;
+        for (int k = 0; k < 20; k++) {
+            lom_vec3 p = { half[0] * (2 * at_random(&n) - 1), half[1] * (2 * at_random(&n) - 1),
+                           half[2] * (2 * at_random(&n) - 1) };
+            double at[2];
+            bool is_in_view = shown_at(&plate, p, eye, &view, at);
+            bool is_held =
+                at[0] >= plate.low[0] && at[0] <= plate.high[0] && at[1] >= plate.low[1] && at[1] <= plate.high[1];
+            CHECK(is_held || !is_in_view, "plate %d does not hold a point in view", i);
+            is_in_view = shown_at(&plate, p, next, &after, at);
+            CHECK(is_held || !is_in_view || !is_kept, "plate %d is kept and lacks a point in view", i);
+            points += is_in_view;
+        }
+    }
+    CHECK(smaller > 300 && kept > 300 && made > 100 && points > 3000, "%d smaller, %d kept, %d made anew, %d points",
+          smaller, kept, made, points);
+}
+
+/* Out of view altogether, a plate is as small as it gets, and is kept until the box comes into view. */
+static void test_plate_out_of_view_costs_nothing(void)
+{
+    lom_vec3 eye = { 3000, 0, 0 }, corner[8];
+    struct lom_impostor_eye away = look(eye, (lom_vec3){ 3000, 0, -9000 }, upwards), back = look(eye, origin, upwards);
+    struct lom_plate plate;
+    set_corners(corner);
+    CHECK(lom_make_facing_plate(corner, eye, &away, 1, 0, 1024, &plate), "a plate");
+    CHECK(plate.width == 16 && plate.height == 16, "%d x %d texels", plate.width, plate.height);
+    CHECK(lom_bounded_refresh(&plate, corner, eye, &away, 1) == LOM_REFRESH_NONE, "still out of view");
+    CHECK(lom_bounded_refresh(&plate, corner, eye, &back, 1) == LOM_REFRESH_VIEW, "in view again");
+}
+
+/* Texels are no finer than asked, at the middle of the cloud; far away a pixel is coarser than that. */
+static void test_texels_are_no_finer_than_the_cloud(void)
+{
+    lom_vec3 corner[8];
+    set_corners(corner);
+    for (int i = 0; i < 40; i++) {
+        lom_vec3 eye = { 1500 + 500 * i, 0, 0 };
+        struct lom_impostor_eye view = look(eye, origin, upwards);
+        struct lom_plate plate;
+        CHECK(lom_make_facing_plate(corner, eye, &view, 1, 8, 4096, &plate), "a plate");
+        double texel = (plate.high[0] - plate.low[0]) / plate.width * eye.x, pixel = view.pixel * eye.x;
+        double wanted = pixel > 8 ? pixel : 8;
+        CHECK(texel > 0.999999 * wanted && texel < 1.000001 * wanted, "%g m: a texel of %g m, not %g", eye.x, texel,
+              wanted);
+        CHECK(lom_bounded_refresh(&plate, corner, eye, &view, 1e-9) == LOM_REFRESH_NONE, "%g m", eye.x);
     }
 }
 
@@ -327,7 +420,7 @@ static void i6_plate_border_is_empty(void)
     int swept = 0;
     lom_light_clouds(set, up, &swept, NULL);
     lom_cloud_corners(&set->clouds[0], corner);
-    CHECK(lom_make_facing_plate(corner, view.eye, &eye, 0.25, 1024, &plate), "a plate");
+    CHECK(lom_make_facing_plate(corner, view.eye, &eye, 0.25, 0, 1024, &plate), "a plate");
     lom_texture *texture = lom_make_texture(
         device, &(lom_texture_desc){ .width = plate.width, .height = plate.height, .format = LOM_FORMAT_RGBA32F });
     CHECK(lom_draw_plate(device, set, &set->clouds[0], &view, &plate, texture), "%s", lom_device_error(device)->text);
@@ -352,6 +445,9 @@ int main(int argc, char **argv)
     RUN(test_powers_of_two_by_saturation);
     RUN(test_reference_edges);
     RUN(test_plate_covers_the_box_with_a_border);
+    RUN(test_plate_covers_what_is_in_view);
+    RUN(test_plate_out_of_view_costs_nothing);
+    RUN(test_texels_are_no_finer_than_the_cloud);
     RUN(test_no_parallax_without_moving);
     RUN(test_parallax_follows_the_closed_form);
     RUN(i3_threshold_exactly_equal_keeps);
