@@ -110,7 +110,7 @@ static bool look(struct frame *f, lom_error *error)
     if (!lom_make_wave_surface(&f->waves, &f->world, eye, f->desc.time, error))
         return false;
     f->in_water = lom_water_above(&f->world, eye, f->desc.time) > 0;
-    if (f->waves.count > 0) {
+    if (f->waves.triangles != NULL) {
         f->world.waves = &f->waves;
         f->in_water = lom_is_over_water(&f->world, eye) && eye.y < lom_wave_surface_height(&f->waves, eye.x, eye.z);
     }

@@ -1,5 +1,5 @@
-/* Trochoidal waves in double. In: the wave vectors, amplitudes and phases that the scene's water stands for. Out: its
- * surface as triangles for rays, with exact normals. A point at rest at (x, z) is displaced by
+/* A surface with waves in double. In: the sea, or the wave vectors, amplitudes and phases that the water stands for.
+ * Out: its surface as triangles for rays, with exact normals. A point at rest at (x, z) is displaced by
  * (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH 1986). */
 #include "reference/waves.h"
 
@@ -7,14 +7,9 @@
 
 static const double TURN = 6.283185307179586, SPACING = 0.006;
 
-struct place {
-    double dx, dy, dz;         /* displacement */
-    double sx, sz, xx, xz, zz; /* derivatives of dy, and of (dx, dz), by x and z */
-};
-
-static struct place displace(const struct lom_wave_surface *surface, double x, double z)
+static struct lom_wave_place displace(const struct lom_wave_surface *surface, double x, double z)
 {
-    struct place p = { .dx = 0 };
+    struct lom_wave_place p = { .dx = 0 };
     for (int i = 0; i < surface->count; i++) {
         const struct lom_ray_wave *w = &surface->wave[i];
         double t = w->kx * x + w->kz * z + w->phase, s = lom_double_sin(t), c = lom_double_cos(t);
@@ -27,19 +22,20 @@ static struct place displace(const struct lom_wave_surface *surface, double x, d
         p.xz -= w->across_x * w->kz * c;
         p.zz -= w->across_z * w->kz * c;
     }
+    lom_add_sea(&p, surface, x, z);
     return p;
 }
 
 double lom_wave_surface_height(const struct lom_wave_surface *surface, double x, double z)
 {
-    struct place p = { .dx = 0 };
+    struct lom_wave_place p = { .dx = 0 };
     for (int i = 0; i < 40; i++)
         p = displace(surface, x - p.dx, z - p.dz);
     return surface->level + p.dy;
 }
 
 /* The cross product of the tangents (xz, sz, 1 + zz) and (1 + xx, sx, xz). */
-static lom_vec3 normal_of(const struct place *p)
+static lom_vec3 normal_of(const struct lom_wave_place *p)
 {
     double a = 1 + p->xx, b = 1 + p->zz;
     lom_vec3 n = { p->xz * p->sz - p->sx * b, a * b - p->xz * p->xz, p->xz * p->sx - p->sz * a };
@@ -49,7 +45,8 @@ static lom_vec3 normal_of(const struct place *p)
 /* ---- making ---- */
 
 /* What waves a scene has is its data; the water layer derives it from [water.waves]. */
-static double find_waves(struct lom_wave_surface *surface, const lom_water_params *water, double time)
+static bool find_waves(struct lom_wave_surface *surface, const lom_water_params *water, double time, double *shortest,
+                       lom_error *error)
 {
     struct lom_waves_uniform waves = { .trochoid_count = 0 };
     double greatest = 0;
@@ -62,7 +59,8 @@ static double find_waves(struct lom_wave_surface *surface, const lom_water_param
         surface->wave[i] = (struct lom_ray_wave){ t->kx, t->kz, t->phase, t->amplitude, t->across_x, t->across_z };
         greatest = at_least(number, greatest);
     }
-    return greatest > 0 ? TURN / greatest : 0; /* the shortest wave */
+    *shortest = greatest > 0 ? TURN / greatest : 0;
+    return surface->count > 0 || lom_make_ray_sea(surface, water, time, shortest, error);
 }
 
 struct mesh {
@@ -87,7 +85,7 @@ static struct mesh plan_mesh(const lom_reference_water *water, lom_vec3 eye, dou
         double away = at_least(__builtin_fabs(a), __builtin_fabs(b));
         far += away * away;
     }
-    mesh.fine = at_least(mesh.fine, 1e-4 * lom_double_sqrt(far));
+    mesh.fine = at_least(mesh.fine, 1e-6 * lom_double_sqrt(far));
     for (double radius = mesh.fine / 4; radius < lom_double_sqrt(far); radius = next_radius(&mesh, radius))
         mesh.rings++;
     mesh.rings += 2;
@@ -105,26 +103,33 @@ static void place_points(struct lom_wave_surface *surface, const struct mesh *me
             double z = mesh->middle[1] + radius * lom_double_sin(angle);
             x = at_most(at_least(x, mesh->low[0]), mesh->high[0]);
             z = at_most(at_least(z, mesh->low[1]), mesh->high[1]);
-            struct place p = displace(surface, x, z);
+            struct lom_wave_place p = displace(surface, x, z);
             surface->rest[i][0] = x;
             surface->rest[i][1] = z;
             surface->points[i] = (lom_vec3){ x + p.dx, surface->level + p.dy, z + p.dz };
         }
 }
 
-/* Angles run from +x towards +z, clockwise seen from above; the hole inside the first ring is filled by a fan. */
-static uint32_t join_points(struct lom_wave_surface *surface, const struct mesh *mesh)
+/* Points moved into the quad lie on its border: three on one side of it make no surface, only a curtain of folds. */
+static void add_triangle(struct lom_wave_surface *surface, uint32_t a, uint32_t b, uint32_t c)
 {
-    uint32_t count = 0, columns = (uint32_t)mesh->columns;
+    const double *p = surface->rest[a], *q = surface->rest[b], *r = surface->rest[c];
+    if ((q[0] - p[0]) * (r[1] - p[1]) != (q[1] - p[1]) * (r[0] - p[0]))
+        surface->triangles[surface->above.count++] = (struct lom_ray_triangle){ .corner = { a, b, c } };
+}
+
+/* Angles run from +x towards +z, clockwise seen from above; the hole inside the first ring is filled by a fan. */
+static void join_points(struct lom_wave_surface *surface, const struct mesh *mesh)
+{
+    uint32_t columns = (uint32_t)mesh->columns;
     for (uint32_t ring = 0; ring + 1 < (uint32_t)mesh->rings; ring++)
         for (uint32_t i = 0; i < columns; i++) {
             uint32_t j = (i + 1) % columns, a = ring * columns + i, b = ring * columns + j;
-            surface->triangles[count++] = (struct lom_ray_triangle){ .corner = { a, b, b + columns } };
-            surface->triangles[count++] = (struct lom_ray_triangle){ .corner = { a, b + columns, a + columns } };
+            add_triangle(surface, a, b, b + columns);
+            add_triangle(surface, a, b + columns, a + columns);
         }
     for (uint32_t i = 1; i + 1 < columns; i++)
-        surface->triangles[count++] = (struct lom_ray_triangle){ .corner = { 0, i + 1, i } };
-    return count;
+        add_triangle(surface, 0, i + 1, i);
 }
 
 bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *world, lom_vec3 eye, double time,
@@ -133,8 +138,10 @@ bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference
     *surface = (struct lom_wave_surface){ .count = 0 };
     if (world->water.low[0] > world->water.high[0] || world->water.height != NULL)
         return true;
-    double shortest = find_waves(surface, &world->scene->water, time);
-    if (surface->count == 0)
+    double shortest;
+    if (!find_waves(surface, &world->scene->water, time, &shortest, error))
+        return false;
+    if (shortest == 0)
         return true;
     struct mesh mesh = plan_mesh(&world->water, eye, shortest);
     size_t points = (size_t)mesh.rings * (size_t)mesh.columns;
@@ -144,9 +151,8 @@ bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference
     if (surface->points == NULL || surface->rest == NULL || surface->triangles == NULL)
         return false;
     place_points(surface, &mesh);
-    surface->above = (struct lom_ray_triangles){ .points = surface->points,
-                                                 .triangles = surface->triangles,
-                                                 .count = join_points(surface, &mesh) };
+    surface->above = (struct lom_ray_triangles){ .points = surface->points, .triangles = surface->triangles };
+    join_points(surface, &mesh);
     if (!lom_build_ray_triangles(&surface->above, error))
         return false;
     surface->below = surface->above;
@@ -156,6 +162,7 @@ bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference
 
 void lom_free_wave_surface(struct lom_wave_surface *surface)
 {
+    lom_free_sea(surface->sea);
     lom_free_ray_triangles(&surface->above);
     lom_release(surface->points);
     lom_release(surface->rest);
@@ -178,7 +185,7 @@ bool lom_hit_waves(const struct lom_wave_surface *surface, const struct lom_ray 
         x += surface->rest[corner[i]][0] * hit.weight[i];
         z += surface->rest[corner[i]][1] * hit.weight[i];
     }
-    struct place at = displace(surface, x, z);
+    struct lom_wave_place at = displace(surface, x, z);
     c->t = hit.t;
     c->place = blended(p[0], p[1], p[2], hit.weight);
     c->facet = unit(cross(difference(p[1], p[0]), difference(p[2], p[0])));

@@ -4,14 +4,25 @@
 
 #include "reference/world.h"
 
+#include <lom/sea.h>
+
+/* Where water is that rests at a place, less the place: names and signs of lom/sea.h. */
+struct lom_wave_place {
+    double dx, dy, dz;         /* displacement */
+    double sx, sz, xx, xz, zz; /* derivatives of dy, and of (dx, dz), by x and z */
+};
+
 struct lom_ray_wave {
     double kx, kz, phase;                 /* rad/m, radians at the time */
     double amplitude, across_x, across_z; /* metres */
 };
 
 struct lom_wave_surface {
-    int count;
+    int count; /* of trochoids */
     struct lom_ray_wave wave[LOM_MAX_WAVES];
+    lom_sea *sea; /* NULL: there is none */
+    int cascade_count;
+    lom_sea_cascade cascade[LOM_MAX_CASCADES];
     double level;
     lom_vec3 *points;
     double (*rest)[2]; /* of each point: where its water is at rest */
@@ -19,12 +30,20 @@ struct lom_wave_surface {
     struct lom_ray_triangles above, below; /* the same, hit from there; nodes and order belong to `above` */
 };
 
-/* The trochoids of the scene's water at a time, and their surface in fine triangles: rings around the place below the
- * eye, a twelfth of the shortest wave apart or 0.006 of their radius, whichever is more. Empty (count 0) where the
- * scene has no waves. False on failure; freed with lom_free_wave_surface. */
+/* The trochoids or the sea of the scene's water at a time, and their surface in fine triangles: rings around the place
+ * below the eye, a twelfth of the shortest wave apart or 0.006 of their radius, whichever is more. Without triangles
+ * where the scene has no waves. False on failure; freed with lom_free_wave_surface. */
 bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *world, lom_vec3 eye, double time,
                            lom_error *error);
 void lom_free_wave_surface(struct lom_wave_surface *surface);
+
+/* sea.c. Steps the sea of the scene's water to a time, or leaves the surface without one; the shortest wave in metres,
+ * or 0. False on failure. */
+bool lom_make_ray_sea(struct lom_wave_surface *surface, const lom_water_params *water, double time, double *shortest,
+                      lom_error *error);
+/* Adds the sea at the rest position (x, z): its samples, linear between neighbours in double, which is the surface that
+ * every model of water has. */
+void lom_add_sea(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z);
 
 /* The crossing of a ray, without the ripples on it. */
 bool lom_hit_waves(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below, double low,

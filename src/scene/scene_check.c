@@ -257,8 +257,6 @@ static bool check_waves(lom_reader *reader, const lom_toml_value *root, const lo
         return fail_at(reader, root, child(root, "surf"), "height", "the reference has no surf.");
     if (waves->kind != LOM_WAVES_SEA)
         return true;
-    if (traced)
-        return fail_at(reader, root, table, "kind", "the reference has no sea: it traces still water and trochoids.");
     lom_error error = { 0 };
     lom_sea_desc desc = lom_scene_sea(waves), resolved;
     if (waves->wind_level != NULL && lom_find_wind_level(waves->wind_level, &error) == NULL)

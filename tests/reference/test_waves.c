@@ -14,7 +14,7 @@ static bool open_waves(const char *text)
     scene = make_scene(text);
     reference = scene == NULL ? NULL : lom_create_reference(scene, NULL);
     bool done = reference != NULL && lom_make_wave_surface(&surface, reference, eye, 2.5, NULL);
-    CHECK(done && surface.count > 0);
+    CHECK(done && surface.triangles != NULL);
     return done;
 }
 
@@ -76,15 +76,64 @@ static void steep_waves_have_no_gap(void)
     close_waves();
 }
 
+/* A sea of one cascade: at its samples the surface is the direct sum of its waves, between them it is met by rays
+ * from above and below without a gap, at its own height. */
+static void a_sea_lies_where_its_waves_do(void)
+{
+    if (!open_waves("[water]\nsize = 200\n[water.waves]\nkind = \"sea\"\nwind_speed = 6\nsize = 64\ncascades = "
+                    "1\npatch = 90\n"))
+        return;
+    lom_sea_moment *moment = lom_freeze_sea(surface.sea, 2.5, NULL);
+    const lom_sea_cascade *c = &surface.cascade[0];
+    CHECK(surface.cascade_count == 1 && c->size == 64 && moment != NULL);
+    for (int i = 0; i < 300; i++) {
+        double x = c->length * (i * 7 - 900) / c->size, z = c->length * (i * 11 - 1500) / c->size;
+        struct lom_wave_place p = { .dx = 0 };
+        lom_add_sea(&p, &surface, x, z);
+        lom_sea_point q = lom_evaluate_sea(moment, 0, x, z);
+        const double got[8] = { p.dx, p.dy, p.dz, p.sx, p.sz, p.xx, p.xz, p.zz };
+        const double sum[8] = { q.dx, q.h, q.dz, q.sx, q.sz, q.xx, q.xz, q.zz };
+        for (int k = 0; k < 8; k++)
+            CHECK(__builtin_fabs(got[k] - sum[k]) < 2e-4, "sample %d, field %d: %g, not %g", i, k, got[k], sum[k]);
+    }
+    for (uint64_t i = 0; i < 400; i++) {
+        struct lom_ray down = { eye, downwards(i) }, up = { { 3, -4, 1 }, scaled(downwards(i), -1) };
+        struct lom_crossing at;
+        CHECK(lom_hit_waves(&surface, &down, false, 0, 1e300, &at), "ray %d", (int)i);
+        double height = lom_wave_surface_height(&surface, at.place.x, at.place.z);
+        CHECK(at.normal.y > 0 && __builtin_fabs(height - at.place.y) < 0.02, "ray %d: %g, not %g", (int)i, at.place.y,
+              height);
+        CHECK(lom_hit_waves(&surface, &up, true, 0, 1e300, &at) && at.facet.y > 0);
+    }
+    lom_free_sea_moment(moment);
+    close_waves();
+}
+
+/* Choppy waves at the border of their quad: no triangle hangs there like a curtain, all face up as they lie at rest. */
+static void the_border_has_no_curtain(void)
+{
+    if (!open_waves("[water]\nsize = 60\n[water.waves]\nkind = \"sea\"\nwind_speed = 9\nsize = 64\nchoppiness = 1.5\n"))
+        return;
+    CHECK(surface.above.count > 1000);
+    for (uint32_t i = 0; i < surface.above.count; i++) {
+        const uint32_t *corner = surface.triangles[i].corner;
+        const double *p = surface.rest[corner[0]], *q = surface.rest[corner[1]], *r = surface.rest[corner[2]];
+        CHECK((q[0] - p[0]) * (r[1] - p[1]) != (q[1] - p[1]) * (r[0] - p[0]), "triangle %d has no area", (int)i);
+    }
+    close_waves();
+}
+
 /* Still water has no such surface, and neither has a scene without water. */
 static void still_water_is_no_mesh(void)
 {
     static const char *const texts[] = { "water.level = 1\n", "sky.color = [1, 1, 1]\n",
-                                         "[water]\n[water.waves]\nkind = \"gerstner\"\nheight = 0\n" };
-    for (int i = 0; i < 3; i++) {
+                                         "[water]\n[water.waves]\nkind = \"gerstner\"\nheight = 0\n",
+                                         "[water]\n[water.waves]\nkind = \"sea\"\nwind_speed = 0\n" };
+    for (int i = 0; i < 4; i++) {
         scene = make_scene(texts[i]);
         reference = scene == NULL ? NULL : lom_create_reference(scene, NULL);
-        CHECK(reference != NULL && lom_make_wave_surface(&surface, reference, eye, 0, NULL) && surface.count == 0);
+        CHECK(reference != NULL && lom_make_wave_surface(&surface, reference, eye, 0, NULL) &&
+              surface.triangles == NULL);
         close_waves();
     }
 }
@@ -116,6 +165,8 @@ int main(int argc, char **argv)
 {
     RUN(a_sine_lies_where_it_should);
     RUN(steep_waves_have_no_gap);
+    RUN(a_sea_lies_where_its_waves_do);
+    RUN(the_border_has_no_curtain);
     RUN(still_water_is_no_mesh);
     RUN(ripples_have_their_slope);
     return check_result();

@@ -197,8 +197,6 @@ static void wrong_values(void)
         { "[water.waves]\nkind = 'sea'\npatch = 0.01", NULL,
           "lake.toml:3:9: The sea's patch length in metres is 0.00021286869603193167, which is not within "
           "0.001..1000000." },
-        { "[water.waves]\nkind = 'sea'\n[quality]\nwater = 'reference'", NULL,
-          "lake.toml:2:8: the reference has no sea: it traces still water and trochoids." },
         { "[water.waves]\nwind_speed = nan", NULL,
           "lake.toml:2:14: \"wind_speed\" is nan but must be from 0 to 100 m/s." },
         { "[water.waves]\nsteepness = 7", NULL, "lake.toml:2:13: \"steepness\" is 7 but must be from 0 to 1." },
