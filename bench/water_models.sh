@@ -17,7 +17,7 @@ while [ $# -gt 0 ]; do
     *) scenes="$scenes $1"; shift ;;
     esac
 done
-[ -n "$scenes" ] || scenes='assets/scenes/lagoon.toml assets/scenes/swell.toml assets/scenes/cove.toml assets/scenes/reef.toml'
+[ -n "$scenes" ] || scenes='assets/scenes/lagoon.toml assets/scenes/swell.toml assets/scenes/gale.toml assets/scenes/cove.toml assets/scenes/reef.toml'
 [ -x "$lom" ] || usage "there is no $lom; run make first."
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT

@@ -221,20 +221,33 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
 
 /* ---- rough surfaces ---- */
 
-/* Facets lean towards an eye that looks along the surface: those that lean away hide behind others. Weighting slopes by
- * the cosine to the eye moves their mean by v tan(zenith), v their variance in that direction; a standard deviation at
- * most. */
-LOM_INLINE lom_float3 lom_visible_facet(const struct lom_surface_point *p)
+/* The horizontal direction (x, z) to the eye, how long it is of the unit vector, and the variance of slopes along it.
+ */
+struct lom_view_slope {
+    lom_float x, z, flat, variance;
+};
+
+LOM_INLINE struct lom_view_slope lom_view_slope_of(const struct lom_surface_point *p)
 {
     const struct lom_wave_slopes *w = &p->slopes;
     lom_float flat = lom_sqrt(p->to_eye.x * p->to_eye.x + p->to_eye.z * p->to_eye.z);
     lom_float inverse = 1.0f / lom_max(flat, lom_splat(1e-6f));
     lom_float c = p->to_eye.x * inverse, s = p->to_eye.z * inverse;
     lom_float variance = lom_max(w->vxx * c * c + 2.0f * w->vxz * c * s + w->vzz * s * s, (lom_float){ 0 });
-    lom_float tangent = flat / lom_max(lom_abs(p->to_eye.y), lom_splat(1e-3f));
-    lom_float lean = lom_min(variance * tangent, lom_sqrt(variance));
+    return (struct lom_view_slope){ c, s, flat, variance };
+}
+
+/* Facets lean towards an eye that looks along the surface: those that lean away hide behind others. Weighting slopes by
+ * the cosine to the eye moves their mean by v tan(zenith), v their variance in that direction; a standard deviation at
+ * most. */
+LOM_INLINE lom_float3 lom_visible_facet(const struct lom_surface_point *p)
+{
+    struct lom_view_slope view = lom_view_slope_of(p);
+    lom_float tangent = view.flat / lom_max(lom_abs(p->to_eye.y), lom_splat(1e-3f));
+    lom_float lean = lom_min(view.variance * tangent, lom_sqrt(view.variance));
     lom_float up = 1.0f / p->normal.y;
-    return lom_normalize3((lom_float3){ p->normal.x * up + lean * c, lom_splat(1.0f), p->normal.z * up + lean * s });
+    return lom_normalize3(
+        (lom_float3){ p->normal.x * up + lean * view.x, lom_splat(1.0f), p->normal.z * up + lean * view.z });
 }
 
 /* Lambda of Smith's shadowing for normal slopes (Walter et al. 2007, equation 24, their rational fit). */
@@ -254,6 +267,25 @@ LOM_INLINE lom_float lom_surface_fresnel(const struct lom_surface_uniforms *u, l
     if (u->fresnel == LOM_FRESNEL_SCHLICK && u->eta < 1)
         return lom_fresnel_schlick(c, u->eta);
     return lom_fresnel_exact(c, lom_splat(u->eta));
+}
+
+/* What a surface of unseen facets reflects of the light, where their mean normal is `cosine` from the eye: the mirror's
+ * share times how much less than a mirror such a surface reflects, since the facets that face the eye hide the others.
+ * The factor is that of the fit r + (1 - r) (1 - c)^(5 exp(-2.69 s)) / (1 + 22.7 s^1.5) for a standard deviation s of
+ * slopes (Bruneton, Neyret, Holzschuch 2010, section 4.3), by its value at s = 0. The mix of the reference works knows
+ * no facets. */
+LOM_INLINE lom_float lom_mean_fresnel(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
+                                      lom_float cosine)
+{
+    lom_float mirror = lom_surface_fresnel(u, cosine);
+    if (u->fresnel == LOM_FRESNEL_DOT)
+        return mirror;
+    const float root = (1.0f - u->eta) / (1.0f + u->eta), least = root * root;
+    lom_float deviation = lom_sqrt(lom_view_slope_of(p).variance);
+    lom_float rest = lom_max(1.0f - lom_saturate(cosine), lom_splat(1e-6f)), square = rest * rest;
+    lom_float mean =
+        lom_exp(5.0f * lom_exp(-2.69f * deviation) * lom_log(rest)) / (1.0f + 22.7f * deviation * lom_sqrt(deviation));
+    return mirror * (least + (1.0f - least) * mean) / (least + (1.0f - least) * square * square * rest);
 }
 
 /* The sun in the facets: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the sun to the eye
@@ -338,8 +370,8 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
     /* A mean normal that points away from the eye is turned towards it: what is seen faces the eye. */
     lom_float turn = lom_max(0.08f - lom_dot3(n, p->to_eye), (lom_float){ 0 });
     n = lom_normalize3(lom_add3(n, lom_scale3(p->to_eye, turn)));
-    lom_float cosine = lom_dot3(n, p->to_eye);
-    lom_float share = lom_surface_fresnel(u, cosine);
+    lom_float share =
+        above ? lom_mean_fresnel(u, p, lom_dot3(p->normal, p->to_eye)) : lom_surface_fresnel(u, lom_dot3(n, p->to_eye));
 
     lom_float3 r = lom_reflect3(d, n);
     r.y = u->side * lom_max(lom_abs(r.y), lom_splat(1e-3f));
