@@ -187,7 +187,10 @@ static const lom_option *take_option(const lom_command_line *line, int argc, cha
         return NULL;
     }
     if (option->kind != LOM_OPTION_FLAG && *word == NULL) {
-        if (*at + 1 >= argc) {
+        const char *next = *at + 1 < argc ? argv[*at + 1] : NULL;
+        bool is_option =
+            next != NULL && strncmp(next, "--", 2) == 0 && find_long(line, next + 2, strcspn(next + 2, "="));
+        if (next == NULL || is_option) { /* what is named like an option takes --name=--value */
             refuse(line, "--%s needs a value: %s", option->name, option->value);
             return NULL;
         }

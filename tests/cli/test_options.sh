@@ -54,6 +54,8 @@ whole numbers|compare a b --max-diff-pixels 1.5
 whole numbers|compare a b --max-diff-pixels 99999999999999999999
 must be from 0|compare a b --max-diff-pixels -1
 needs a value|compare a b --max-flip
+needs a value|compare a b --max-flip --json
+needs a value|render a.toml --stats --hash
 given twice|compare a b --max-flip 1 --max-flip 1
 takes no value|compare a b --json=yes
 too few arguments|compare a
