@@ -81,8 +81,15 @@ static bool load_ground(lom_reference *world, lom_error *error)
     bool done = world->layers != NULL && load_layer(world, &world->ground_texture, t->texture, true, t->tile, error) &&
                 load_layer(world, &world->ground_detail, t->detail_map, false, t->detail_tile, error) &&
                 load_layer(world, &world->ground_normals, t->normal_map, false, t->detail_tile, error);
-    for (size_t i = 0; done && i < t->layer_count; i++)
-        done = load_layer(world, &world->layers[i], t->layers[i].map, true, t->layers[i].tile, error);
+    int below = world->ground_texture.picture;
+    for (size_t i = 0; done && i < t->layer_count; i++) {
+        struct lom_ray_layer *layer = &world->layers[i];
+        done = load_layer(world, layer, t->layers[i].map, true, t->layers[i].tile, error);
+        layer->below = 1;
+        if (done && t->layers[i].grain != 0 && below >= 0)
+            layer->below = at_least(lom_mean_brightness(&world->pictures[below].picture), 1e-3);
+        below = layer->picture;
+    }
     return done;
 }
 

@@ -134,6 +134,23 @@ static lom_vec3 sample_layer(const lom_reference *world, const struct lom_ray_la
                               place.z * layer->scale[1]);
 }
 
+/* From the three sides, mixed by the squares of the normal's components, of which those below a fifth count nothing; x
+ * and y, and y and z, as a picture that stands upright. */
+static lom_vec3 sample_sides(const lom_reference *world, const struct lom_ray_layer *layer, lom_vec3 place, lom_vec3 n)
+{
+    const struct lom_picture *picture = &world->pictures[layer->picture].picture;
+    const double share[3] = { at_least(n.x * n.x - 0.2, 0), at_least(n.y * n.y - 0.2, 0),
+                              at_least(n.z * n.z - 0.2, 0) };
+    const double s[3] = { place.z, place.x, place.x }, t[3] = { -place.y, place.z, -place.y };
+    double whole = share[0] + share[1] + share[2];
+    lom_vec3 color = { 0, 0, 0 };
+    for (int side = 0; side < 3; side++)
+        if (share[side] > 0)
+            color = along(color, lom_sample_picture(picture, s[side] * layer->scale[0], t[side] * layer->scale[1]),
+                          share[side] / whole);
+    return color;
+}
+
 /* 1 inside [from, to], falling to 0 over `blend` outside it, linearly. */
 static double range_weight(double x, double from, double to, double blend)
 {
@@ -174,8 +191,15 @@ static lom_vec3 ground_color(const lom_reference *world, const struct surface *s
         const lom_terrain_layer *layer = &t->layers[i];
         double weight = range_weight(s->place.y, layer->from_height, layer->to_height, layer->blend) *
                         range_weight(slope, layer->from_slope, layer->to_slope, layer->slope_blend);
-        if (weight > 0)
-            color = mixed(color, sample_layer(world, &world->layers[i], s->place), weight);
+        double bright = 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+        double gain = layer->grain * (1 - bright / world->layers[i].below); /* docs/scene.md, [[terrain.layer]] */
+        weight = unit_interval(weight + 4 * weight * (1 - weight) * gain);
+        if (!(weight > 0))
+            continue;
+        lom_vec3 over = layer->mapping == LOM_MAPPING_TRIPLANAR
+                            ? sample_sides(world, &world->layers[i], s->place, s->normal)
+                            : sample_layer(world, &world->layers[i], s->place);
+        color = mixed(color, over, weight);
     }
     if (world->ground_detail.picture >= 0)
         color = scaled(product(color, sample_layer(world, &world->ground_detail, s->place)), 2);

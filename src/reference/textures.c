@@ -79,6 +79,17 @@ static lom_vec3 texel(const struct lom_picture *picture, int x, int y, int z)
     return (lom_vec3){ picture->decoded[code[0]], picture->decoded[code[1]], picture->decoded[code[2]] };
 }
 
+double lom_mean_brightness(const struct lom_picture *picture)
+{
+    double sum = 0;
+    for (int y = 0; y < picture->image->height; y++)
+        for (int x = 0; x < picture->image->width; x++) {
+            lom_vec3 color = texel(picture, x, y, 0);
+            sum += 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+        }
+    return sum / ((double)picture->image->width * picture->image->height);
+}
+
 static lom_vec3 bilinear(const lom_vec3 corner[4], double u, double v)
 {
     lom_vec3 upper = along(corner[0], difference(corner[1], corner[0]), u);

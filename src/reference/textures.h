@@ -21,6 +21,8 @@ void lom_free_picture(struct lom_picture *picture);
 
 /* Repeated in both directions; texel (i, j) has its centre at ((i + 0.5) / width, (j + 0.5) / height). */
 lom_vec3 lom_sample_picture(const struct lom_picture *picture, double s, double t);
+/* The mean of red, green and blue over all texels, by their weights in luminance (ITU-R BT.709). */
+double lom_mean_brightness(const struct lom_picture *picture);
 /* A cube in a direction: OpenGL 4.6, table 8.19, and filtered across edges. Beyond a corner of three faces lies the
  * mean of its three texels. */
 lom_vec3 lom_sample_cube_picture(const struct lom_picture *cube, lom_vec3 direction);

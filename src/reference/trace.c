@@ -102,8 +102,10 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
         if (path->by_water)
             light = sum(light, sun_disc(world, path->ray.direction));
     }
-    return path->in_water ? cross_medium(tracer, path, light, crossing.t)
-                          : lom_light_through_clouds(world, &path->ray, crossing.t, tracer->time, light);
+    if (path->in_water)
+        return cross_medium(tracer, path, light, crossing.t);
+    light = lom_light_through_haze(world, &path->ray, crossing.t, light);
+    return lom_light_through_clouds(world, &path->ray, crossing.t, tracer->time, light);
 }
 
 lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,

@@ -33,6 +33,7 @@ struct lom_ray_picture {
 struct lom_ray_layer {
     int picture;
     double scale[2]; /* repetitions a metre along x and z */
+    double below;    /* mean brightness of the picture below a layer with grain */
 };
 
 struct lom_wave_surface;
@@ -83,6 +84,9 @@ lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, doub
 /* Clouds (clouds.c). */
 bool lom_load_ray_clouds(lom_reference *world, lom_error *error);
 void lom_free_ray_clouds(lom_reference *world);
+/* haze.c. Light that comes from `far` along a ray through the scene's haze; from no end (1e300) it is the sky's, in
+ * which the haze already is. */
+lom_vec3 lom_light_through_haze(const lom_reference *world, const struct lom_ray *ray, double far, lom_vec3 light);
 /* Light that comes from `far` along a ray, as it is before the clouds that stand nearer. */
 lom_vec3 lom_light_through_clouds(const lom_reference *world, const struct lom_ray *ray, double far, double time,
                                   lom_vec3 light);

@@ -1,7 +1,7 @@
 /* Proves rays through scenes against closed forms: exact places of texels, seen directly and mirrored; Fresnel's share,
  * Snell's window and Beer's law at still water; the sun's disc; surfaces that are given as functions. */
 #include "check.h"
-#include "reference/vectors.h"
+#include "reference/world.h"
 #include "scene_files.h"
 
 static lom_scene *scene;
@@ -116,6 +116,37 @@ static void a_mirrored_scene_is_the_scene_from_a_mirrored_eye(void)
         CHECK(near3(seen, behind, 1e-9), "ray %d: %g, %g", (int)i, seen.x, behind.x);
     }
     CHECK(hits > 30);
+    close_scene();
+}
+
+/* ---- haze ---- */
+
+/* A ray through haze that thins with height, up, level and down through its base: against the integral by steps. */
+static void haze_is_the_integral_along_the_way(void)
+{
+    if (!open_scene(PLAIN_LIGHT "[[entity]]\nmesh = \"quad.obj\"\nposition = [0, 5, -40]\nscale = 200\n"
+                                "[haze]\ndensity = [0.01, 0.02, 0.04]\ncolor = [0.3, 0.4, 0.5]\nbase = 2\nheight = 6\n"
+                                "glow = [0, 0, 0]\n"))
+        return;
+    for (int i = 0; i < 40; i++) {
+        lom_vec3 eye = { 0, 12 - 0.4 * i, 0 }, d = unit((lom_vec3){ 0.1, 0.01 * (i % 7) * (i % 7) - 0.16, -1 });
+        struct lom_ray ray = { eye, d };
+        double far = 40 / -d.z, sum = 0;
+        enum { STEPS = 20000 };
+        for (int k = 0; k < STEPS; k++) {
+            double y = eye.y + d.y * far * (k + 0.5) / STEPS - 2;
+            sum += far / STEPS * (y > 0 ? lom_double_exp(-y / 6) : 1);
+        }
+        lom_vec3 got = lom_light_through_haze(reference, &ray, far, (lom_vec3){ 1, 1, 1 });
+        lom_vec3 wanted = { 0.3 + 0.7 * lom_double_exp(-0.01 * sum), 0.4 + 0.6 * lom_double_exp(-0.02 * sum),
+                            0.5 + 0.5 * lom_double_exp(-0.04 * sum) };
+        CHECK(near3(got, wanted, 1e-6), "way %d: %g, not %g", i, got.x, wanted.x);
+        lom_vec3 hit = lom_light_through_haze(reference, &ray, far, lom_trace_ray(reference, eye, d, 0, 0, 0));
+        CHECK(!near3(hit, lom_trace_ray(reference, eye, d, 0, 0, 0), 1e-6), "way %d has haze", i);
+    }
+    struct lom_ray up = { { 0, 3, 0 }, { 0, 1, 0 } };
+    CHECK(near3(lom_light_through_haze(reference, &up, 1e300, (lom_vec3){ 1, 2, 3 }), (lom_vec3){ 1, 2, 3 }, 1e-12),
+          "the sky is as it is");
     close_scene();
 }
 
@@ -312,6 +343,7 @@ int main(int argc, char **argv)
     RUN(a_quad_shows_its_texels_in_their_places);
     RUN(a_mirror_shows_the_mirrored_point);
     RUN(a_mirrored_scene_is_the_scene_from_a_mirrored_eye);
+    RUN(haze_is_the_integral_along_the_way);
     RUN(water_reflects_by_fresnel);
     RUN(snells_window_ends_at_the_critical_angle);
     RUN(light_fades_by_beer_and_lambert);
