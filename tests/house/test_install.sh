@@ -11,14 +11,14 @@ make -s install PREFIX="$folder/usr" BUILD="$BUILD" CC="${CC:-cc}" SAN="${SAN:-}
     cat "$folder/log"; fail install "make install does not work"; }
 prefix=$folder/usr
 cp docs/examples/triangle.c "$folder/"
-here=$PWD
+built=$(cd "$BUILD" && pwd)
 cd "$folder" || exit 1
 libs="-L$prefix/lib -llom -lm -lpthread"
 [ -n "${SAN:-}" ] && libs="$libs -fsanitize=$SAN"
 if command -v pkg-config >/dev/null 2>&1; then
     PKG_CONFIG_PATH=$prefix/lib/pkgconfig
     export PKG_CONFIG_PATH
-    [ "$(pkg-config --modversion lom)" = "$("$here/$BUILD/lom" version | sed -n '1s/^lom \([0-9.]*\).*/\1/p')" ] ||
+    [ "$(pkg-config --modversion lom)" = "$("$built/lom" version | sed -n '1s/^lom \([0-9.]*\).*/\1/p')" ] ||
         fail pkg_config_names_the_version "$(pkg-config --modversion lom)"
     libs=$(pkg-config --libs --static lom)
     [ -n "${SAN:-}" ] && libs="$libs -fsanitize=$SAN"
