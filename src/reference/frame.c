@@ -6,7 +6,8 @@
 #include <stdatomic.h>
 
 struct frame {
-    lom_reference world; /* the reference with the waves of this frame */
+    lom_reference *loaded; /* of this frame's time, where the scene moves; or NULL */
+    lom_reference world;   /* the reference with the waves of this frame */
     struct lom_wave_surface waves;
     bool in_water; /* the camera */
     lom_reference_frame desc;
@@ -99,6 +100,29 @@ static bool check_frame(const lom_reference_frame *d, lom_error *error)
     return true;
 }
 
+static bool moves(const lom_scene *scene)
+{
+    bool keys = scene->light.key_count != 0;
+    for (size_t i = 0; i < scene->entity_count; i++)
+        keys = keys || scene->entities[i].key_count != 0;
+    return keys;
+}
+
+/* The light and the entities where they are at the frame's time: the scene is loaded again for it. */
+static bool load_moment(struct frame *f, const lom_reference *reference, lom_error *error)
+{
+    f->world = *reference;
+    if (!moves(reference->source))
+        return true;
+    f->loaded = lom_create_reference_at(reference->source, f->desc.time, error);
+    if (f->loaded == NULL)
+        return false;
+    f->world = *f->loaded;
+    if (reference->own_water)
+        f->world.water = reference->water;
+    return true;
+}
+
 /* The camera and the waves around it. */
 static bool look(struct frame *f, lom_error *error)
 {
@@ -119,7 +143,7 @@ static bool look(struct frame *f, lom_error *error)
 
 lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_frame *desc, lom_error *error)
 {
-    struct frame f = { .world = *reference, .desc = *desc };
+    struct frame f = { .desc = *desc };
     if (f.desc.crop.width == 0)
         f.desc.crop = (lom_rect){ 0, 0, desc->width, desc->height };
     if (!check_frame(&f.desc, error))
@@ -127,11 +151,12 @@ lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_f
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_pool *pool = lom_create_pool(desc->threads > 0 ? desc->threads : lom_default_threads(), error);
-    if (pool != NULL && look(&f, error))
+    if (pool != NULL && load_moment(&f, reference, error) && look(&f, error))
         f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
     if (f.image != NULL)
         lom_run_pool(pool, trace_rows, &f);
     lom_free_wave_surface(&f.waves);
+    lom_free_reference(f.loaded);
     lom_free_pool(pool);
     lom_leave_float_state(&state);
     return f.image;

@@ -1,5 +1,6 @@
-/* A surface with waves in double. In: the sea, or the wave vectors, amplitudes and phases that the water stands for.
- * Out: its surface as triangles for rays, with exact normals. A point at rest at (x, z) is displaced by
+/* A surface with waves in double. In: the sea, or the wave vectors, amplitudes and phases that the water stands for,
+ * surf and shallow water. Out: its surface as triangles for rays, with exact normals. A point at rest at (x, z) is
+ * displaced by
  * (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH 1986). */
 #include "reference/waves.h"
 
@@ -23,6 +24,7 @@ static struct lom_wave_place displace(const struct lom_wave_surface *surface, do
         p.zz -= w->across_z * w->kz * c;
     }
     lom_add_sea(&p, surface, x, z);
+    lom_add_shore(&p, surface, x, z);
     return p;
 }
 
@@ -45,9 +47,10 @@ static lom_vec3 normal_of(const struct lom_wave_place *p)
 /* ---- making ---- */
 
 /* What waves a scene has is its data; the water layer derives it from [water.waves]. */
-static bool find_waves(struct lom_wave_surface *surface, const lom_water_params *water, double time, double *shortest,
+static bool find_waves(struct lom_wave_surface *surface, const lom_reference *world, double time, double *shortest,
                        lom_error *error)
 {
+    const lom_water_params *water = &world->scene->water;
     struct lom_waves_uniform waves = { .trochoid_count = 0 };
     double greatest = 0;
     lom_fill_trochoids(&waves, water, time);
@@ -60,7 +63,8 @@ static bool find_waves(struct lom_wave_surface *surface, const lom_water_params 
         greatest = at_least(number, greatest);
     }
     *shortest = greatest > 0 ? TURN / greatest : 0;
-    return surface->count > 0 || lom_make_ray_sea(surface, water, time, shortest, error);
+    return (surface->count > 0 || lom_make_ray_sea(surface, water, time, shortest, error)) &&
+           lom_make_ray_shore(surface, world, time, shortest, error);
 }
 
 struct mesh {
@@ -139,7 +143,7 @@ bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference
     if (world->water.low[0] > world->water.high[0] || world->water.height != NULL)
         return true;
     double shortest;
-    if (!find_waves(surface, &world->scene->water, time, &shortest, error))
+    if (!find_waves(surface, world, time, &shortest, error))
         return false;
     if (shortest == 0)
         return true;
@@ -163,6 +167,7 @@ bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference
 void lom_free_wave_surface(struct lom_wave_surface *surface)
 {
     lom_free_sea(surface->sea);
+    lom_free_ray_shore(surface);
     lom_free_ray_triangles(&surface->above);
     lom_release(surface->points);
     lom_release(surface->rest);

@@ -3,6 +3,7 @@
 #define LOM_REFERENCE_WAVES_H
 
 #include "reference/world.h"
+#include "scene/scene_water.h"
 
 #include <lom/sea.h>
 
@@ -23,6 +24,11 @@ struct lom_wave_surface {
     lom_sea *sea; /* NULL: there is none */
     int cascade_count;
     lom_sea_cascade cascade[LOM_MAX_CASCADES];
+    struct lom_surf_map surf; /* cells NULL: there is none */
+    struct lom_surf_uniform surf_moment;
+    struct lom_scene_shallow shallow; /* first NULL: there is none */
+    lom_shallow_view shallow_view;
+    float (*shallow_texels)[4];
     double level;
     lom_vec3 *points;
     double (*rest)[2]; /* of each point: where its water is at rest */
@@ -30,9 +36,9 @@ struct lom_wave_surface {
     struct lom_ray_triangles above, below; /* the same, hit from there; nodes and order belong to `above` */
 };
 
-/* The trochoids or the sea of the scene's water at a time, and their surface in fine triangles: rings around the place
- * below the eye, a twelfth of the shortest wave apart or 0.006 of their radius, whichever is more. Without triangles
- * where the scene has no waves. False on failure; freed with lom_free_wave_surface. */
+/* The trochoids or the sea, the surf and the shallow water of the scene at a time, and their surface in fine triangles:
+ * rings around the place below the eye, a twelfth of the shortest wave apart or 0.006 of their radius, whichever is
+ * more. Without triangles where the scene has no waves. False on failure; freed with lom_free_wave_surface. */
 bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *world, lom_vec3 eye, double time,
                            lom_error *error);
 void lom_free_wave_surface(struct lom_wave_surface *surface);
@@ -44,6 +50,14 @@ bool lom_make_ray_sea(struct lom_wave_surface *surface, const lom_water_params *
 /* Adds the sea at the rest position (x, z): its samples, linear between neighbours in double, which is the surface that
  * every model of water has. */
 void lom_add_sea(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z);
+
+/* shore.c. The surf and the shallow water of the scene at a time; the shortest wave gets no longer than theirs. False
+ * on failure; what has been made is freed with lom_free_ray_shore, also then. */
+bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *world, double time, double *shortest,
+                        lom_error *error);
+void lom_free_ray_shore(struct lom_wave_surface *surface);
+/* Adds them at the rest position (x, z). */
+void lom_add_shore(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z);
 
 /* The crossing of a ray, without the ripples on it. */
 bool lom_hit_waves(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below, double low,

@@ -40,7 +40,11 @@ struct lom_wave_surface;
 struct lom_ray_cloud;
 
 struct lom_reference {
-    const lom_scene *scene;
+    const lom_scene *source; /* the caller's */
+    lom_scene moment;        /* the same, with its light and its entities where they are at the time of loading */
+    lom_entity *entities;    /* of the moment */
+    const lom_scene *scene;  /* moment, for those who read it */
+    bool own_water;          /* put in by lom_set_reference_water */
     struct lom_ray_triangles opaque;
     lom_vec3 *points;
     struct lom_ray_corner *corners; /* of each point */
@@ -68,6 +72,8 @@ struct lom_reference {
     const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
 };
 
+/* Loading at a time (reference.c): lom_create_reference is that at 0 s. */
+lom_reference *lom_create_reference_at(const lom_scene *scene, double time, lom_error *error);
 /* Loading (load.c): everything that the scene names. */
 bool lom_load_world(lom_reference *world, lom_error *error);
 

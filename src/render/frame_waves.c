@@ -18,7 +18,7 @@ static bool is_below(const struct frame *f)
     if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
         return false;
     if (f->scene->quality.water != LOM_WATER_NORMAL_MAP)
-        level += f->sea != WAVES_BOUNDED ? lom_wave_height(f->renderer, &f->waves, eye->x, eye->z, f->time)
+        level += f->sea != WAVES_BOUNDED ? lom_wave_height(f->renderer, &f->waves, eye->x, eye->z)
                                          : (double)f->waves.highest;
     return eye->y < level;
 }
@@ -65,15 +65,16 @@ void lom_report_trochoids(struct frame *f, const char *why)
 void lom_report_shallow(struct frame *f, const char *why)
 {
     const struct lom_shallow_waves *waves = &f->renderer->shallow;
-    if (waves->first == NULL)
+    if (waves->state.first == NULL)
         return;
     if (f->sea == WAVES_BOUNDED)
         lom_add_step(f, "shallow", false, "%s: no step of it is run", why);
     else
         lom_add_step(f, "shallow", true,
                      "%lld steps from the beginning, %llu of them for this frame; %d of %d cells are wet",
-                     (long long)lom_view_shallow(waves->now).steps, (unsigned long long)(waves->run - f->shallow_run),
-                     waves->wet, waves->columns * waves->rows);
+                     (long long)lom_view_shallow(waves->state.now).steps,
+                     (unsigned long long)(waves->state.run - f->shallow_run), waves->wet,
+                     waves->state.columns * waves->state.rows);
 }
 
 static void report_surf(struct frame *f)
@@ -95,7 +96,7 @@ bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
         return true;
     report_surf(f);
     lom_bound_waves(f->renderer, &f->waves, f->time);
-    if ((f->renderer->sea != NULL || f->renderer->shallow.first != NULL) && !is_below(f))
+    if ((f->renderer->sea != NULL || f->renderer->shallow.state.first != NULL) && !is_below(f))
         return true;
     if (!lom_place_frame_waves(f, error))
         return false;

@@ -5,14 +5,13 @@
 #include "cloud/impostor.h"
 #include "render/ground.h"
 #include "render/surface.h"
+#include "scene/scene_water.h"
 #include "water/spray.h"
-#include "water/surf.h"
 #include "water/surface.h"
 
 #include <lom/reference.h>
 #include <lom/sea.h>
 #include <lom/render.h>
-#include <lom/shallow.h>
 
 struct lom_cached_texture {
     const char *path; /* the scene's string, or one of the mesh's materials' */
@@ -89,14 +88,10 @@ struct lom_spray_memory {
 
 /* Shallow water of the scene. */
 struct lom_shallow_waves {
-    lom_shallow *first, *now; /* before the first step; after the last one, or NULL. first NULL: there is none */
-    double corner[2], cell;   /* x and z of its corner, metres */
-    double lowest;            /* of its bed, metres from the level, or 0 */
-    int columns, rows;
+    struct lom_scene_shallow state;
     float (*surface)[4], (*moments)[4]; /* of the last moment */
     lom_texture *map[2];
-    int wet;      /* cells */
-    uint64_t run; /* steps, in all */
+    int wet; /* cells */
 };
 
 struct lom_renderer {
@@ -172,8 +167,7 @@ void lom_add_surf(const lom_renderer *renderer, struct lom_waves_uniform *out, d
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
 void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
 bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
-double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z,
-                       double time);
+double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
 /* frame_spray.c: room for the drops of the scene. */
 bool lom_load_spray(lom_renderer *renderer, lom_error *error);
 void lom_free_spray(lom_renderer *renderer);

@@ -1,15 +1,6 @@
-/* The surf of a scene. In: the terrain's heights, the water's level. Out: maps over the terrain, made once, as
- * textures; what shaders need of them at a time. */
+/* The surf of a scene as shaders look it up. In: its maps (scene/scene_water.h). Out: textures, made once; what shaders
+ * need of them at a time. */
 #include "render/renderer.h"
-
-static double *find_depths(const lom_renderer *r, lom_error *error)
-{
-    const size_t count = ((size_t)r->ground.columns + 1) * ((size_t)r->ground.rows + 1);
-    double *depth = lom_allocate(count, sizeof *depth, error);
-    for (size_t i = 0; depth != NULL && i < count; i++)
-        depth[i] = r->scene->water.level - (double)r->ground.heights[i];
-    return depth;
-}
 
 /* Half of each cell: four of its floats. */
 static lom_texture *make_map(lom_renderer *r, size_t first, lom_error *error)
@@ -36,20 +27,10 @@ static lom_texture *make_map(lom_renderer *r, size_t first, lom_error *error)
 
 bool lom_load_surf(lom_renderer *renderer, lom_error *error)
 {
-    const lom_scene *scene = renderer->scene;
-    if (!(scene->surf.height > 0))
-        return true;
-    double *depth = find_depths(renderer, error);
-    struct lom_surf_desc desc = { .width = renderer->ground.columns + 1,
-                                  .height = renderer->ground.rows + 1,
-                                  .spacing = { scene->terrain.size[0] / renderer->ground.columns,
-                                               scene->terrain.size[1] / renderer->ground.rows },
-                                  .depth = depth,
-                                  .surf = scene->surf };
-    bool done = depth != NULL && lom_make_surf_map(&renderer->surf, &desc, error);
-    lom_release(depth);
-    for (int i = 0; i < 2; i++)
-        renderer->surf.corner[i] = -scene->terrain.size[i] / 2;
+    const struct lom_bed bed = { renderer->ground.heights, renderer->ground.columns, renderer->ground.rows };
+    bool done = lom_make_scene_surf(&renderer->surf, renderer->scene, &bed, error);
+    if (renderer->surf.cells == NULL)
+        return done;
     for (int i = 0; done && i < 2; i++) {
         renderer->surf_maps[i] = make_map(renderer, 4 * (size_t)i, error);
         done = renderer->surf_maps[i] != NULL;

@@ -107,11 +107,9 @@ bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, doub
     return lom_place_shallow(renderer, out, time, error) && lom_place_sea(renderer, out, time, error);
 }
 
-double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z,
-                       double time)
+double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z)
 {
-    double surf =
-        renderer->surf.cells == NULL ? 0 : lom_surf_height(&renderer->surf, &renderer->scene->surf, x, z, time);
+    double surf = renderer->surf.cells == NULL ? 0 : lom_surf_height(&renderer->surf, &waves->surf, x, z);
     return surf + lom_shallow_height(renderer, x, z) + lom_trochoid_height(waves, x, z) +
            lom_sea_height(renderer, x, z);
 }

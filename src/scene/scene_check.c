@@ -161,8 +161,6 @@ static bool check_light_keys(lom_reader *reader, const lom_toml_value *root)
         if (i > 0 && !check_time(reader, root, place, light->keys[i - 1].time, key->time))
             return false;
     }
-    if (light->key_count != 0 && reader->scene->quality.water == LOM_WATER_REFERENCE)
-        return fail_at(reader, root, child(root, "light"), "key", "the reference needs a sun that stands still.");
     return true;
 }
 
@@ -251,10 +249,6 @@ static bool check_waves(lom_reader *reader, const lom_toml_value *root, const lo
         return fail_at(reader, root, table, "length", "the longest wave comes first, then the shortest.");
     if (reader->scene->surf.height > 0 && reader->scene->terrain.given == 0)
         return fail_at(reader, root, child(root, "surf"), "height", "waves come in to a shore: there is no terrain.");
-    bool traced =
-        reader->scene->quality.water == LOM_WATER_REFERENCE || reader->scene->quality.clouds == LOM_CLOUDS_REFERENCE;
-    if (traced && reader->scene->surf.height > 0)
-        return fail_at(reader, root, child(root, "surf"), "height", "the reference has no surf.");
     if (waves->kind != LOM_WAVES_SEA)
         return true;
     lom_error error = { 0 };
@@ -297,8 +291,6 @@ static bool check_entity_keys(lom_reader *reader, const lom_toml_value *root, co
     }
     if (entity->key_count != 0 && entity->on_ground)
         return fail_at(reader, root, table, "on_ground", "an entity with keys does not stand on the ground.");
-    if (entity->key_count != 0 && reader->scene->quality.water == LOM_WATER_REFERENCE)
-        return fail_at(reader, root, table, "key", "the reference needs entities that stand still.");
     return true;
 }
 
@@ -337,8 +329,6 @@ static bool check_shallow(lom_reader *reader, const lom_toml_value *root)
         return true;
     if (scene->water.given == 0)
         return fail_at(reader, root, table, "", "shallow water is the surface of [water], which there is not.");
-    if (scene->quality.water == LOM_WATER_REFERENCE || scene->quality.clouds == LOM_CLOUDS_REFERENCE)
-        return fail_at(reader, root, table, "", "the reference has no shallow water.");
     if (child(table, "position") == NULL)
         memcpy(shallow->position, scene->water.position, sizeof shallow->position);
     if (child(table, "size") == NULL)

@@ -100,15 +100,18 @@ int lom_fill_shallow_surface(const lom_shallow_view *v, double level, bool fades
     return wet;
 }
 
-double lom_shallow_surface_height(const lom_shallow_view *v, const float (*surface)[4], double x, double z)
+void lom_sample_shallow_surface(const lom_shallow_view *v, const float (*surface)[4], double x, double z,
+                                double texel[4])
 {
-    double column = lom_double_floor(x - 0.5), row = lom_double_floor(z - 0.5), sum = 0;
+    double column = lom_double_floor(x - 0.5), row = lom_double_floor(z - 0.5);
     double u = x - 0.5 - column, w = z - 0.5 - row;
     column = column < -1 ? -1 : column > v->columns ? v->columns : column;
     row = row < -1 ? -1 : row > v->rows ? v->rows : row;
+    for (int i = 0; i < 4; i++)
+        texel[i] = 0;
     for (int k = 0; k < 4; k++) {
-        size_t cell = cell_of(v, (int)column + (k & 1), (int)row + (k >> 1));
-        sum += (double)surface[cell][0] * (k & 1 ? u : 1 - u) * (k >> 1 ? w : 1 - w);
+        const float *s = surface[cell_of(v, (int)column + (k & 1), (int)row + (k >> 1))];
+        for (int i = 0; i < 4; i++)
+            texel[i] += (double)s[i] * (k & 1 ? u : 1 - u) * (k >> 1 ? w : 1 - w);
     }
-    return sum;
 }

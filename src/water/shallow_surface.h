@@ -13,7 +13,8 @@ enum { LOM_SHALLOW_BOUND = 1000 };
 int lom_fill_shallow_surface(const lom_shallow_view *view, double level, bool fades, float (*surface)[4],
                              float (*moments)[4], float bounds[2]);
 
-/* Over a place in cells from the region's corner, between cell middles; the nearest ones outside. */
-double lom_shallow_surface_height(const lom_shallow_view *view, const float (*surface)[4], double x, double z);
+/* The texel over a place in cells from the region's corner, between cell middles; the nearest ones outside. */
+void lom_sample_shallow_surface(const lom_shallow_view *view, const float (*surface)[4], double x, double z,
+                                double texel[4]);
 
 #endif

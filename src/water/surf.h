@@ -46,7 +46,7 @@ void lom_free_surf_map(struct lom_surf_map *map);
 /* What the shaders need at a time, but for the textures. */
 void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
                    double time);
-/* Height over a place, metres, in double. */
-double lom_surf_height(const struct lom_surf_map *map, const lom_water_surf *surf, double x, double z, double time);
+/* Height over a place, metres, in double, at a time of lom_fill_surf. */
+double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z);
 
 #endif

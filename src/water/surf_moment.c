@@ -58,24 +58,22 @@ static void look_up(const struct lom_surf_map *map, double x, double z, double v
     }
 }
 
-double lom_surf_height(const struct lom_surf_map *map, const lom_water_surf *surf, double x, double z, double time)
+double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z)
 {
-    struct lom_surf_uniform u = { .time = 0 };
     double v[6], low[2] = { map->corner[0], map->corner[1] };
-    lom_fill_surf(&u, map, surf, time);
     look_up(map, x, z, v);
     const double at[2] = { x, z };
     double outside = 0;
     for (int i = 0; i < 2; i++) {
-        double last = (double)u.last[i], inside = at[i] < low[i] ? low[i] : at[i] > last ? last : at[i];
+        double last = (double)moment->last[i], inside = at[i] < low[i] ? low[i] : at[i] > last ? last : at[i];
         outside += v[1 + i] * (at[i] - inside);
     }
-    const double theta = v[0] + outside, angle = (double)u.time - theta, s = lom_double_sin(angle);
+    const double theta = v[0] + outside, angle = (double)moment->time - theta, s = lom_double_sin(angle);
     const double c = lom_double_cos(angle), root = lom_double_sqrt(1 - v[4] * v[4] - v[5] * v[5]);
     double size = 1;
     for (int i = 0; i < 2; i++)
-        size += (double)u.variation * share[i] *
-                lom_double_sin((double)u.group_time[i] - theta / group[i] + (double)u.group_along[i][0] * x +
-                               (double)u.group_along[i][1] * z);
+        size += (double)moment->variation * share[i] *
+                lom_double_sin((double)moment->group_time[i] - theta / group[i] +
+                               (double)moment->group_along[i][0] * x + (double)moment->group_along[i][1] * z);
     return v[3] * size * root * (s + v[5] / (1 + root)) / (1 - v[4] * c + v[5] * s);
 }

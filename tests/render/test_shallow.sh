@@ -86,6 +86,4 @@ position = [0, 0]' "$line:8: \"rate\" is nan"
 refused '[[shallow.body]]
 every = 3
 position = [0, 0]' "$line:9: it dips in again after its duration"
-said=$("$lom" render "$scene" --hash --set 'quality.water="reference"' 2>&1)
-case $said in *'the reference has no shallow water'*) ;; *) why="reference: $said" ;; esac
 verdict shallow_water_that_cannot_be_is_refused "$why"

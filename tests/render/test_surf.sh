@@ -13,6 +13,5 @@ why=
 case $("$lom" plan $scene) in *'*  surf'*'waves of 1.3 m and 7.5 s rise to'*'break from'*) ;; *) why='the plan does not say where waves break' ;; esac
 printf '[water]\nlevel = 0\n[surf]\nheight = 1\n' >"$folder/bad.toml"
 case $("$lom" render "$folder/bad.toml" --hash 2>&1) in *'bad.toml:4:10: waves come in to a shore: there is no terrain.'*) ;; *) why='surf without a shore' ;; esac
-case $("$lom" render $scene --hash --set 'quality.water="reference"' 2>&1) in *'the reference has no surf'*) ;; *) why='the reference takes surf' ;; esac
 case $("$lom" render $scene --hash --set surf.period=nan 2>&1) in *'"period" is nan'*) ;; *) why='a period that is no number' ;; esac
 verdict surf_says_what_it_does_and_what_it_cannot "$why"

@@ -267,8 +267,6 @@ static void contradictions(void)
         { "[[spray]]\nfrom=[0,0,0]\ndrag=1000\nheight=1000", NULL,
           "lake.toml:4:8: a fall through this height must take from 0.001 to 3600 s." },
         { "[[spray]]\ncount=3", NULL, "lake.toml:1:3: the key \"from\" is missing in this table." },
-        { "[quality]\nwater = 'reference'\n[[light.key]]\ntime = 0", NULL,
-          "lake.toml:3:9: the reference needs a sun that stands still." },
         { "[[camera.key]]\ntime = 1\nposition=[1,1,1]\ntarget=[1,0,1]", NULL,
           "lake.toml:4:8: the camera cannot look there: target is its position, or lies along up." },
         { "[light]\ndirection=[1,0,0]\nazimuth=3", NULL,

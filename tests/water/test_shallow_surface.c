@@ -66,11 +66,12 @@ static void slopes_are_those_of_the_surface(void)
         CHECK(magnitude(s[1] - 0.04) < 1e-6 && magnitude(s[2] + 0.1) < 1e-6, "slopes %g %g", s[1], s[2]);
         CHECK(m[0] == s[1] * s[1] && m[1] == s[2] * s[2] && m[2] == s[1] * s[2], "moments of cell %d", i);
     }
-    double between = lom_shallow_surface_height(&v, (const float(*)[4])surface, 10.25, 7.75);
-    CHECK(magnitude(between - (2 + 0.02 * 9.75 - 0.05 * 7.25)) < 1e-6, "between cells %g", between);
-    CHECK(lom_shallow_surface_height(&v, (const float(*)[4])surface, -1e6, 1e6) ==
-              (double)surface[(ROWS - 1) * COLUMNS][0],
-          "far outside");
+    double texel[4];
+    lom_sample_shallow_surface(&v, (const float(*)[4])surface, 10.25, 7.75, texel);
+    CHECK(magnitude(texel[0] - (2 + 0.02 * 9.75 - 0.05 * 7.25)) < 1e-6, "between cells %g", texel[0]);
+    CHECK(magnitude(texel[1] - 0.04) < 1e-6 && magnitude(texel[2] + 0.1) < 1e-6 && texel[3] == 0, "slopes there");
+    lom_sample_shallow_surface(&v, (const float(*)[4])surface, -1e6, 1e6, texel);
+    CHECK(texel[0] == (double)surface[(ROWS - 1) * COLUMNS][0], "far outside");
 }
 
 static void borders_fade_to_the_level(void)

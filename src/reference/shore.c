@@ -1,0 +1,109 @@
+/* Surf and shallow water for rays. In: the scene's [surf] and [shallow], its terrain, a time. Out: heights and slopes
+ * in double. Invariant: a place is read from the maps and the cells that every model of water draws; the slope of surf
+ * is that of its height, not the models' k times the wave's own change. */
+#include "reference/waves.h"
+
+#include "water/shallow_surface.h"
+
+/* Heights of the terrain's vertices as the renderer has them. */
+static float *find_heights(const lom_reference *world, lom_error *error)
+{
+    size_t count = (size_t)world->ground_columns * (size_t)world->ground_rows;
+    float *heights = lom_allocate(count, sizeof *heights, error);
+    for (size_t i = 0; heights != NULL && i < count; i++)
+        heights[i] = (float)world->points[i].y;
+    return heights;
+}
+
+static bool make_surf(struct lom_wave_surface *surface, const lom_scene *scene, const struct lom_bed *bed, double time,
+                      lom_error *error)
+{
+    if (!lom_make_scene_surf(&surface->surf, scene, bed, error))
+        return false;
+    if (surface->surf.cells != NULL)
+        lom_fill_surf(&surface->surf_moment, &surface->surf, &scene->surf, time);
+    return true;
+}
+
+static bool make_shallow(struct lom_wave_surface *surface, const lom_scene *scene, const struct lom_bed *bed,
+                         double time, lom_error *error)
+{
+    struct lom_scene_shallow *state = &surface->shallow;
+    if (!lom_open_scene_shallow(state, scene, bed, error))
+        return false;
+    if (state->first == NULL)
+        return true;
+    size_t cells = (size_t)state->columns * (size_t)state->rows;
+    float bounds[2], (*moments)[4] = lom_allocate(cells, sizeof *moments, error);
+    surface->shallow_texels = lom_allocate(cells, sizeof *surface->shallow_texels, error);
+    bool done =
+        moments != NULL && surface->shallow_texels != NULL && lom_advance_scene_shallow(state, scene, time, error);
+    if (done) {
+        surface->shallow_view = lom_view_shallow(state->now);
+        lom_fill_shallow_surface(&surface->shallow_view, scene->water.level, scene->shallow.edge == LOM_SHALLOW_OPEN,
+                                 surface->shallow_texels, moments, bounds);
+    }
+    lom_release(moments);
+    return done;
+}
+
+static double finer(double shortest, double length)
+{
+    return shortest == 0 ? length : at_most(shortest, length);
+}
+
+bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *world, double time, double *shortest,
+                        lom_error *error)
+{
+    const lom_scene *scene = world->scene;
+    if (scene->shallow.given == 0 && !(scene->surf.height > 0))
+        return true;
+    bool ground = world->ground_columns > 0;
+    float *heights = ground ? find_heights(world, error) : NULL;
+    const struct lom_bed bed = { heights, world->ground_columns - 1, world->ground_rows - 1 };
+    bool done = (!ground || heights != NULL) && make_surf(surface, scene, &bed, time, error) &&
+                make_shallow(surface, scene, &bed, time, error);
+    lom_release(heights);
+    if (done && surface->surf.cells != NULL) /* its steepest front is a twentieth of a wave */
+        *shortest = finer(*shortest, surface->surf.length / 20);
+    if (done && surface->shallow.first != NULL)
+        *shortest = finer(*shortest, 4 * surface->shallow.cell);
+    return done;
+}
+
+void lom_free_ray_shore(struct lom_wave_surface *surface)
+{
+    lom_free_surf_map(&surface->surf);
+    lom_close_scene_shallow(&surface->shallow);
+    lom_release(surface->shallow_texels);
+}
+
+static void add_surf(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z)
+{
+    const double step = 1e-3;
+    const struct lom_surf_map *map = &surface->surf;
+    const struct lom_surf_uniform *moment = &surface->surf_moment;
+    place->dy += lom_surf_height(map, moment, x, z);
+    place->sx += (lom_surf_height(map, moment, x + step, z) - lom_surf_height(map, moment, x - step, z)) / (2 * step);
+    place->sz += (lom_surf_height(map, moment, x, z + step) - lom_surf_height(map, moment, x, z - step)) / (2 * step);
+}
+
+static void add_shallow(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z)
+{
+    const struct lom_scene_shallow *state = &surface->shallow;
+    double column = (x - state->corner[0]) / state->cell, row = (z - state->corner[1]) / state->cell, texel[4];
+    if (!(column >= 0 && column <= state->columns && row >= 0 && row <= state->rows))
+        return;
+    lom_sample_shallow_surface(&surface->shallow_view, (const float(*)[4])surface->shallow_texels, column, row, texel);
+    place->dy += texel[0];
+    place->sx += texel[1];
+    place->sz += texel[2];
+}
+
+void lom_add_shore(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z)
+{
+    if (surface->surf.cells != NULL)
+        add_surf(place, surface, x, z);
+    if (surface->shallow.first != NULL)
+        add_shallow(place, surface, x, z);
+}

@@ -1,0 +1,136 @@
+/* Shallow water of a scene at a time. In: the scene's region, springs and bodies, its bed, a time. Out: the state of
+ * the water. Invariant: the state is that after all steps from the start to the time. */
+#include "scene/scene_water.h"
+
+enum { MOST_STEPS = 10000000 };
+
+/* The height of the terrain between its vertices; deep below the water where there is none. */
+static double bed_at(const struct lom_bed *bed, const lom_scene *scene, double x, double z)
+{
+    const double *size = scene->terrain.size;
+    if (bed->heights == NULL)
+        return scene->water.level - 100;
+    double u = (x / size[0] + 0.5) * bed->columns, v = (z / size[1] + 0.5) * bed->rows;
+    u = u < 0 ? 0 : u > bed->columns ? bed->columns : u;
+    v = v < 0 ? 0 : v > bed->rows ? bed->rows : v;
+    int column = (int)u < bed->columns ? (int)u : bed->columns - 1;
+    int row = (int)v < bed->rows ? (int)v : bed->rows - 1;
+    const float *h = bed->heights + (size_t)row * ((size_t)bed->columns + 1) + column;
+    const float *below = h + bed->columns + 1;
+    double s = u - column, t = v - row;
+    return (h[0] + s * ((double)h[1] - h[0])) * (1 - t) + (below[0] + s * ((double)below[1] - below[0])) * t;
+}
+
+bool lom_open_scene_shallow(struct lom_scene_shallow *shallow, const lom_scene *scene, const struct lom_bed *bed,
+                            lom_error *error)
+{
+    const lom_shallow_water *w = &scene->shallow;
+    *shallow = (struct lom_scene_shallow){ .first = NULL };
+    if (w->given == 0)
+        return true;
+    double longer = w->size[0] > w->size[1] ? w->size[0] : w->size[1], cell = longer / w->cells;
+    int columns = (int)(w->size[0] / cell + 0.5), rows = (int)(w->size[1] / cell + 0.5);
+    shallow->cell = cell;
+    shallow->columns = columns < 2 ? 2 : columns;
+    shallow->rows = rows < 2 ? 2 : rows;
+    shallow->corner[0] = w->position[0] - shallow->columns * cell / 2;
+    shallow->corner[1] = w->position[1] - shallow->rows * cell / 2;
+    size_t cells = (size_t)shallow->columns * (size_t)shallow->rows;
+    double *height = lom_allocate(cells, sizeof *height, error);
+    for (size_t i = 0; height != NULL && i < cells; i++) {
+        height[i] = bed_at(bed, scene, shallow->corner[0] + ((double)(i % (size_t)shallow->columns) + 0.5) * cell,
+                           shallow->corner[1] + ((double)(i / (size_t)shallow->columns) + 0.5) * cell);
+        shallow->lowest =
+            height[i] - scene->water.level < shallow->lowest ? height[i] - scene->water.level : shallow->lowest;
+    }
+    lom_shallow_desc desc = { .columns = shallow->columns,
+                              .rows = shallow->rows,
+                              .cell = cell,
+                              .bed = height,
+                              .level = scene->water.level,
+                              .step = w->step,
+                              .friction = w->friction,
+                              .implicitness = w->implicitness };
+    for (int i = 0; i < 4; i++) {
+        desc.edge[i] = (lom_shallow_edge)w->edge;
+        desc.edge_level[i] = desc.level;
+    }
+    if (height != NULL)
+        shallow->first = lom_create_shallow(&desc, error);
+    lom_release(height);
+    return shallow->first != NULL;
+}
+
+/* How much of its draft a body that dips in has in the water at a time: sin^2 over the duration. */
+static double dip_of(const lom_shallow_body *body, double time)
+{
+    double since = time - body->time;
+    if (body->duration == 0)
+        return 1;
+    if (body->every > 0 && since > 0)
+        since -= lom_double_floor(since / body->every) * body->every;
+    if (since <= 0 || since >= body->duration)
+        return 0;
+    double s = lom_double_sin(3.141592653589793 * since / body->duration);
+    return s * s;
+}
+
+static lom_shallow_obstacle place_body(const lom_scene *scene, const lom_shallow_body *body, const double corner[2],
+                                       double time)
+{
+    lom_shallow_obstacle o = { body->position[0],
+                               body->position[1],
+                               { body->half[0], body->half[1] },
+                               body->heading,
+                               body->draft * dip_of(body, time) };
+    if (body->followed != 0) { /* an entity's -z is ahead, turned by its yaw from +x towards -z */
+        lom_entity_place at = lom_scene_entity_at(&scene->entities[body->followed - 1], time);
+        o.x = at.position.x;
+        o.z = at.position.z;
+        o.heading = -1.5707963267948966 - at.rotation.y;
+    }
+    o.x -= corner[0];
+    o.z -= corner[1];
+    return o;
+}
+
+static bool run_step(struct lom_scene_shallow *shallow, const lom_scene *scene, double time, lom_error *error)
+{
+    const lom_shallow_water *w = &scene->shallow;
+    lom_shallow_source sources[LOM_SHALLOW_SOURCES];
+    lom_shallow_obstacle bodies[LOM_SHALLOW_OBSTACLES];
+    for (size_t i = 0; i < w->spring_count; i++)
+        sources[i] = (lom_shallow_source){ w->springs[i].position[0] - shallow->corner[0],
+                                           w->springs[i].position[1] - shallow->corner[1], w->springs[i].radius,
+                                           w->springs[i].rate };
+    for (size_t i = 0; i < w->body_count; i++)
+        bodies[i] = place_body(scene, &w->bodies[i], shallow->corner, time);
+    shallow->run++;
+    return lom_step_shallow(shallow->now, sources, (int)w->spring_count, bodies, (int)w->body_count, error);
+}
+
+/* To the step before the time; a thousandth of a step is rounding. */
+bool lom_advance_scene_shallow(struct lom_scene_shallow *shallow, const lom_scene *scene, double time, lom_error *error)
+{
+    double step = scene->shallow.step, start = scene->shallow.start;
+    double steps = time > start ? lom_double_floor((time - start) / step + 0.001) : 0;
+    if (steps > MOST_STEPS)
+        return lom_fail(error, LOM_ERROR_LIMIT,
+                        "This frame is more than %d steps of shallow water after the beginning.", MOST_STEPS);
+    if (shallow->now != NULL && lom_view_shallow(shallow->now).steps > (int64_t)steps) {
+        lom_free_shallow(shallow->now);
+        shallow->now = NULL;
+    }
+    if (shallow->now == NULL)
+        shallow->now = lom_copy_shallow(shallow->first, error);
+    bool done = shallow->now != NULL;
+    for (int64_t i = done ? lom_view_shallow(shallow->now).steps : 0; done && i < (int64_t)steps; i++)
+        done = run_step(shallow, scene, start + (double)i * step, error);
+    return done;
+}
+
+void lom_close_scene_shallow(struct lom_scene_shallow *shallow)
+{
+    lom_free_shallow(shallow->first);
+    lom_free_shallow(shallow->now);
+}
