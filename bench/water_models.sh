@@ -2,8 +2,8 @@
 # bench/water_models.sh [--size WxH] [--frames N] [--samples N] [--output FILE] [SCENE]...
 # Draws scenes of water with every model and with the reference (rays in double precision), and writes a Markdown table:
 # the least milliseconds of N frames on one thread, and how far the first frame is from the reference; and the models
-# side by side as docs/pictures/water-SCENE.png. Caustics and foam are off: the reference lights the bed through a level
-# surface and has no foam. LOM names another program than build/lom.
+# side by side as docs/pictures/water-SCENE.png. Caustics, foam and drops are off: the reference lights the bed through a level
+# surface and has no foam and no drops. LOM names another program than build/lom.
 cd "$(dirname "$0")/.." || exit 2
 lom=${LOM:-${BUILD:-build}/lom} size=320x180 frames=8 samples=32 output=bench/results/water-models.md scenes=''
 usage() { echo "bench/water_models.sh: $1" >&2; sed -n 2p "$0" >&2; exit 2; }
@@ -17,7 +17,7 @@ while [ $# -gt 0 ]; do
     *) scenes="$scenes $1"; shift ;;
     esac
 done
-[ -n "$scenes" ] || scenes='assets/scenes/lagoon.toml assets/scenes/swell.toml assets/scenes/gale.toml assets/scenes/cove.toml assets/scenes/reef.toml'
+[ -n "$scenes" ] || scenes='assets/scenes/lagoon.toml assets/scenes/swell.toml assets/scenes/gale.toml assets/scenes/cove.toml assets/scenes/reef.toml assets/scenes/surf.toml assets/scenes/wake.toml'
 [ -x "$lom" ] || usage "there is no $lom; run make first."
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
@@ -28,7 +28,7 @@ draw() { # model, picture, other arguments: a line of statistics for each frame
     model=$1 picture=$2
     shift 2
     "$lom" render "$scene" --size "$size" --set "quality.water=\"$model\"" --set water.optics.caustics=0 \
-        --set water.foam.amount=0 --set water.foam.shore_depth=0 --quiet --stats - -o "$picture" "$@"
+        --set water.foam.amount=0 --set water.foam.shore_depth=0 --set quality.spray=false --quiet --stats - -o "$picture" "$@"
 }
 # Pictures of one size (P6) in rows of three: the rows of pixels of each three are laid behind one another.
 side_by_side() { # output, pictures
