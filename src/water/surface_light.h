@@ -288,6 +288,18 @@ LOM_INLINE lom_float lom_mean_fresnel(const struct lom_surface_uniforms *u, cons
     return mirror * (least + (1.0f - least) * mean) / (least + (1.0f - least) * square * square * rest);
 }
 
+/* What is left of a mirrored ray that goes down, by its sine: it meets the water again, taken to be level there, which
+ * mirrors it up by this share and sends for the rest what the water sends here. The mix of the reference works knows no
+ * second surface. */
+LOM_INLINE lom_float lom_second_share(const struct lom_surface_uniforms *u, lom_float up)
+{
+    const lom_float one = lom_splat(1.0f);
+    lom_mask down = up < 0.0f;
+    if (u->fresnel == LOM_FRESNEL_DOT || !lom_any(down))
+        return one;
+    return lom_select(down, lom_surface_fresnel(u, -up), one);
+}
+
 /* The sun in the facets: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the sun to the eye
  * (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour. */
 LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
@@ -374,6 +386,8 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
         above ? lom_mean_fresnel(u, p, lom_dot3(p->normal, p->to_eye)) : lom_surface_fresnel(u, lom_dot3(n, p->to_eye));
 
     lom_float3 r = lom_reflect3(d, n);
+    if (above)
+        share = share * lom_second_share(u, r.y);
     r.y = u->side * lom_max(lom_abs(r.y), lom_splat(1e-3f));
     lom_float3 reflected = lom_arriving(u, &u->mirrored, p, lom_normalize3(r), above, u->marched, variance);
 

@@ -2,7 +2,7 @@
  * Snell's law, total reflection, extremes, and the distance of each approximation from the exact equations. */
 #include "check.h"
 
-#include "water/optics.h"
+#include "water/surface_light.h"
 
 #include <lom/water.h>
 
@@ -226,6 +226,28 @@ static void absorption_of_lengths_adds_up(void)
     CHECK(lom_transmittance(clear, lom_splat(1e9f)).x[0] == 1, "clear water absorbs");
 }
 
+/* A mirrored ray that goes up arrives whole; one that goes down is mirrored again as level water mirrors, all of it
+ * where it grazes; the mix of the reference works has no second surface. */
+static void mirrored_rays_that_go_down_are_mirrored_again(void)
+{
+    const float eta = 1 / 1.333f;
+    struct lom_surface_uniforms u = { .eta = eta, .fresnel = LOM_FRESNEL_EXACT };
+    double before = 1;
+    for (int i = 0; i <= 100; i++) {
+        float sine = (float)i / 100;
+        double down = lom_second_share(&u, lom_splat(-sine))[0];
+        CHECK(lom_second_share(&u, lom_splat(sine))[0] == 1, "up by %g", (double)sine);
+        CHECK(down == fresnel((double)sine, (double)eta) && down <= before, "down by %g: %g", (double)sine, down);
+        before = down;
+    }
+    CHECK(__builtin_fabs(before - 0.333 * 0.333 / (2.333 * 2.333)) < 1e-4, "straight down %g", before);
+    lom_float mixed = lom_splat(0.5f);
+    mixed[0] = -1;
+    CHECK(lom_second_share(&u, mixed)[LOM_LANES - 1] == 1, "a lane that goes up beside one that goes down");
+    u.fresnel = LOM_FRESNEL_DOT;
+    CHECK(lom_second_share(&u, lom_splat(-1))[0] == 1, "the reference works' mix");
+}
+
 int main(int argc, char **argv)
 {
     if (!check_lanes_run()) {
@@ -241,5 +263,6 @@ int main(int argc, char **argv)
     RUN(o6_schlick_and_dot_against_exact);
     RUN(o7_reflecting_twice_is_nothing);
     RUN(absorption_of_lengths_adds_up);
+    RUN(mirrored_rays_that_go_down_are_mirrored_again);
     return check_result();
 }
