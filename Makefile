@@ -2,6 +2,11 @@
 #   make CC=clang O=0 BUILD=dir     another compiler, level and folder
 #   make SAN=address check          address, undefined, thread or memory sanitizer
 #   make fuzz SECONDS=60            every fuzz target of tests/fuzz under libFuzzer (clang) for that long
+# As many jobs as processors, unless -j says otherwise.
+ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 1)
+endif
+
 CC     = gcc
 AR     = ar
 O      = 3
@@ -17,7 +22,8 @@ MACHINE := $(shell $(CC) -dumpmachine)
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
-CFLAGS      = -std=gnu11 -O$(O) -g -fPIC -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
+# Where variables live is half of the time that vectors as wide as these take to compile; -O0 knows it without.
+CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking -fPIC -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
 # Sanitized code is optimised little: it compiles many times faster and says more.
 ifneq ($(SAN),)
