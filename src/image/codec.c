@@ -33,6 +33,24 @@ static const struct {
     { "pam", lom_encode_pam, false }, { "pfm", lom_encode_pfm, false }, { "nrrd", lom_encode_nrrd, true },
 };
 
+static char in_small(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+bool lom_is_word(const char *text, size_t length, const char *list)
+{
+    while (*list != 0) {
+        size_t word = strcspn(list, "|"), same = 0;
+        while (same < word && same < length && in_small(text[same]) == in_small(list[same]))
+            same++;
+        if (same == word && same == length)
+            return true;
+        list += word + (list[word] == '|');
+    }
+    return false;
+}
+
 lom_format lom_unorm_format(int channels, int bits)
 {
     return (lom_format)((bits == 16 ? LOM_FORMAT_R16 : LOM_FORMAT_R8) + channels - 1);
@@ -86,19 +104,10 @@ lom_image *lom_read_image(const char *path, lom_error *error)
     return image;
 }
 
-/* Whether text is kind, in capitals or not, whatever the locale. */
-static bool is_kind(const char *text, const char *kind)
-{
-    for (; *kind != 0; text++, kind++)
-        if (*text != *kind && *text != *kind - 'a' + 'A')
-            return false;
-    return *text == 0;
-}
-
 static lom_bytes encode(const char *kind, const lom_image *image, lom_error *error)
 {
     for (size_t i = 0; kind != NULL && i < sizeof encoders / sizeof *encoders; i++) {
-        if (!is_kind(kind, encoders[i].kind))
+        if (!lom_is_word(kind, strlen(kind), encoders[i].kind))
             continue;
         if (image->depth == 1 || encoders[i].holds_slices)
             return encoders[i].encode(image, error);

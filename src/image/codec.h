@@ -20,6 +20,9 @@ lom_bytes lom_encode_pam(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pfm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_nrrd(const lom_image *image, lom_error *error); /* any depth */
 
+/* Whether text is one of the words of a list separated by '|', in capitals or not, whatever the locale. */
+bool lom_is_word(const char *text, size_t length, const char *list);
+
 /* The unorm format of 1..4 channels and 8 or 16 bits. */
 lom_format lom_unorm_format(int channels, int bits);
 

@@ -25,10 +25,11 @@ lom_image *lom_decode_pfm(const uint8_t *data, size_t size, const char *name, lo
     text_reader in = { data, size, 2, name, error };
     uint32_t width = 0, height = 0;
     double scale;
-    if (!text_read_number(&in, MOST_SIZE, &width) || !text_read_number(&in, MOST_SIZE, &height) ||
-        !read_scale(&in, &scale) || !text_end_header(&in))
-        return NULL;
     unsigned channels = data[1] == 'F' ? 3 : 1;
+    if (!text_end_kind(&in) || !text_read_number(&in, MOST_SIZE, &width) ||
+        !text_read_number(&in, MOST_SIZE, &height) || !read_scale(&in, &scale) ||
+        !text_end_header(&in, (uint64_t)width * height * channels * 4))
+        return NULL;
     lom_format format = channels == 3 ? LOM_FORMAT_RGB32F : LOM_FORMAT_R32F;
     lom_image *image = lom_create_declared(name, width, height, format, 32 * channels, 1, size - in.at, error);
     if (image == NULL)

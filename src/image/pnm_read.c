@@ -108,13 +108,21 @@ static lom_image *read_picture(pnm *p)
 
 /* ---- headers ---- */
 
+/* The bytes of the samples behind the header, as far as they have a size of their own. */
+static uint64_t raster_size(const pnm *p)
+{
+    uint64_t row = p->bits ? ((uint64_t)p->width + 7) / 8 : (uint64_t)p->width * p->channels;
+    return p->text ? 0 : row * p->height * (p->maximum > 255 ? 2 : 1); /* below 2^30 * 2^2 * 2^30 * 2 */
+}
+
 lom_image *lom_decode_pnm(const uint8_t *data, size_t size, const char *name, lom_error *error)
 {
     int kind = data[1] - '0';
     pnm p = { .in = { data, size, 2, name, error }, .text = kind <= 3, .bits = kind == 1 || kind == 4, .maximum = 1 };
     p.channels = kind == 3 || kind == 6 ? 3 : 1;
-    if (!text_read_number(&p.in, MOST_SIZE, &p.width) || !text_read_number(&p.in, MOST_SIZE, &p.height) ||
-        (!p.bits && !text_read_number(&p.in, MOST_MAXIMUM, &p.maximum)) || !text_end_header(&p.in))
+    if (!text_end_kind(&p.in) || !text_read_number(&p.in, MOST_SIZE, &p.width) ||
+        !text_read_number(&p.in, MOST_SIZE, &p.height) ||
+        (!p.bits && !text_read_number(&p.in, MOST_MAXIMUM, &p.maximum)) || !text_end_header(&p.in, raster_size(&p)))
         return NULL;
     if (p.maximum == 0) {
         text_fail(&p.in, "the maximum is 0");
@@ -123,55 +131,139 @@ lom_image *lom_decode_pnm(const uint8_t *data, size_t size, const char *name, lo
     return read_picture(&p);
 }
 
-static bool is_word(const text_reader *in, size_t length, const char *word)
+/* ---- PAM: a header of lines, each a word and its value (netpbm, pam(5)) ---- */
+
+typedef struct pam_text {
+    const char *start;
+    size_t length;
+} pam_text;
+
+static bool text_is(pam_text text, const char *word)
 {
-    return strlen(word) == length && memcmp(in->data + in->at, word, length) == 0;
+    return strlen(word) == text.length && memcmp(text.start, word, text.length) == 0;
 }
 
-/* A line of PAM's header, a word and its value; *ended after the last one. */
-static bool read_pam_line(pnm *p, bool *ended)
+static pam_text trim(pam_text text)
 {
+    while (text.length > 0 && text_is_space((uint8_t)text.start[0]))
+        text = (pam_text){ text.start + 1, text.length - 1 };
+    while (text.length > 0 && text_is_space((uint8_t)text.start[text.length - 1]))
+        text.length--;
+    return text;
+}
+
+/* The next line without the white space around it; `at` moves behind its newline. */
+static bool next_line(text_reader *in, pam_text *line)
+{
+    const uint8_t *start = in->data + in->at, *newline = memchr(start, '\n', in->size - in->at);
+    if (newline == NULL)
+        return text_fail(in, "the file ends in the header");
+    *line = trim((pam_text){ (const char *)start, (size_t)(newline - start) });
+    in->at = (size_t)(newline - in->data) + 1;
+    return true;
+}
+
+typedef struct pam {
+    pnm picture;
+    uint32_t seen;      /* a bit for each of the fields with a number */
+    pam_text type;      /* of the tuples; length 0: not given */
+    bool ended, joined; /* after ENDHDR; a tuple type of several lines, which is none that is known */
+} pam;
+
+static bool read_pam_number(pam *p, const char *word, pam_text value, uint32_t most, uint32_t *number)
+{
+    text_reader in = { (const uint8_t *)value.start, value.length, 0, p->picture.in.name, NULL };
+    if (value.length > 0 && text_is_digit((uint8_t)value.start[0]) && text_read_number(&in, most, number) &&
+        in.at == in.size)
+        return true;
+    return lom_fail(p->picture.in.error, LOM_ERROR_INPUT, "%s: byte %zu: %s should be a whole number up to %u.",
+                    p->picture.in.name, (size_t)((const uint8_t *)value.start - p->picture.in.data), word, most);
+}
+
+static bool read_pam_field(pam *p, pam_text word, pam_text value)
+{
+    pnm *picture = &p->picture;
     const struct {
         const char *word;
         uint32_t *value, most;
     } fields[] = {
-        { "WIDTH", &p->width, MOST_SIZE },
-        { "HEIGHT", &p->height, MOST_SIZE },
-        { "DEPTH", &p->channels, MOST_SIZE },
-        { "MAXVAL", &p->maximum, MOST_MAXIMUM },
+        { "WIDTH", &picture->width, MOST_SIZE },
+        { "HEIGHT", &picture->height, MOST_SIZE },
+        { "DEPTH", &picture->channels, MOST_SIZE },
+        { "MAXVAL", &picture->maximum, MOST_MAXIMUM },
     };
-    text_reader *in = &p->in;
-    text_skip_space(in);
-    size_t length = 0;
-    while (in->at + length < in->size && !text_is_space(in->data[in->at + length]))
-        length++;
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        if (is_word(in, length, fields[i].word)) {
-            in->at += length;
-            return text_read_number(in, fields[i].most, fields[i].value);
-        }
+        if (!text_is(word, fields[i].word))
+            continue;
+        if (p->seen >> i & 1)
+            return text_fail(&picture->in, "the line before says again what an earlier one said");
+        p->seen |= UINT32_C(1) << i;
+        return read_pam_number(p, fields[i].word, value, fields[i].most, fields[i].value);
     }
-    *ended = is_word(in, length, "ENDHDR");
-    if (*ended) {
-        in->at += length;
-        return text_end_header(in);
-    }
-    if (!is_word(in, length, "TUPLTYPE")) /* free text: the number of channels says enough */
-        return text_fail(in, "there is no such word in a PAM header");
-    while (in->at < in->size && in->data[in->at] != '\n')
-        in->at++;
+    p->ended = text_is(word, "ENDHDR") && value.length == 0;
+    if (p->ended)
+        return true;
+    if (!text_is(word, "TUPLTYPE"))
+        return text_fail(&picture->in, "the line before is none of a PAM header");
+    p->joined = p->joined || p->type.length > 0;
+    p->type = value;
     return true;
+}
+
+static bool read_pam_line(pam *p)
+{
+    pam_text line;
+    if (!next_line(&p->picture.in, &line))
+        return false;
+    if (line.length == 0 || line.start[0] == '#')
+        return true;
+    pam_text word = { line.start, 0 };
+    while (word.length < line.length && !text_is_space((uint8_t)line.start[word.length]))
+        word.length++;
+    return read_pam_field(p, word, trim((pam_text){ line.start + word.length, line.length - word.length }));
+}
+
+/* The tuple types that pam(5) defines and their channels. Without one, the number of channels says enough; another one
+ * (as CMYK) means colours that an image does not hold, unless it has a single channel. */
+static bool check_pam_type(const pam *p)
+{
+    static const struct {
+        const char *name;
+        uint32_t channels;
+    } types[] = {
+        { "BLACKANDWHITE", 1 },   { "GRAYSCALE", 1 }, { "BLACKANDWHITE_ALPHA", 2 },
+        { "GRAYSCALE_ALPHA", 2 }, { "RGB", 3 },       { "RGB_ALPHA", 4 },
+    };
+    uint32_t channels = p->picture.channels;
+    bool known = p->type.length == 0 || channels == 1;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (text_is(p->type, types[i].name) && !p->joined) {
+            known = true;
+            channels = types[i].channels;
+        }
+    return (known && channels == p->picture.channels) ||
+           lom_fail(p->picture.in.error, LOM_ERROR_INPUT,
+                    "%s: the TUPLTYPE \"%.*s\" cannot be read with a DEPTH of %u.", p->picture.in.name,
+                    p->type.length < 40 ? (int)p->type.length : 40, p->type.start, p->picture.channels);
 }
 
 lom_image *lom_decode_pam(const uint8_t *data, size_t size, const char *name, lom_error *error)
 {
-    pnm p = { .in = { data, size, 2, name, error } };
-    for (bool ended = false; !ended;)
-        if (!read_pam_line(&p, &ended))
-            return NULL;
-    if (p.maximum == 0 || p.channels == 0 || p.channels > 4) {
-        text_fail(&p.in, "the header should give a MAXVAL of at least 1 and a DEPTH of 1 to 4");
+    pam p = { .picture.in = { data, size, 2, name, error } };
+    pam_text rest;
+    if (!next_line(&p.picture.in, &rest))
+        return NULL;
+    if (rest.length != 0) {
+        p.picture.in.at = 2;
+        text_fail(&p.picture.in, "the first line should be P7 alone");
         return NULL;
     }
-    return read_picture(&p);
+    while (!p.ended)
+        if (!read_pam_line(&p))
+            return NULL;
+    if (p.seen != 15 || p.picture.maximum == 0 || p.picture.channels == 0 || p.picture.channels > 4) {
+        text_fail(&p.picture.in, "the header should give WIDTH, HEIGHT, a MAXVAL of at least 1 and a DEPTH of 1 to 4");
+        return NULL;
+    }
+    return check_pam_type(&p) ? read_picture(&p.picture) : NULL;
 }

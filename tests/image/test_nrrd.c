@@ -1,5 +1,6 @@
 /* Proves: volumes come back from NRRD files as they were written, in every format; headers of other programs are read
- * (types by any of their names, either byte order, comments, carriage returns, fields that say nothing here); every
+ * (types by any of their names, either byte order, comments, carriage returns, fields that say nothing here, lines and
+ * bytes to skip); every kind of axis, at every place and in either case, is what the format says or refused; every
  * damaged or lying file is refused in one sentence. */
 #include "check.h"
 
@@ -150,6 +151,229 @@ static void test_raw_volumes_by_their_size(void)
           "%s", error.text);
 }
 
+/* ---- what axes mean ---- */
+
+/* The kinds of format.html, section 6, written down once more: what stands for each is S an axis of space, T time, C
+ * channels, 1 a single sample, X what no image holds; and the size that the kind asks for, 0 for any. */
+static const struct {
+    const char *name;
+    char meaning;
+    int size;
+} kinds[] = {
+    { "domain", 'S', 0 },
+    { "space", 'S', 0 },
+    { "time", 'T', 0 },
+    { "list", 'C', 0 },
+    { "point", 'C', 0 },
+    { "vector", 'C', 0 },
+    { "covariant-vector", 'C', 0 },
+    { "normal", 'C', 0 },
+    { "stub", '1', 1 },
+    { "scalar", '1', 1 },
+    { "complex", 'X', 2 },
+    { "2-vector", 'C', 2 },
+    { "3-color", 'C', 3 },
+    { "RGB-color", 'C', 3 },
+    { "HSV-color", 'X', 3 },
+    { "XYZ-color", 'X', 3 },
+    { "4-color", 'C', 4 },
+    { "RGBA-color", 'C', 4 },
+    { "3-vector", 'C', 3 },
+    { "3-gradient", 'C', 3 },
+    { "3-normal", 'C', 3 },
+    { "4-vector", 'C', 4 },
+    { "quaternion", 'X', 4 },
+    { "2D-symmetric-matrix", 'X', 3 },
+    { "2D-masked-symmetric-matrix", 'X', 4 },
+    { "2D-matrix", 'X', 4 },
+    { "2D-masked-matrix", 'X', 5 },
+    { "3D-symmetric-matrix", 'X', 6 },
+    { "3D-masked-symmetric-matrix", 'X', 7 },
+    { "3D-matrix", 'X', 9 },
+    { "3D-masked-matrix", 'X', 10 },
+};
+
+/* The text in small letters (1), in capitals (2) or as it is. */
+static void change_case(char *text, int how)
+{
+    for (; how != 0 && *text != 0; text++)
+        if (how == 1 ? *text >= 'A' && *text <= 'Z' : *text >= 'a' && *text <= 'z')
+            *text ^= 32;
+}
+
+/* One axis of the kind, of `size` samples at `place`, among axes of space of 5, 6, 7 samples. */
+static void expect_kind(size_t k, int size, int place, int dimensions, int how)
+{
+    static const uint8_t samples[4096];
+    static const int others[] = { 5, 6, 7 };
+    char header[512], sizes[64] = "", words[256] = "";
+    int space[4] = { 1, 1, 1, 1 }, count = 0;
+    for (int i = 0, other = 0; i < dimensions; i++) {
+        int n = i == place ? size : others[other++];
+        sprintf(sizes + strlen(sizes), " %d", n);
+        sprintf(words + strlen(words), " %s", i == place ? kinds[k].name : "domain");
+        if (i != place || kinds[k].meaning == 'S')
+            space[count++] = n;
+    }
+    sprintf(header, "Type: uint8\ndimension: %d\nsizes:%s\nkinds:%s\nencoding: raw", dimensions, sizes, words);
+    change_case(header, how);
+    char file[600];
+    sprintf(file, "NRRD0004\n%s\n\n", header);
+    bool takes_channels = kinds[k].meaning == 'C' && place == 0 && size <= 4;
+    bool reads = (kinds[k].size == 0 || kinds[k].size == size) && kinds[k].meaning != 'X' &&
+                 (size == 1 || takes_channels || kinds[k].meaning == 'S') && count <= 3;
+    lom_error error = { 0 };
+    lom_image *image = decode(file, samples, 5 * 6 * 7 * 11, &error);
+    CHECK((image != NULL) == reads, "%s of size %d, axis %d of %d: %s", kinds[k].name, size, place + 1, dimensions,
+          error.text);
+    if (image != NULL && reads)
+        CHECK(image->width == space[0] && image->height == space[1] && image->depth == space[2] &&
+                  lom_describe_format(image->format)->channels == (takes_channels ? size : 1),
+              "%s of size %d, axis %d of %d: %d x %d x %d", kinds[k].name, size, place + 1, dimensions, image->width,
+              image->height, image->depth);
+    lom_free_image(image);
+}
+
+static void test_every_kind_at_every_place(void)
+{
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (int dimensions = 2; dimensions <= 4; dimensions++)
+            for (int place = 0; place < dimensions; place++)
+                for (int size = 1; size <= 11; size++)
+                    expect_kind(k, size, place, dimensions, (int)(k + (size_t)size) % 3);
+}
+
+/* Axes without kinds, and those that only their directions tell. */
+static void test_unknown_kinds(void)
+{
+    static const struct {
+        const char *fields;
+        int width, height, depth, channels; /* width 0: refused */
+    } cases[] = {
+        { "dimension: 3\nsizes: 3 4 5", 3, 4, 5, 1 },
+        { "dimension: 4\nsizes: 3 4 5 2", 4, 5, 2, 3 },
+        { "dimension: 3\nsizes: 3 4 5\nkinds: ??? ??? ???", 3, 4, 5, 1 },
+        { "dimension: 3\nsizes: 3 4 5\nkinds: none NONE none", 3, 4, 5, 1 },
+        { "dimension: 3\nsizes: 3 4 5\nkinds: ??? domain domain", 4, 5, 1, 3 },
+        { "dimension: 3\nsizes: 4 5 3\nkinds: domain domain ???", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 4 5 1\nkinds: domain domain ???", 4, 5, 1, 1 },
+        { "dimension: 3\nsizes: 4 5 3\nkinds: domain domain", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 4 5 3\nkinds: domain domain domain domain", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 4 5 3\nkinds: domain domain colour", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 3 4 5\nkinds: domain vector domain", 0, 0, 0, 0 },
+        { "dimension: 4\nsizes: 2 3 4 5\nkinds: vector vector domain domain", 0, 0, 0, 0 },
+        { "dimension: 4\nsizes: 2 3 4 5\nkinds: space space space space", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 3 4 5\nspace dimension: 2\nspace directions: none (1,0) (0, 1)", 4, 5, 1, 3 },
+        { "dimension: 3\nsizes: 4 5 3\nspace dimension: 2\nspace directions: (1,0) (0,1) none", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 3 4 5\nspace dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1)", 3, 4, 5, 1 },
+        { "dimension: 3\nsizes: 3 4 5\nspace directions: (1,0,0) (0,1,0)", 0, 0, 0, 0 },
+        { "dimension: 4\nsizes: 3 4 5 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: ??? domain domain "
+          "domain",
+          4, 5, 2, 3 },
+    };
+    static const uint8_t samples[512];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char file[512];
+        lom_error error = { 0 };
+        sprintf(file, "NRRD0005\ntype: uint8\n%s\nencoding: raw\n\n", cases[i].fields);
+        lom_image *image = decode(file, samples, 120, &error);
+        CHECK((image != NULL) == (cases[i].width > 0), "case %zu: %s", i, error.text);
+        if (image != NULL)
+            CHECK(image->width == cases[i].width && image->height == cases[i].height &&
+                      image->depth == cases[i].depth &&
+                      lom_describe_format(image->format)->channels == cases[i].channels,
+                  "case %zu: %d x %d x %d", i, image->width, image->height, image->depth);
+        lom_free_image(image);
+    }
+}
+
+/* ---- fields and skips ---- */
+
+static void expect_samples(const char *header, const void *data, size_t size, const char *samples)
+{
+    lom_error error = { 0 };
+    lom_image *image = decode(header, data, size, &error);
+    CHECK(image != NULL, "%s: %s", header, error.text);
+    CHECK(image == NULL || memcmp(image->pixels, samples, lom_image_size(image)) == 0, "%s: other samples", header);
+    lom_free_image(image);
+}
+
+static void test_fields_in_every_case(void)
+{
+    for (int how = 0; how < 3; how++) {
+        char fields[] =
+            "Type: UInt16\nDimension: 3\nSizes: 2 1 1\nEndian: Big\nEncoding: Raw\nLine Skip: 0\nLineSkip2:=x\n"
+            "Byte Skip: 0\nKinds: Domain Space Space\nSpace Directions: None None None\nContent: a: b\n"
+            "Old Min: 0\nOldMax: 1\na key: with a colon:=value: 1\nMeasurement Frame: (1)\nSample Units: K";
+        char file[512];
+        change_case(fields, how);
+        sprintf(file, "NRRD0005\n%s\n\n", fields);
+        lom_error error = { 0 };
+        lom_image *image = decode(file, "\1\0\2\0", 4, &error);
+        CHECK(image != NULL && image->width == 2 && ((uint16_t *)image->pixels)[1] == 512, "%s", error.text);
+        lom_free_image(image);
+    }
+    static const char *const magics[] = { "NRRD0001", "NRRD0002", "NRRD0003", "NRRD0004", "NRRD0005", "NRRD00.01",
+                                          "NRRD0006", "NRRD0000", "NRRDABCD", "NRRD",     "nrrd0004", "NRRD00040" };
+    for (size_t i = 0; i < sizeof magics / sizeof *magics; i++) {
+        char file[128];
+        lom_error error = { 0 };
+        sprintf(file, "%s\ntype: uint8\ndimension: 2\nsizes: 1 1\nencoding: raw\n\n", magics[i]);
+        lom_image *image = decode(file, "\1", 1, &error);
+        CHECK((image != NULL) == (i < 6), "%s: %s", magics[i], error.text);
+        lom_free_image(image);
+    }
+}
+
+static void test_lines_and_bytes_to_skip(void)
+{
+#define SKIPS(fields) "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 2 1\nencoding: raw\n" fields "\n\n"
+    expect_samples(SKIPS("line skip: 0\nbyte skip: 0"), "ab", 2, "ab");
+    expect_samples(SKIPS("lineskip: 0\nbyteskip: 0"), "abc", 3, "ab");
+    expect_samples(SKIPS("line skip: 2"), "x\n\r\nab", 6, "ab");
+    expect_samples(SKIPS("byte skip: 3"), "xyzab", 5, "ab");
+    expect_samples(SKIPS("byte skip: 1\nline skip: 1"), "xyz\nwab", 7, "ab");
+    expect_samples(SKIPS("byte skip: -1"), "xyzab", 5, "ab");
+    static const struct {
+        const char *header, *says;
+    } bad[] = {
+        { SKIPS("line skip: 3"), "lines that are to be skipped" },
+        { SKIPS("byte skip: 4"), "too short" },
+        { SKIPS("byte skip: -2"), "bytes to skip" },
+        { SKIPS("byte skip: 1x"), "bytes to skip" },
+        { SKIPS("line skip: -1"), "lines to skip" },
+        { SKIPS("line skip:"), "lines to skip" },
+        { SKIPS("byte skip: 99999999999999999999999"), "too short" },
+        { SKIPS("byteskip : 1"), "no such field" },
+        { SKIPS("skip: 1"), "no such field" },
+        { SKIPS("type: uint8"), "before" },
+        { SKIPS("byte skip: 1\nbyteskip: 1"), "before" },
+        { SKIPS("data file: x"), "another file" },
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        lom_error error = { 0 };
+        lom_image *image = decode(bad[i].header, "x\ny\nz", 5, &error);
+        CHECK(image == NULL && strstr(error.text, bad[i].says) != NULL, "case %zu: %s", i, error.text);
+        lom_free_image(image);
+    }
+#undef SKIPS
+    /* "xyzab" as one stored block: bytes are skipped in what was decompressed, lines before it */
+    static const char zipped[] = "line\n\x1f\x8b\x08\0\0\0\0\0\0\3\1\5\0\xfa\xff"
+                                 "xyzab";
+    uint32_t crc = 0xffffffff;
+    for (int i = 0; i < 5; i++)
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (0xedb88320 & -((crc ^ (uint32_t)(uint8_t) "xyzab"[i] >> bit) & 1));
+    crc = ~crc;
+    uint8_t file[sizeof zipped - 1 + 8] = { 0 };
+    memcpy(file, zipped, sizeof zipped - 1);
+    for (int i = 0; i < 4; i++)
+        file[sizeof zipped - 1 + i] = (uint8_t)(crc >> 8 * i);
+    file[sizeof zipped - 1 + 4] = 5;
+    expect_samples("NRRD0004\ntype: uint8\ndimension: 2\nsizes: 2 1\nencoding: GZ\nline skip: 1\nbyte skip: 3\n\n",
+                   file, sizeof file, "ab");
+}
+
 int main(int argc, char **argv)
 {
     RUN(test_every_format_round_trips);
@@ -157,5 +381,9 @@ int main(int argc, char **argv)
     RUN(test_bad_volumes_are_refused);
     RUN(test_truncated_at_every_byte);
     RUN(test_raw_volumes_by_their_size);
+    RUN(test_every_kind_at_every_place);
+    RUN(test_unknown_kinds);
+    RUN(test_fields_in_every_case);
+    RUN(test_lines_and_bytes_to_skip);
     return check_result();
 }

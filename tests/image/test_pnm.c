@@ -43,6 +43,63 @@ static void by_hand(void)
     EXPECT_8("P7\nDEPTH 2\nMAXVAL 255\nHEIGHT 1\nWIDTH 1\nENDHDR\nab", LOM_FORMAT_RG8, 1, 1, "ab");
 }
 
+/* netpbm's pages: white space or a comment behind the kind; one white space before the raster, whatever it is; a file
+ * whose lines end with a carriage return and a newline has both there, which its size tells. PAM: lines, "P7" and
+ * "ENDHDR" alone on theirs. */
+static void header_forms(void)
+{
+    EXPECT_8("P5#comment\n2 1 255\nab", LOM_FORMAT_R8, 2, 1, "ab");
+    EXPECT_8("P5 2 1 255# comment\nab", LOM_FORMAT_R8, 2, 1, "ab");
+    EXPECT_8("P5 2#c\n 1 255\tab", LOM_FORMAT_R8, 2, 1, "ab");
+    EXPECT_8("P5\r\n2 1\r\n255\r\nab", LOM_FORMAT_R8, 2, 1, "ab");
+    EXPECT_8("P5\r\n2 1\r\n255\r\na", LOM_FORMAT_R8, 2, 1, "\na");
+    EXPECT_8("P5\r2 1\r255\rab", LOM_FORMAT_R8, 2, 1, "ab");
+    EXPECT_8("P5 2 1 255\n\na", LOM_FORMAT_R8, 2, 1, "\na");
+    EXPECT_8("P6\r\n1 1\r\n255\r\nabc", LOM_FORMAT_RGB8, 1, 1, "abc");
+    EXPECT_8("P4\r\n8 1\r\n\xf0", LOM_FORMAT_R8, 8, 1, "\0\0\0\0\377\377\377\377");
+    EXPECT_8("P2\r\n2 1\r\n255\r\n1 2\r\n", LOM_FORMAT_R8, 2, 1, "\1\2");
+    EXPECT_8("P7\r\nWIDTH 2\r\nHEIGHT 1\r\nDEPTH 1\r\nMAXVAL 255\r\nENDHDR\r\nab", LOM_FORMAT_R8, 2, 1, "ab");
+    EXPECT_8("P7 \n\n \t\nWIDTH\t 2 \n  HEIGHT 1\n # WIDTH 3\nDEPTH 1\nMAXVAL 255\nENDHDR \t\nab", LOM_FORMAT_R8, 2, 1,
+             "ab");
+    EXPECT_8("P7\nWIDTH 2\nHEIGHT 1\nDEPTH 1\nMAXVAL 1\nTUPLTYPE BLACKANDWHITE\nENDHDR\n\0\1", LOM_FORMAT_R8, 2, 1,
+             "\0\377");
+    EXPECT_8("P7\nWIDTH 2\nHEIGHT 1\nDEPTH 1\nMAXVAL 255\nTUPLTYPE height\nENDHDR\nab", LOM_FORMAT_R8, 2, 1, "ab");
+    static const struct {
+        const char *file, *says;
+    } bad[] = {
+#define PAM(fields) "P7\nWIDTH 1\nHEIGHT 1\n" fields "\nENDHDR\nabcd"
+        { "P612 2 255 abcdefgh", "white space" },
+        { "P5x2 1 255 ab", "white space" },
+        { "P12 1 1 1", "white space" },
+        { "PF4\n1 1\n-1\nabcdefghijklmnop", "white space" },
+        { "Pf2\n1 1\n-1\nabcdefgh", "white space" },
+        { "P7 332\n2 1 255\nab", "P7 alone" },
+        { "P7#\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nMAXVAL 255\nENDHDR\na", "P7 alone" },
+        { "P72\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nMAXVAL 255\nENDHDR\na", "P7 alone" },
+        { PAM("DEPTH 4\nMAXVAL 255\nTUPLTYPE CMYK"), "CMYK" },
+        { PAM("DEPTH 4\nMAXVAL 255\nTUPLTYPE RGB"), "RGB" },
+        { PAM("DEPTH 3\nMAXVAL 255\nTUPLTYPE RGB_ALPHA"), "RGB_ALPHA" },
+        { PAM("DEPTH 3\nMAXVAL 255\nTUPLTYPE RGB\nTUPLTYPE RGB"), "RGB" },
+        { PAM("DEPTH 1\nMAXVAL 255 255"), "MAXVAL should" },
+        { PAM("DEPTH 1 MAXVAL 255"), "DEPTH should" },
+        { PAM("DEPTH\n1\nMAXVAL 255"), "DEPTH should" },
+        { PAM("DEPTH 0x1\nMAXVAL 255"), "DEPTH should" },
+        { PAM("DEPTH 1\nMAXVAL 255\nWIDTH 1"), "again" },
+        { PAM("DEPTH 1\nMAXVAL 255\nENDHDR now"), "none of a PAM header" },
+        { PAM("DEPTH 1\nMAXVAL 255\nendhdr"), "none of a PAM header" },
+#undef PAM
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        lom_error error = { 0 };
+        lom_image *image = lom_decode_image((const uint8_t *)bad[i].file, strlen(bad[i].file), "t.pnm", &error);
+        CHECK(image == NULL && strstr(error.text, bad[i].says) != NULL, "%s: %s", bad[i].file, error.text);
+        lom_free_image(image);
+    }
+    lom_image *image = DECODE("Pf\r\n1 1\r\n-1.0\r\n\0\0\200\77", NULL);
+    CHECK(image != NULL && *(float *)(void *)image->pixels == 1, "PFM with carriage returns");
+    lom_free_image(image);
+}
+
 static void every_maximum(void)
 {
     uint8_t file[64];
@@ -342,6 +399,7 @@ static void y4m(void)
 int main(int argc, char **argv)
 {
     RUN(by_hand);
+    RUN(header_forms);
     RUN(every_maximum);
     RUN(round_trips);
     RUN(dropped_and_replicated);
