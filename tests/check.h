@@ -3,6 +3,7 @@
 #ifndef LOM_TESTS_CHECK_H
 #define LOM_TESTS_CHECK_H
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,18 +44,23 @@ static inline int check_selected(int argc, char **argv, const char *name)
     return argc < 2;
 }
 
-/* Whether this processor runs what the test was compiled for: a wide test asks first, and prints SKIP when not. */
-static inline int check_lanes_run(void)
+/* A wide test ends with SKIP, before main, on a processor that lacks the instructions that it was compiled for. */
+#if defined __x86_64__ && defined __AVX2__
+__attribute__((constructor)) static void check_lanes(void)
 {
-#if defined __x86_64__ && defined __AVX512F__
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-#elif defined __x86_64__ && defined __AVX2__
-    return __builtin_cpu_supports("avx2");
+#ifdef __AVX512F__
+    bool runs = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                __builtin_cpu_supports("avx512cd");
 #else
-    return 1;
+    bool runs = __builtin_cpu_supports("avx2");
 #endif
+    if (!runs) {
+        printf("SKIP this processor has no instructions for this width\n");
+        exit(0);
+    }
 }
+#endif
 
 static inline int check_result(void)
 {

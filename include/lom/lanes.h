@@ -31,6 +31,18 @@
 #define LOM_PASTE(name, variant)          LOM_PASTE_EXPANDED(name, variant)
 /* The name of a function that exists once for each way lanes are built: LOM_WIDE(f) is f_4, f_8, f_16, f_8_plain ... */
 #define LOM_WIDE(name) LOM_PASTE(name, LOM_VARIANT)
+/* The place of each variant in a table of them: 4, 8, 16 lanes, then 8 and 16 lowered. */
+enum { LOM_SLOT_4 = 0, LOM_SLOT_8, LOM_SLOT_16, LOM_SLOT_8_plain, LOM_SLOT_16_plain, LOM_VARIANTS };
+/* LOM_EACH_VARIANT(X, name) is X(name, variant) for each way lanes are built: 4, 8 and 16, and on x86-64, where the 8
+ * and 16 are of AVX2 and AVX-512, both once more lowered to the baseline. A build with fewer defines its own (make
+ * VARIANTS="4 8"); 4 is always of them. */
+#ifndef LOM_EACH_VARIANT
+#ifdef __x86_64__
+#define LOM_EACH_VARIANT(X, name) X(name, 4) X(name, 8) X(name, 16) X(name, 8_plain) X(name, 16_plain)
+#else
+#define LOM_EACH_VARIANT(X, name) X(name, 4) X(name, 8) X(name, 16)
+#endif
+#endif
 
 /* Lowered lanes (LOM_LOWERED), which the machine has no vectors for, are many instructions an operation, so there the
  * compiler weighs every copy: a program without it would be twice the size (bench/results/limits.md). */

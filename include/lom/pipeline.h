@@ -66,12 +66,8 @@ enum {
     LOM_MAX_ATTRIBUTES = 8,
     LOM_MAX_VARYINGS = 24,
     LOM_MAX_DISTANCES = 8, /* clip and cull distances together */
-    LOM_MAX_COLORS = 4,
-    LOM_VARIANTS = 5 /* 4, 8, 16 lanes, then 8 and 16 lowered */
+    LOM_MAX_COLORS = 4
 };
-
-/* The place of each variant in a shader's tables. */
-enum { LOM_SLOT_4 = 0, LOM_SLOT_8, LOM_SLOT_16, LOM_SLOT_8_plain, LOM_SLOT_16_plain };
 
 /* What a vertex shader gets: LOM_LANES vertices. Missing components are 0, 0, 1 as in OpenGL (x, y, z, w = 0, 0, 0, 1).
  */
@@ -176,50 +172,36 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
     {                                                                                                                  \
         function(out, in, uniforms);                                                                                   \
     }
+#define LOM_SHADER_VERTEX_SLOT(name, variant)    [LOM_SLOT_##variant] = name##_vertex_entry_##variant,
+#define LOM_SHADER_FRAGMENT_SLOT(name, variant)  [LOM_SLOT_##variant] = name##_fragment_entry_##variant,
+#define LOM_SHADER_VERTEX_ENTRY(name, variant)   extern lom_vertex_function name##_vertex_entry_##variant;
+#define LOM_SHADER_FRAGMENT_ENTRY(name, variant) extern lom_fragment_function name##_fragment_entry_##variant;
 #if !defined LOM_ALL_LANES
-#define LOM_SHADER_TABLE(kind, name, type)
-#define LOM_SHADER_SLOT LOM_PASTE(LOM_SLOT, LOM_VARIANT)
-#define LOM_SHADER_LIST(entry)                                                                                         \
-    {                                                                                                                  \
-        [LOM_SHADER_SLOT] = LOM_WIDE(entry)                                                                            \
-    }
-#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
-    extern const lom_shader name;                                                                                      \
-    const lom_shader name = { #name, __VA_ARGS__ };
-#elif LOM_LANES == 4 && defined __x86_64__
-#define LOM_SHADER_TABLE(kind, name, type)                                                                             \
-    extern type name##_##kind##_entry_8, name##_##kind##_entry_16, name##_##kind##_entry_8_plain,                      \
-        name##_##kind##_entry_16_plain;
-#define LOM_SHADER_LIST(entry)                                                                                         \
-    {                                                                                                                  \
-        entry##_4, entry##_8, entry##_16, entry##_8_plain, entry##_16_plain                                            \
-    }
-#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
-    extern const lom_shader name;                                                                                      \
-    const lom_shader name = { #name, __VA_ARGS__ };
-#elif LOM_LANES == 4
-#define LOM_SHADER_TABLE(kind, name, type) extern type name##_##kind##_entry_8, name##_##kind##_entry_16;
-#define LOM_SHADER_LIST(entry)                                                                                         \
-    {                                                                                                                  \
-        entry##_4, entry##_8, entry##_16                                                                               \
-    }
-#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
-    extern const lom_shader name;                                                                                      \
-    const lom_shader name = { #name, __VA_ARGS__ };
+#define LOM_SHADER_EXPAND(X, name, variant) X(name, variant)
+#define LOM_SHADER_EACH(X, name)            LOM_SHADER_EXPAND(X, name, LOM_VARIANT)
 #else
-#define LOM_SHADER_TABLE(kind, name, type)
+#define LOM_SHADER_EACH(X, name) LOM_EACH_VARIANT(X, name)
+#endif
+#if !defined LOM_ALL_LANES || LOM_LANES == 4
+#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
+    extern const lom_shader name;                                                                                      \
+    const lom_shader name = { #name, __VA_ARGS__ };
+#define LOM_SHADER_DECLARE(X, name) LOM_SHADER_EACH(X, name)
+#else
 #define LOM_SHADER_DEFINE(name, ...)
+#define LOM_SHADER_DECLARE(X, name)
 #endif
 #define LOM_SHADER(name, vertex_function, fragment_function, ...)                                                      \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
     LOM_SHADER_ENTRY(fragment, name, fragment_function, lom_fragment, lom_varyings)                                    \
-    LOM_SHADER_TABLE(vertex, name, lom_vertex_function)                                                                \
-    LOM_SHADER_TABLE(fragment, name, lom_fragment_function)                                                            \
-    LOM_SHADER_DEFINE(name, LOM_SHADER_LIST(name##_vertex_entry), LOM_SHADER_LIST(name##_fragment_entry), __VA_ARGS__)
+    LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
+    LOM_SHADER_DECLARE(LOM_SHADER_FRAGMENT_ENTRY, name)                                                                \
+    LOM_SHADER_DEFINE(name, { LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) },                                         \
+                      { LOM_SHADER_EACH(LOM_SHADER_FRAGMENT_SLOT, name) }, __VA_ARGS__)
 #define LOM_DEPTH_SHADER(name, vertex_function, ...)                                                                   \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
-    LOM_SHADER_TABLE(vertex, name, lom_vertex_function)                                                                \
-    LOM_SHADER_DEFINE(name, LOM_SHADER_LIST(name##_vertex_entry), { NULL }, __VA_ARGS__)
+    LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
+    LOM_SHADER_DEFINE(name, { LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) }, { NULL }, __VA_ARGS__)
 
 /* ---- passes ---- */
 

@@ -3,17 +3,15 @@
  * sun. */
 #include "march/light_grid.h"
 
+#include "lanes/variants.h"
 #include "march/cells.h"
 
 #include <string.h>
 
-lom_slice_sweep lom_sweep_slice_4, lom_sweep_slice_8, lom_sweep_slice_16;
-
-static lom_slice_sweep *widest_sweep(void)
-{
-    lom_cpu cpu = lom_detect_cpu();
-    return cpu.avx512 ? lom_sweep_slice_16 : cpu.avx2 ? lom_sweep_slice_8 : lom_sweep_slice_4;
-}
+#define DECLARE(name, variant) lom_slice_sweep lom_sweep_slice_##variant;
+#define ENTRY(name, variant)   [LOM_SLOT_##variant] = lom_sweep_slice_##variant,
+LOM_EACH_VARIANT(DECLARE, )
+static lom_slice_sweep *const sweeps[LOM_VARIANTS] = { LOM_EACH_VARIANT(ENTRY, ) };
 
 void lom_free_light_grid(lom_light_grid *grid)
 {
@@ -306,7 +304,7 @@ bool lom_sweep_sun_by(lom_slice_sweep *sweep, lom_light_grid *grid, const lom_li
 
 bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error)
 {
-    return lom_sweep_sun_by(widest_sweep(), grid, desc, error);
+    return lom_sweep_sun_by(sweeps[lom_widest_variant(false)], grid, desc, error);
 }
 
 /* ---- sky and ground ---- */

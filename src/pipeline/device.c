@@ -1,29 +1,7 @@
 /* Opening and closing a device, and what it owns. In: a descriptor. Out: a device whose first error stays with it. */
 #include "pipeline/device.h"
 
-static int lanes_of(int variant)
-{
-    static const int lanes[LOM_VARIANTS] = { 4, 8, 16, 8, 16 };
-    return lanes[variant];
-}
-
-/* The variant that runs `lanes` lanes on this processor. */
-static int choose_variant(int lanes, bool plain)
-{
-#if defined __x86_64__
-    lom_cpu cpu = lom_detect_cpu();
-    if (lanes == 0)
-        lanes = plain ? 4 : cpu.avx512 ? 16 : cpu.avx2 ? 8 : 4;
-    if (lanes == 8)
-        return cpu.avx2 && !plain ? 1 : 3;
-    if (lanes == 16)
-        return cpu.avx512 && !plain ? 2 : 4;
-    return 0;
-#else
-    (void)plain;
-    return lanes == 16 ? 2 : lanes == 8 ? 1 : 0;
-#endif
-}
+#include "lanes/variants.h"
 
 static bool check_desc(const lom_device_desc *desc, lom_error *error)
 {
@@ -40,15 +18,19 @@ static bool check_desc(const lom_device_desc *desc, lom_error *error)
     return true;
 }
 
-static void resolve_desc(lom_device *device, const lom_device_desc *desc)
+static bool resolve_desc(lom_device *device, const lom_device_desc *desc)
 {
-    device->variant = choose_variant(desc->lanes, desc->plain);
-    device->desc.lanes = lanes_of(device->variant);
-    device->desc.plain = device->variant == 0 || device->variant > 2;
+    device->variant = desc->lanes != 0 ? lom_find_variant(desc->lanes, desc->plain) : lom_widest_variant(desc->plain);
+    if (device->variant < 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "This library was built without %d lanes%s.", desc->lanes,
+                        desc->plain ? " of baseline instructions" : " that run on this processor");
+    device->desc.lanes = lom_variants[device->variant].lanes;
+    device->desc.plain = lom_variants[device->variant].plain;
     device->desc.threads = desc->threads != 0 ? desc->threads : lom_default_threads();
     device->desc.tile = desc->tile != 0 ? desc->tile : 64;
     device->desc.chunk = desc->chunk != 0 ? desc->chunk : 8192;
     device->desc.batch = desc->batch != 0 ? desc->batch : 32;
+    return true;
 }
 
 lom_device *lom_open_device(const lom_device_desc *desc)
@@ -56,9 +38,8 @@ lom_device *lom_open_device(const lom_device_desc *desc)
     lom_device *device = lom_allocate(1, sizeof *device, NULL);
     if (device == NULL)
         return NULL;
-    if (!check_desc(desc, &device->error))
+    if (!check_desc(desc, &device->error) || !resolve_desc(device, desc))
         return device;
-    resolve_desc(device, desc);
     device->pool = lom_create_pool(device->desc.threads, &device->error);
     device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
     device->assemblies = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_assembly), &device->error);

@@ -1,5 +1,6 @@
 /* Recording a draw. In: a descriptor. Out: a checked copy of it and of its uniforms, with the pass's defaults filled
  * in. Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
+#include "lanes/variants.h"
 #include "pipeline/device.h"
 
 static size_t attribute_size(lom_attribute_kind kind)
@@ -67,10 +68,8 @@ static int choose_shader_variant(const lom_device *device, const lom_shader *sha
 {
     if (shader->vertex[device->variant] != NULL)
         return device->variant;
-    lom_cpu cpu = lom_detect_cpu();
-    const bool runs[LOM_VARIANTS] = { true, cpu.avx2, cpu.avx512, true, true };
     for (int variant = 0; variant < LOM_VARIANTS; variant++)
-        if (shader->vertex[variant] != NULL && lom_stages_of(variant) != NULL && runs[variant])
+        if (shader->vertex[variant] != NULL && lom_runs_variant(variant))
             return variant;
     return -1;
 }

@@ -242,10 +242,10 @@ struct lom_stages {
     void (*divide_row)(float *row, size_t count, float divisor);
 };
 
-/* NULL where the variant does not exist on this architecture. */
+/* NULL where the variant is not built. */
 const struct lom_stages *lom_stages_of(int variant);
 
-#define LOM_DECLARE_STAGES(variant)                                                                                    \
+#define LOM_DECLARE_STAGES(name, variant)                                                                              \
     void lom_find_extremes_##variant(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);              \
     void lom_rebase_indices_##variant(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);          \
     void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
@@ -257,11 +257,7 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_split_rows_##variant(const uint32_t *from, size_t blocks, uint32_t *upper, uint32_t *lower);              \
     void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
     void lom_divide_row_##variant(float *row, size_t count, float divisor);
-LOM_DECLARE_STAGES(4)
-LOM_DECLARE_STAGES(8)
-LOM_DECLARE_STAGES(16)
-LOM_DECLARE_STAGES(8_plain)
-LOM_DECLARE_STAGES(16_plain)
+LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
 
 /* Grows *array to at least `needed` elements of `size` bytes, keeping its content; false when memory runs out. */
 bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size);

@@ -122,19 +122,12 @@ void lom_free_fft(lom_fft *fft)
 
 /* ---- running ---- */
 
+#define VARIANT(name, variant)                                                                                         \
+    [LOM_SLOT_##variant] = { lom_fft_columns_##variant, lom_fft_rows_##variant, lom_fft_real_rows_##variant },
 static const struct {
-    int lanes;
     lom_fft_group *columns, *rows;
     lom_fft_real_group *real_rows;
-} variants[] = {
-    { 4, lom_fft_columns_4, lom_fft_rows_4, lom_fft_real_rows_4 },
-    { 8, lom_fft_columns_8, lom_fft_rows_8, lom_fft_real_rows_8 },
-    { 16, lom_fft_columns_16, lom_fft_rows_16, lom_fft_real_rows_16 },
-#if defined __x86_64__
-    { 8, lom_fft_columns_8_plain, lom_fft_rows_8_plain, lom_fft_real_rows_8_plain },
-    { 16, lom_fft_columns_16_plain, lom_fft_rows_16_plain, lom_fft_real_rows_16_plain },
-#endif
-};
+} variants[LOM_VARIANTS] = { LOM_EACH_VARIANT(VARIANT, ) };
 
 struct job {
     const lom_fft *fft;
@@ -167,7 +160,7 @@ void lom_transform_square(lom_fft *fft, lom_device *device, int sign, float *rea
 {
     struct lom_fft_planes square = { sign < 0 ? real : imaginary, sign < 0 ? imaginary : real,
                                      lom_fft_pitch(fft->size) };
-    size_t lanes = (size_t)variants[device->variant].lanes, count = (size_t)fft->size;
+    size_t lanes = (size_t)device->desc.lanes, count = (size_t)fft->size;
     lom_run_pool(
         device->pool, work,
         &(struct job){
@@ -180,8 +173,7 @@ void lom_transform_square(lom_fft *fft, lom_device *device, int sign, float *rea
 
 void lom_transform_hermitian(lom_fft *fft, lom_device *device, float *real, float *imaginary, float *result)
 {
-    size_t lanes = (size_t)variants[device->variant].lanes, count = (size_t)fft->size,
-           pitch = lom_fft_pitch(fft->size / 2);
+    size_t lanes = (size_t)device->desc.lanes, count = (size_t)fft->size, pitch = lom_fft_pitch(fft->size / 2);
     device->counters.transforms++;
     lom_run_pool(device->pool, work,
                  &(struct job){ .fft = fft,

@@ -40,13 +40,9 @@ typedef void lom_fft_group(const struct lom_fft *fft, struct lom_fft_planes squa
 typedef void lom_fft_real_group(const struct lom_fft *fft, struct lom_fft_planes half, size_t first, float *result,
                                 float *scratch);
 
-#define LOM_DECLARE_FFT(variant)                                                                                       \
+#define LOM_DECLARE_FFT(name, variant)                                                                                 \
     lom_fft_group lom_fft_columns_##variant, lom_fft_rows_##variant;                                                   \
     lom_fft_real_group lom_fft_real_rows_##variant;
-LOM_DECLARE_FFT(4)
-LOM_DECLARE_FFT(8)
-LOM_DECLARE_FFT(16)
-LOM_DECLARE_FFT(8_plain)
-LOM_DECLARE_FFT(16_plain)
+LOM_EACH_VARIANT(LOM_DECLARE_FFT, )
 
 #endif

@@ -7,17 +7,11 @@
 
 static const double two_pi = 6.283185307179586;
 
+#define VARIANT(name, variant)                                                                                         \
+    [LOM_SLOT_##variant] = { lom_sea_wave_row_##variant, lom_sea_field_row_##variant, lom_sea_view_row_##variant },
 static const struct {
     lom_sea_row *wave, *field, *view;
-} variants[] = {
-    { lom_sea_wave_row_4, lom_sea_field_row_4, lom_sea_view_row_4 },
-    { lom_sea_wave_row_8, lom_sea_field_row_8, lom_sea_view_row_8 },
-    { lom_sea_wave_row_16, lom_sea_field_row_16, lom_sea_view_row_16 },
-#if defined __x86_64__
-    { lom_sea_wave_row_8_plain, lom_sea_field_row_8_plain, lom_sea_view_row_8_plain },
-    { lom_sea_wave_row_16_plain, lom_sea_field_row_16_plain, lom_sea_view_row_16_plain },
-#endif
-};
+} variants[LOM_VARIANTS] = { LOM_EACH_VARIANT(VARIANT, ) };
 
 struct job {
     lom_sea_row *function;

@@ -56,12 +56,8 @@ struct lom_sea_rows {
 };
 
 typedef void lom_sea_row(const struct lom_sea_rows *rows, int row);
-#define LOM_DECLARE_SEA(variant)                                                                                       \
+#define LOM_DECLARE_SEA(name, variant)                                                                                 \
     lom_sea_row lom_sea_wave_row_##variant, lom_sea_field_row_##variant, lom_sea_view_row_##variant;
-LOM_DECLARE_SEA(4)
-LOM_DECLARE_SEA(8)
-LOM_DECLARE_SEA(16)
-LOM_DECLARE_SEA(8_plain)
-LOM_DECLARE_SEA(16_plain)
+LOM_EACH_VARIANT(LOM_DECLARE_SEA, )
 
 #endif

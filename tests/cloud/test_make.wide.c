@@ -172,10 +172,6 @@ static void test_rows_are_the_same_at_every_width(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(test_every_kind_by_seed);
     RUN(test_heaps_are_one_piece);
     RUN(test_an_anvil_spreads_over_its_tower);

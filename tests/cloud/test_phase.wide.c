@@ -105,10 +105,6 @@ static void v16_needles_are_finite(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(v16_phases_average_to_one_with_their_mean_cosine);
     RUN(v16_octaves_widen_the_phase);
     RUN(v16_lanes_follow_the_reference);

@@ -196,10 +196,6 @@ static void volumes(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP test_sample: this processor has no such lanes\n");
-        return 0;
-    }
     RUN(small_sizes_wraps_filters_formats);
     RUN(large_sizes);
     RUN(volumes);

@@ -341,10 +341,6 @@ static void test_sky_and_ground_are_two_stream(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(test_depths_agree_with_integration_along_rays);
     RUN(test_uniform_density_is_exact);
     RUN(test_depth_beyond_the_box_is_added);

@@ -257,10 +257,6 @@ static void v19_full_voxels(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(v2_v3_v13_slab_is_exact);
     RUN(v14_split_changes_nothing);
     RUN(v15_order_reversed);

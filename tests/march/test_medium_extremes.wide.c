@@ -255,10 +255,6 @@ static void v13_a_slab_scatters_once_by_its_closed_form(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(v1_least_steps_add_up);
     RUN(v1_steps_lost_in_rounding_do_not_stall);
     RUN(v4_no_extinction_is_clear);

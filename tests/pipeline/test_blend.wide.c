@@ -152,10 +152,6 @@ static void b7_colours_above_their_alpha_saturate(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP this processor has no instructions for this width\n");
-        return 0;
-    }
     RUN(b3_source_over_is_the_rounded_rational);
     RUN(b3_faint_layers_drift_within_their_bound);
     RUN(b6_nan_is_never_stored);

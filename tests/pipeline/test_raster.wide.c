@@ -502,10 +502,6 @@ static void a_repeated_triangle_has_equal_depths(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP this processor has no instructions for this width\n");
-        return 0;
-    }
     RUN(arbitrary_positions_snap_as_documented);
     RUN(a_fan_hits_its_centre_once);
     RUN(either_diagonal_covers_the_same);

@@ -94,10 +94,6 @@ static void l8_colours_beyond_white(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(l4_shininess_of_nothing_and_of_a_million);
     RUN(l5_normals_of_no_length_take_no_light);
     RUN(l7_light_from_the_side_and_from_behind);

@@ -250,10 +250,6 @@ static void mirrored_rays_that_go_down_are_mirrored_again(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(o1_fresnel_at_normal_and_grazing_incidence);
     RUN(o2_total_reflection_beyond_the_critical_angle);
     RUN(o3_brewster_reciprocity_and_conservation);

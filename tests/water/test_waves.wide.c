@@ -199,10 +199,6 @@ static void the_mesh_closes_and_reaches_the_corners(void)
 
 int main(int argc, char **argv)
 {
-    if (!check_lanes_run()) {
-        printf("SKIP %s: this processor lacks the instructions\n", argv[0]);
-        return 0;
-    }
     RUN(slopes_are_derivatives_of_the_displacement);
     RUN(w1_crests_never_loop);
     RUN(w3_foam_is_a_share);
