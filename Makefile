@@ -58,10 +58,12 @@ FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8
 FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16
 endif
 
-sources      := $(sort $(wildcard src/*/*.c))
+sources      := $(sort $(wildcard src/*/*.c src/*/*/*.c))
 cli_sources  := $(filter src/cli/%,$(sources))
-wide_sources := $(filter %.wide.c,$(filter-out src/cli/%,$(sources)))
-lib_sources  := $(filter-out %.wide.c src/cli/%,$(sources))
+# What the program measures with is not in the library.
+measure_sources := $(filter src/measure/%,$(sources))
+wide_sources := $(filter %.wide.c,$(filter-out src/cli/% src/measure/%,$(sources)))
+lib_sources  := $(filter-out %.wide.c src/cli/% src/measure/%,$(sources))
 ifneq ($(SDL),1)
 cli_sources  := $(filter-out src/cli/view_sdl.c,$(cli_sources))
 else
@@ -69,17 +71,19 @@ $(BUILD)/src/cli/%.o: CPPFLAGS += -DLOM_SDL
 $(BUILD)/src/cli/view_sdl.o: CFLAGS += $(shell pkg-config --cflags sdl2)
 CLI_LIBS = $(shell pkg-config --libs sdl2)
 endif
-lib_objects  := $(lib_sources:%.c=$(BUILD)/%.o) $(foreach v,$(VARIANTS),$(wide_sources:%.wide.c=$(BUILD)/%.w$(v).o))
+objects_of   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c,$(1))) $(foreach v,$(VARIANTS),$(patsubst %.wide.c,$(BUILD)/%.w$(v).o,$(filter %.wide.c,$(1))))
+lib_objects     := $(call objects_of,$(lib_sources) $(wide_sources))
+measure_objects := $(call objects_of,$(measure_sources))
 cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
 # What runs once and briefly is compiled for size.
 brief_sources := $(wildcard src/geometry/build*.c src/geometry/paint_*.c src/geometry/make_*.c src/geometry/shapes.c \
 	src/geometry/obj_*.c src/image/compare*.c src/measure/*.c src/render/load_*.c src/render/frame*.c src/cloud/*_keys.c \
-	src/water/*_keys.c src/water/make_*.c)
+	src/water/*_keys.c src/water/make_*.c src/waves/*_keys.c src/spray/*_keys.c src/spray/make_*.c)
 # What loops over much is compiled for speed, as all lanes are; the rest of the library in between.
 busy_sources := $(wildcard src/pipeline/*.c src/march/*.c src/base/*.c src/reference/*.c src/geometry/erode_*.c src/render/*.c) \
-	$(addprefix src/,geometry/noise.c image/mipmap.c image/texture.c image/convert_rows.c image/convert_image.c water/fft.c \
-	water/sea_step.c water/shallow_flow.c)
+	$(addprefix src/,geometry/noise.c image/mipmap.c image/texture.c image/convert_rows.c image/convert_image.c waves/fft.c \
+	waves/sea_step.c waves/shallow_flow.c)
 ifeq ($(O),3)
 $(BUILD)/src/cli/%.o $(BUILD)/src/scene/%.o: private CFLAGS += -Os
 $(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c $(brief_sources) $(busy_sources) src/cli/% src/scene/%,$(sources))): private CFLAGS += -O2
@@ -104,7 +108,11 @@ $(BUILD)/liblom.a: $(lib_objects)
 $(BUILD)/liblom.so: $(lib_objects)
 	@echo "  LD  $@"; $(CC) -shared $(LDFLAGS) -Wl,-soname,liblom.so.0 -o $@ $^ $(LDLIBS)
 
-$(BUILD)/lom: $(cli_objects) $(BUILD)/liblom.a
+$(BUILD)/measure.a: $(measure_objects)
+	@rm -f $@
+	@echo "  AR  $@"; $(AR) rcs $@ $^
+
+$(BUILD)/lom: $(cli_objects) $(BUILD)/measure.a $(BUILD)/liblom.a
 	$(CC) $(LDFLAGS) -o $@ $^ $(CLI_LIBS) $(LDLIBS)
 
 # Rebuilt when the flags change, so that a build folder never mixes two.
@@ -137,6 +145,10 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 	$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # The calls that tests/faults lets fail in turn.
+# The tests of what the program measures with.
+$(BUILD)/tests/measure/%: LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
+$(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
+
 FAULTS = aligned_alloc lom_release pthread_create read write open fsync close rename
 $(BUILD)/tests/faults/%: LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 
@@ -236,7 +248,7 @@ bench-sampling: $(foreach v,4 8 16,$(BUILD)/bench/sampling.w$(v))
 	for program in $^; do $$program || exit 1; done
 
 format:
-	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])
+	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch])
 
 # The installed library: header files, both libraries, the program, pkg-config's file and the compiler of shaders.
 INSTALL_BIN = $(DESTDIR)$(PREFIX)/bin
@@ -262,4 +274,4 @@ lint: $(BUILD)/liblom.a
 clean:
 	rm -rf $(BUILD)
 
--include $(lib_objects:.o=.d) $(cli_objects:.o=.d) $(programs:=.d)
+-include $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(programs:=.d)

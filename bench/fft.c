@@ -1,7 +1,7 @@
 /* Complex Fourier transforms of squares in float, one thread, against FFTW's measured plan (M. Frigo and S. Johnson:
  * The design and implementation of FFTW3, 2005), in turn in one run: make bench-fft. FFTW transforms from one array
  * into another and in place; the faster counts. Out: a table of the fastest of many runs in processor time. */
-#include "water/fft.h"
+#include "waves/fft.h"
 
 #include <fftw3.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* Particles: 60 000 drops of one fall, one thread: placed at a moment, made into sprites, put in the order of blending,
  * over 30 moments: make bench-particles. Out: a table of the least processor time, of drops that begin anywhere and of
  * drops in jets. */
-#include "water/spray.h"
+#include "spray/spray.h"
 
 #include <stdio.h>
 #include <time.h>

@@ -16,6 +16,7 @@
 #include <lom/shallow.h>
 #include <lom/sky.h>
 #include <lom/water.h>
+#include <lom/waves.h>
 #include <lom/reference.h>
 #include <lom/render.h>
 

@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "options.h"
 
-#include <lom/measure.h>
+#include "measure/measure.h"
 
 struct values {
     bool parts;

@@ -1,9 +1,9 @@
 /* Clouds as the pipeline draws them: volumes loaded once, light that follows the sun, and a draw a cloud. */
-#ifndef LOM_CLOUD_DRAW_H
-#define LOM_CLOUD_DRAW_H
+#ifndef LOM_CLOUD_CLOUD_DRAW_H
+#define LOM_CLOUD_CLOUD_DRAW_H
 
 #include "cloud/detail_noise.h"
-#include "pipeline/uniforms.h"
+#include "shading/uniforms.h"
 
 #include <lom/cloud.h>
 

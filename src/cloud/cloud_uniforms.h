@@ -1,8 +1,8 @@
 /* What the shaders of a cloud get. */
-#ifndef LOM_CLOUD_UNIFORMS_H
-#define LOM_CLOUD_UNIFORMS_H
+#ifndef LOM_CLOUD_CLOUD_UNIFORMS_H
+#define LOM_CLOUD_CLOUD_UNIFORMS_H
 
-#include "pipeline/uniforms.h"
+#include "shading/uniforms.h"
 
 #include <lom/cloud.h>
 

@@ -2,9 +2,9 @@
 #ifndef LOM_MEASURE_SELFTEST_H
 #define LOM_MEASURE_SELFTEST_H
 
-#include "pipeline/uniforms.h"
+#include "shading/uniforms.h"
 
-#include <lom/measure.h>
+#include "measure/measure.h"
 
 struct lom_selftest_uniforms {
     struct lom_matrix_uniform clip_from_world;

@@ -2,12 +2,12 @@
 #ifndef LOM_MEASURE_WORKLOAD_H
 #define LOM_MEASURE_WORKLOAD_H
 
-#include "peer_meshes.h"
+#include "measure/peer_meshes.h"
 
-#include "water/fft.h"
+#include "waves/fft.h"
 
 #include <lom/march.h>
-#include <lom/measure.h>
+#include "measure/measure.h"
 
 /* What has to be made for a workload. */
 enum {

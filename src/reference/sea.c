@@ -3,7 +3,7 @@
  * spectrum's. */
 #include "reference/waves.h"
 
-#include "water/sea_desc.h"
+#include "waves/sea_desc.h"
 
 bool lom_make_ray_sea(struct lom_wave_surface *surface, const lom_water_params *water, double time, double *shortest,
                       lom_error *error)

@@ -3,7 +3,7 @@
  * is that of its height, not the models' k times the wave's own change. */
 #include "reference/waves.h"
 
-#include "water/shallow_surface.h"
+#include "waves/shallow_surface.h"
 
 /* Heights of the terrain's vertices as the renderer has them. */
 static float *find_heights(const lom_reference *world, lom_error *error)

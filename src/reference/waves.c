@@ -4,7 +4,7 @@
  * (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH 1986). */
 #include "reference/waves.h"
 
-#include "water/waves.h"
+#include "waves/waves.h"
 
 static const double TURN = 6.283185307179586, SPACING = 0.006;
 
@@ -53,7 +53,7 @@ static bool find_waves(struct lom_wave_surface *surface, const lom_reference *wo
     const lom_water_params *water = &world->scene->water;
     struct lom_waves_uniform waves = { .trochoid_count = 0 };
     double greatest = 0;
-    lom_fill_trochoids(&waves, water, time);
+    lom_fill_trochoids(&waves, water->level, &water->waves, &water->foam, time);
     surface->level = water->level;
     surface->count = waves.trochoid_count;
     for (int i = 0; i < surface->count; i++) {

@@ -6,7 +6,7 @@
 #include "render/ground.h"
 #include "render/surface.h"
 #include "scene/scene_water.h"
-#include "water/spray.h"
+#include "spray/spray.h"
 #include "water/surface.h"
 
 #include <lom/reference.h>

@@ -1,7 +1,7 @@
 /* The cascades of a sea as textures. In: the scene's wind, a time. Out: what shaders look up: displacements,
  * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
 #include "render/renderer.h"
-#include "water/sea_desc.h"
+#include "waves/sea_desc.h"
 
 enum { places = LOM_SEA_HEIGHT | LOM_SEA_DISPLACEMENT };
 enum { MOMENTS = 3 }; /* of the window before this one, at which foam is looked for */

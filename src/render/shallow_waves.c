@@ -1,7 +1,7 @@
 /* Shallow water of a scene at a time, as shaders look it up. In: its state (scene/scene_water.h). Out: the surface as
  * textures. */
 #include "render/renderer.h"
-#include "water/shallow_surface.h"
+#include "waves/shallow_surface.h"
 
 bool lom_load_shallow(lom_renderer *r, lom_error *error)
 {

@@ -3,7 +3,7 @@
 #ifndef LOM_RENDER_SURFACE_H
 #define LOM_RENDER_SURFACE_H
 
-#include "pipeline/haze.h"
+#include "shading/haze.h"
 
 struct lom_material_uniform {
     float ambient[3], diffuse[3], specular[3], shininess;

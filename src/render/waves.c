@@ -1,7 +1,7 @@
 /* The waves of a scene's water at a time. In: the scene's parameters. Out: what shaders evaluate. */
 #include "render/renderer.h"
-#include "water/flow.h"
-#include "water/make_foam.h"
+#include "waves/flow.h"
+#include "spray/make_foam.h"
 #include "water/surface.h"
 
 enum { FLOW_CELLS = 160 };
@@ -93,7 +93,8 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
 
 void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time)
 {
-    lom_fill_trochoids(out, &renderer->scene->water, time);
+    lom_fill_trochoids(out, renderer->scene->water.level, &renderer->scene->water.waves, &renderer->scene->water.foam,
+                       time);
     fill_flow(renderer, &out->flow, time);
     lom_bound_shallow(renderer, out);
     lom_add_surf(renderer, out, time);
@@ -102,7 +103,8 @@ void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out
 
 bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error)
 {
-    lom_fill_trochoids(out, &renderer->scene->water, time);
+    lom_fill_trochoids(out, renderer->scene->water.level, &renderer->scene->water.waves, &renderer->scene->water.foam,
+                       time);
     lom_add_surf(renderer, out, time);
     return lom_place_shallow(renderer, out, time, error) && lom_place_sea(renderer, out, time, error);
 }

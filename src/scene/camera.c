@@ -1,6 +1,6 @@
 /* The camera, the light and the entities at a time. In: the scene's key frames and a time. Out: position, target and
  * angle; direction and colour; position and rotation. Invariant: functions of the time alone. */
-#include "key_frames.h"
+#include "scene/key_frames.h"
 
 #include <lom/scene.h>
 

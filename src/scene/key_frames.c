@@ -1,6 +1,6 @@
 /* Key frames. In: keys and a time. Out: numbers. Invariant: the result depends on the time alone, so any frame can be
  * made without the ones before it. */
-#include "key_frames.h"
+#include "scene/key_frames.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* The range of a key in words, for messages and the documentation alike. In: a key. Out: "above 0 and at most 1 m". */
-#include "reader.h"
+#include "scene/reader.h"
 
 #include <stdio.h>
 

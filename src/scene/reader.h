@@ -3,7 +3,7 @@
 #define LOM_SCENE_READER_H
 
 #include "base/keys.h"
-#include "toml.h"
+#include "scene/toml/toml.h"
 
 #include <lom/scene.h>
 

@@ -1,7 +1,7 @@
 /* A scene from its file: read, parse, override, fill by the tables, check. In: a path or text, overrides. Out: a
  * lom_scene that owns all it points to. Invariant: a scene that is returned is valid; the rest is released. */
-#include "reader.h"
-#include "scene_keys.h"
+#include "scene/reader.h"
+#include "scene/scene_keys.h"
 
 #include <string.h>
 

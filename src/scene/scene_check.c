@@ -1,8 +1,8 @@
 /* What concerns several keys of a scene at once. In: a filled lom_scene and the tree it came from. Out: directions,
  * file names and sizes worked out from what the file gives. Invariant: afterwards the scene contradicts itself nowhere.
  */
-#include "reader.h"
-#include "water/sea_desc.h"
+#include "scene/reader.h"
+#include "waves/sea_desc.h"
 
 #include <lom/shallow.h>
 

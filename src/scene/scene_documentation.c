@@ -1,7 +1,7 @@
 /* docs/scene.md from the tables of keys. In: the root table. Out: Markdown. Invariant: what the page says of a key is
  * what the reader checks, because both read the same table. */
-#include "reader.h"
-#include "scene_keys.h"
+#include "scene/reader.h"
+#include "scene/scene_keys.h"
 
 #include <stdarg.h>
 #include <stdio.h>

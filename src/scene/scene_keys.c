@@ -1,11 +1,13 @@
 /* The table of all keys of a scene file. In: the tables of the model layers. Out: names, ranges, defaults and
  * documentation of everything lom_scene holds. Invariant: reading, messages and docs/scene.md come from here alone; a
  * new table of keys is one line in `root`. */
-#include "scene_keys.h"
+#include "scene/scene_keys.h"
 
 #include "cloud/cloud_keys.h"
 #include "sky/sky_keys.h"
+#include "spray/spray_keys.h"
 #include "water/water_keys.h"
+#include "waves/wave_keys.h"
 
 #include <lom/scene.h>
 

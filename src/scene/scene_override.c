@@ -1,7 +1,7 @@
 /* Overrides of a scene: KEY=VALUE. In: the text and the tree of the file. Out: the tree with the value in its place.
  * Invariant: an override can say what the file could say and nothing else; what it says is checked where the file is.
  */
-#include "reader.h"
+#include "scene/reader.h"
 
 #include <stdio.h>
 #include <string.h>

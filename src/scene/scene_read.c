@@ -1,6 +1,6 @@
 /* From the tree of TOML values to structs, by the tables of keys. In: values and a table. Out: a filled struct, or an
  * error that names the place. Invariant: every member the table describes holds a value inside its range. */
-#include "reader.h"
+#include "scene/reader.h"
 
 #include <string.h>
 #include <sys/stat.h>

@@ -2,7 +2,7 @@
 #ifndef LOM_SCENE_SCENE_WATER_H
 #define LOM_SCENE_SCENE_WATER_H
 
-#include "water/surf.h"
+#include "waves/surf.h"
 
 #include <lom/scene.h>
 #include <lom/shallow.h>

@@ -1,6 +1,6 @@
 /* The known name that is most like a mistyped one. In: a word and the names. Out: one of them or none. Invariant: the
  * first of the nearest names wins, so the answer depends on the table alone. */
-#include "reader.h"
+#include "scene/reader.h"
 
 #include "base/nearest.h"
 

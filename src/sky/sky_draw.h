@@ -1,8 +1,8 @@
 /* Drawing the sky behind everything: one triangle over the whole frame at the far plane. */
-#ifndef LOM_SKY_DRAW_H
-#define LOM_SKY_DRAW_H
+#ifndef LOM_SKY_SKY_DRAW_H
+#define LOM_SKY_SKY_DRAW_H
 
-#include "pipeline/sky_gradient.h"
+#include "shading/gradient.h"
 
 #include <lom/geometry.h>
 #include <lom/sky.h>

@@ -1,6 +1,6 @@
 /* The table of the scene file's [sky] keys. In: nothing. Out: names, ranges, defaults and documentation of every member
  * of lom_sky_params. */
-#include "sky_keys.h"
+#include "sky/sky_keys.h"
 
 #include <lom/sky.h>
 

@@ -1,6 +1,6 @@
 /* The table of the scene file's [sky] keys; it fills a lom_sky_params. */
-#ifndef LOM_SKY_KEYS_H
-#define LOM_SKY_KEYS_H
+#ifndef LOM_SKY_SKY_KEYS_H
+#define LOM_SKY_SKY_KEYS_H
 
 #include "base/keys.h"
 

@@ -1,8 +1,8 @@
 /* Uniforms of the sky's shaders. */
-#ifndef LOM_SKY_UNIFORMS_H
-#define LOM_SKY_UNIFORMS_H
+#ifndef LOM_SKY_SKY_UNIFORMS_H
+#define LOM_SKY_SKY_UNIFORMS_H
 
-#include "pipeline/sky_gradient.h"
+#include "shading/gradient.h"
 
 struct lom_sky_uniforms {
     float direction[3][3]; /* of the ray through a point of the screen: rows x, y, z of (ndc x, ndc y, 1) */

@@ -3,8 +3,10 @@
 #ifndef LOM_WATER_SURFACE_H
 #define LOM_WATER_SURFACE_H
 
-#include "pipeline/sky_gradient.h"
-#include "water/waves.h"
+#include "shading/gradient.h"
+#include "waves/waves.h"
+
+#include <lom/water.h>
 
 #include <lom/geometry.h>
 

@@ -1,6 +1,8 @@
 /* The table of the scene file's [water] keys. In: nothing. Out: names, ranges, defaults and documentation of every
  * member of lom_water_params. Where the published method names no value, the default is ours and its text says why. */
-#include "water_keys.h"
+#include "water/water_keys.h"
+
+#include "waves/wave_keys.h"
 
 #include <lom/water.h>
 

@@ -1,6 +1,6 @@
 /* Any bytes as a TOML document: accepted or refused with one line, never a wrong read. Build with clang
  * -fsanitize=fuzzer,address,undefined. */
-#include "scene/toml.h"
+#include "scene/toml/toml.h"
 
 #include <stdlib.h>
 #include <string.h>

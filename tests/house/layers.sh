@@ -1,6 +1,6 @@
 #!/bin/sh
-# Includes go down only: a folder of src/ may include itself and what lies below it (design, section 2), and system headers
-# only of libc and pthreads. Prints each include that breaks this; fails when there is one.
+# Includes go down only: a folder of src/ (with those inside it) may include itself and what lies below it
+# (docs/architecture.md), and system headers only of libc and pthreads. Prints each include that breaks this; fails when there is one.
 below() {
     case $1 in
     base) echo base ;;
@@ -8,9 +8,11 @@ below() {
     image) echo image "$(below lanes)" ;;
     geometry) echo geometry "$(below image)" ;;
     pipeline) echo pipeline "$(below image)" ;;
+    shading) echo shading "$(below pipeline)" ;;
     march) echo march "$(below image)" ;;
-    water | cloud | sky) echo "$1 geometry pipeline march $(below image)" ;;
-    scene) echo "scene water cloud sky geometry pipeline march $(below image)" ;;
+    waves) echo waves geometry "$(below shading)" ;;
+    water | spray | cloud | sky) echo "$1 march $(below waves)" ;;
+    scene) echo "scene water spray cloud sky march $(below waves)" ;;
     reference) echo "reference $(below scene)" ;;
     render) echo "render $(below reference)" ;;
     measure) echo "measure $(below render)" ;;
@@ -23,7 +25,8 @@ public() { # the public headers of each layer
     base.h) echo base ;;
     lanes.h | lanes_mathematics.h) echo lanes ;;
     image.h | texture.h) echo image ;;
-    sea.h | shallow.h | particles.h) echo water ;;
+    sea.h | shallow.h) echo waves ;;
+    particles.h) echo spray ;;
     lom.h) echo cli ;;
     *) basename "$1" .h ;;
     esac
@@ -33,7 +36,7 @@ status=0
 for folder in src/*/; do
     name=$(basename "$folder")
     allowed=" $(below "$name") "
-    for file in "$folder"*.[ch]; do
+    for file in $(find "$folder" -name '*.[ch]'); do
         [ -f "$file" ] || continue
         for word in $(sed -n 's/^#include *[<"]\([^>"]*\)[>"].*/\1/p' "$file"); do
             case $word in
@@ -43,7 +46,7 @@ for folder in src/*/; do
             esac
             if [ -n "$layer" ]; then
                 case $allowed in *" $layer "*) ;; *) echo "$file includes $word, which lies above or beside src/$name"; status=1 ;; esac
-            elif [ ! -f "$folder$word" ] && [ ! -f "src/lanes/$word" ]; then
+            elif [ ! -f "$(dirname "$file")/$word" ] && [ ! -f "src/lanes/$word" ]; then
                 case $system in *" ${word%.h} "*) ;; *) echo "$file includes <$word>, which is neither libc nor pthreads"; status=1 ;; esac
             fi
         done

@@ -9,7 +9,7 @@ have() { command -v "$1" >/dev/null 2>&1 || { echo "lint: $1 is not installed, s
 
 tests/house/layers.sh || status=1
 
-sources=$(ls include/lom/*.h src/*/*.[ch] tests/*.h tests/*/*.[ch])
+sources=$(ls include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch])
 if have clang-format "the format"; then
     clang-format --dry-run -Werror $sources 2>"$BUILD/format.log" || {
         grep -o '^[^:]*' "$BUILD/format.log" | sort -u | grep '^[a-z]*/' | sed 's/$/: not formatted; run make format/'; status=1; }
@@ -36,7 +36,7 @@ fi
 if have cppcheck "what cppcheck sees"; then
     cppcheck --quiet --std=c11 --language=c --enable=warning,performance,portability --inline-suppr -j 2 \
         --suppress=missingIncludeSystem --suppress=uninitvar --suppress=internalAstError --suppress=syntaxError \
-        --error-exitcode=1 -Iinclude -Isrc -Isrc/lanes $(ls src/*/*.c | grep -v '\.wide\.c') || status=1
+        --error-exitcode=1 -Iinclude -Isrc -Isrc/lanes $(ls src/*/*.c src/*/*/*.c | grep -v '\.wide\.c') || status=1
 fi
 long=$(wc -l $sources | awk '$2 != "total" && $1 > 600 { print $2 " (" $1 " lines)" }')
 [ -z "$long" ] || found "long files: $long"

@@ -1,7 +1,7 @@
 /* Proves: the self-test agrees with its record on this machine, from whatever float state it is called in. */
 #include "check.h"
 
-#include <lom/measure.h>
+#include "measure/measure.h"
 
 #include <fenv.h>
 

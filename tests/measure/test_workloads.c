@@ -3,7 +3,7 @@
  * implementation of OpenGL drew from the same formulas (bench/peers/pictures). */
 #include "check.h"
 
-#include <lom/measure.h>
+#include "measure/measure.h"
 
 static const lom_device_desc devices[] = {
     { .threads = 1, .lanes = 4 },

@@ -6,7 +6,7 @@
 #define LOM_TESTS_TOML_CASES_H
 
 #include "check.h"
-#include "scene/toml.h"
+#include "scene/toml/toml.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,0 +1,102 @@
+/* What the shaders of every model layer share: matrices and vectors as floats, transformations and light over lanes. */
+#ifndef LOM_SHADING_UNIFORMS_H
+#define LOM_SHADING_UNIFORMS_H
+
+#include <lom/lanes_mathematics.h>
+#include <lom/pipeline.h>
+
+struct lom_matrix_uniform {
+    float m[4][4]; /* m[row][column], rounded once from double */
+};
+
+/* One directional light, Phong. */
+struct lom_light_uniform {
+    float to_light[3]; /* unit length */
+    float color[3];
+    float ambient[3]; /* from the sky, on what faces up */
+    float ground[3];  /* ambient light on what faces down */
+    /* what clouds let through, by where the light that passes a place meets a plane; NULL: all of it */
+    const lom_texture *shadow;
+    float shadow_s[4], shadow_t[4]; /* rows: texture coordinates of a place (x, y, z, 1) */
+    float shadow_strength;
+    /* up to which height (metres) terrain keeps the light off, over x and z; NULL: nowhere */
+    const lom_texture *ground_shadow;
+    float ground_scale[2]; /* its coordinates are 0.5 + (x, z) ground_scale */
+};
+
+LOM_INLINE lom_float3 lom_uniform3(const float v[3])
+{
+    return lom_splat3(v[0], v[1], v[2]);
+}
+
+LOM_INLINE lom_float lom_transform_row(const float row[4], lom_float3 p)
+{
+    return p.x * row[0] + p.y * row[1] + p.z * row[2] + row[3];
+}
+
+/* m (p, 1) */
+LOM_INLINE lom_float4 lom_transform4(const struct lom_matrix_uniform *m, lom_float3 p)
+{
+    return (lom_float4){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p),
+                         lom_transform_row(m->m[3], p) };
+}
+
+/* The share of the light that passes terrain: from none half a metre below the shadow's height to all above it. */
+LOM_INLINE lom_float lom_ground_light(const struct lom_light_uniform *light, lom_float3 world)
+{
+    if (light->ground_shadow == NULL)
+        return lom_splat(1.0f);
+    lom_float height = lom_sample(light->ground_shadow, 0.5f + world.x * light->ground_scale[0],
+                                  0.5f + world.z * light->ground_scale[1], (lom_float){ 0 })
+                           .x;
+    return lom_saturate(1.0f + (world.y - height) * 2.0f);
+}
+
+/* The share of the light that clouds and terrain let through to a place. */
+LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_float3 world)
+{
+    lom_float share = lom_ground_light(light, world);
+    if (light->shadow == NULL)
+        return share;
+    lom_float through = lom_sample(light->shadow, lom_transform_row(light->shadow_s, world),
+                                   lom_transform_row(light->shadow_t, world), (lom_float){ 0 })
+                            .x;
+    return share * (1.0f - light->shadow_strength * (1.0f - through));
+}
+
+/* The upper three rows of m (p, 1). */
+LOM_INLINE lom_float3 lom_transform3(const struct lom_matrix_uniform *m, lom_float3 p)
+{
+    return (lom_float3){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p) };
+}
+
+/* The upper 3x3 of m times v. */
+LOM_INLINE lom_float3 lom_rotate3(const struct lom_matrix_uniform *m, lom_float3 v)
+{
+    return (lom_float3){ v.x * m->m[0][0] + v.y * m->m[0][1] + v.z * m->m[0][2],
+                         v.x * m->m[1][0] + v.y * m->m[1][1] + v.z * m->m[1][2],
+                         v.x * m->m[2][0] + v.y * m->m[2][1] + v.z * m->m[2][2] };
+}
+
+/* Phong's specular term max(R.E, 0)^shininess of the light, R its reflection; 0 where the light is behind the surface
+ * and where R.E is not above 0, for a shininess of 0 too. */
+LOM_INLINE lom_float lom_phong_specular(const struct lom_light_uniform *light, lom_float3 normal, lom_float3 to_eye,
+                                        float shininess)
+{
+    lom_float3 to_light = lom_uniform3(light->to_light);
+    lom_float facing = lom_dot3(normal, to_light);
+    lom_float3 reflected = lom_sub3(lom_scale3(normal, 2.0f * facing), to_light);
+    lom_float cosine = lom_max(lom_dot3(reflected, to_eye), (lom_float){ 0 });
+    lom_mask shines = (facing > 0.0f) & (cosine > 0.0f);
+    if (!lom_any(shines))
+        return (lom_float){ 0 };
+    return lom_select(shines, lom_pow(cosine, lom_splat(shininess)), (lom_float){ 0 });
+}
+
+/* max(N.L, 0) */
+LOM_INLINE lom_float lom_lambert(const struct lom_light_uniform *light, lom_float3 normal)
+{
+    return lom_max(lom_dot3(normal, lom_uniform3(light->to_light)), (lom_float){ 0 });
+}
+
+#endif

@@ -1,0 +1,131 @@
+/* Sprites of drops. In: where drops are, how they look, how the frame looks at them. Out: a sprite for each that is
+ * seen. Invariant: a sprite is a function of its drop and of the whole frame's view, never of a crop.
+ *
+ * A drop is a disc of this radius that faces the eye, drawn out along its way on the screen by what it flies in
+ * `stretch` seconds: what it covers is spread over that area, so the share that it takes of a pixel falls with it. A
+ * sprite is at least a pixel to each side of its middle, and thinner ones lose opacity instead of size: they neither
+ * sparkle nor vanish between the pixels' centres. */
+#include "spray/spray.h"
+
+/* Drops in front of the sun throw most of its light forward: the phase function of Henyey and Greenstein (1941) with
+ * this mean cosine. Light that is scattered more than once leaves dense spray on all sides: about half of what a white
+ * wall that faces the sun sends back. */
+static const double mean_cosine = 0.75, scattered_often = 0.55;
+static const double least_opacity = 1.0 / 4096;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* An isotropic scatterer sends a quarter of what a white wall does: pi E / (4 pi) against E. */
+static double sun_share(double forward, double cosine)
+{
+    const double g = mean_cosine, base = 1 + g * g - 2 * g * cosine;
+    return scattered_often + forward * (1 - g * g) / (4 * base * lom_double_sqrt(base));
+}
+
+/* Unit vectors along the drop's way as the eye sees it and across; returns the speed along the first. away: a unit
+ * vector from the eye. Where it flies straight at the eye, along is up on the screen. */
+static double find_axes(const struct lom_spray_view *view, const double away[3], const double velocity[3],
+                        double along[3], double across[3])
+{
+    double ahead = dot(velocity, away);
+    for (int i = 0; i < 3; i++)
+        along[i] = velocity[i] - ahead * away[i];
+    double speed = lom_double_sqrt(dot(along, along));
+    if (!(speed > 1e-6)) {
+        ahead = dot(view->view.m[1], away);
+        for (int i = 0; i < 3; i++)
+            along[i] = view->view.m[1][i] - ahead * away[i];
+    }
+    double length = larger(lom_double_sqrt(dot(along, along)), 1e-30);
+    for (int i = 0; i < 3; i++)
+        along[i] /= length;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        across[i] = along[j] * away[k] - along[k] * away[j];
+    }
+    return speed > 1e-6 ? speed : 0;
+}
+
+struct place {
+    double offset[3]; /* from the eye */
+    double x, y, w;   /* along the view's axes; w is ahead */
+};
+
+static struct place place_of(const struct lom_spray_view *view, const double at[3])
+{
+    struct place p = { .offset = { at[0] - view->eye.x, at[1] - view->eye.y, at[2] - view->eye.z } };
+    p.x = dot(view->view.m[0], p.offset);
+    p.y = dot(view->view.m[1], p.offset);
+    p.w = -dot(view->view.m[2], p.offset);
+    return p;
+}
+
+/* Whether a ball about the place lies outside the view. */
+static bool is_outside(const struct lom_spray_view *view, const struct place *p, double reach)
+{
+    double a = view->projection.m[0][0], b = view->projection.m[1][1];
+    double x = p->x < 0 ? -p->x : p->x, y = p->y < 0 ? -p->y : p->y;
+    return p->w + reach <= view->near_plane || x * a - p->w > reach * lom_double_sqrt(a * a + 1) ||
+           y * b - p->w > reach * lom_double_sqrt(b * b + 1);
+}
+
+/* A ball that reaches the near plane may be anywhere on the screen. */
+static void widen(struct lom_sprites *sprites, const struct lom_spray_view *view, const struct place *p, double reach)
+{
+    const double middle[2] = { p->x, p->y };
+    double nearest = p->w - reach, farthest = p->w + reach;
+    for (int i = 0; i < 2; i++) {
+        double scale = view->projection.m[i][i], low = -1, high = 1;
+        if (nearest > view->near_plane) {
+            double a = (middle[i] - reach) * scale, b = (middle[i] + reach) * scale;
+            low = a < 0 ? a / nearest : a / farthest;
+            high = b > 0 ? b / nearest : b / farthest;
+        }
+        sprites->low[i] = low < sprites->low[i] ? low : sprites->low[i];
+        sprites->high[i] = high > sprites->high[i] ? high : sprites->high[i];
+    }
+}
+
+static void add_sprite(struct lom_sprites *sprites, const lom_spray *spray, const struct lom_spray_view *view,
+                       const lom_particle *particle)
+{
+    const struct place p = place_of(view, particle->place);
+    double radius = spray->size[0] + (spray->size[1] - spray->size[0]) * particle->share;
+    double distance = larger(lom_double_sqrt(dot(p.offset, p.offset)), 1e-6), along[3], across[3];
+    const double away[3] = { p.offset[0] / distance, p.offset[1] / distance, p.offset[2] / distance };
+    double length = radius + find_axes(view, away, particle->velocity, along, across) * spray->stretch / 2;
+    double pixel = 2 * larger(p.w, view->near_plane) / (view->projection.m[1][1] * view->height);
+    double wide = larger(radius, pixel), high = larger(length, pixel);
+    double opacity = spray->opacity * particle->alpha * (radius / wide) * (radius / high);
+    double reach = wide + high;
+    if (opacity < least_opacity || is_outside(view, &p, reach))
+        return;
+    widen(sprites, view, &p, reach);
+    struct lom_sprite *s = &sprites->sprite[sprites->count];
+    sprites->depth[sprites->count++] = (float)p.w;
+    for (int i = 0; i < 3; i++) {
+        s->middle[i] = (float)p.offset[i];
+        s->along[i] = (float)(along[i] * high);
+        s->across[i] = (float)(across[i] * wide);
+        s->color[i] = (float)spray->color[i];
+    }
+    s->opacity = (float)opacity;
+    s->soft = (float)spray->soft;
+    s->sun = (float)sun_share(spray->forward, dot(away, view->to_light));
+}
+
+void lom_add_sprites(struct lom_sprites *sprites, const lom_spray *spray, const struct lom_spray_view *view,
+                     const lom_particle *particles, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (particles[i].alpha > 0)
+            add_sprite(sprites, spray, view, &particles[i]);
+}

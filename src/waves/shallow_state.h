@@ -1,0 +1,24 @@
+/* Shallow water between its steps. */
+#ifndef LOM_WAVES_SHALLOW_STATE_H
+#define LOM_WAVES_SHALLOW_STATE_H
+
+#include <lom/shallow.h>
+
+enum { LOM_SHALLOW_LINES = 8 }; /* lines that are solved side by side */
+
+struct lom_shallow {
+    lom_shallow_desc desc; /* with its defaults; bed and depth are NULL */
+    int64_t steps;
+    double *ground, *bed;    /* without obstacles, and with them */
+    double *depth;           /* a cell */
+    double *flow_x, *flow_z; /* a face */
+    double *scratch;         /* lom_shallow_scratch doubles */
+    double gained, lost;
+};
+
+/* Doubles that the solver needs for lines of so many cells. */
+size_t lom_shallow_scratch(int cells);
+/* Water flows along x, then along z, for one step. */
+void lom_flow_shallow(lom_shallow *shallow);
+
+#endif

@@ -1,0 +1,52 @@
+/* Waves that come in from the open water to a shore: how a train of one period shoals, turns and breaks over a bed,
+ * worked out once as maps over the bed. Any moment then follows from the maps and the time.
+ *
+ * With w = 2 pi / period, depth d: w^2 = g k tanh(k d) gives the wave number k; the phase is the eikonal |grad theta| =
+ * k, so crests turn to the shore as k grows; the flux of energy H^2 c_g is kept along the rays (in shallow water H
+ * d^1/4 then is constant: Green's law) until H > 0.78 d (McCowan 1894), from where on waves lose K/d of what their flux
+ * is above that of the stable height 0.4 d, K = 0.15 (Dally, Dean, Dalrymple 1985). */
+#ifndef LOM_WAVES_SURF_H
+#define LOM_WAVES_SURF_H
+
+#include "waves/waves.h"
+
+struct lom_surf_desc {
+    int width, height;   /* of the grid, 4..4097 */
+    double spacing[2];   /* metres from column to column (x) and from row to row (z) */
+    const double *depth; /* metres of water at rest, negative on land */
+    lom_water_surf surf;
+};
+
+/* A cell of the maps. */
+struct lom_surf_cell {
+    float phase, kx, kz, amplitude;     /* theta in radians, its gradient in rad/m, half the height in metres */
+    float skew, lean, breaking, unused; /* r cos f and r sin f of the wave's shape; 0 whole .. 1 breaking */
+};
+
+struct lom_surf_map {
+    int width, height;
+    double corner[2], spacing[2]; /* of the first cell in the world, metres: the caller's to set */
+    double along[2];              /* unit vector along the crests where they come in */
+    double length;                /* metres from crest to crest there */
+    double highest;               /* largest height, metres */
+    double breaking_depth;        /* largest depth in which a wave breaks; 0: none does */
+    struct lom_surf_cell *cells;
+};
+
+/* The wave number (rad/m) of waves of this angular frequency (rad/s) in water of this depth (m), both above 0: Newton's
+ * method on w^2 = g k tanh(k d). */
+double lom_wave_number(double frequency, double depth);
+/* Their group velocity, m/s: c/2 (1 + 2kd / sinh 2kd). */
+double lom_group_velocity(double frequency, double depth);
+
+/* Makes the maps. False when memory runs out; freed with lom_free_surf_map. */
+bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *desc, lom_error *error);
+void lom_free_surf_map(struct lom_surf_map *map);
+
+/* What the shaders need at a time, but for the textures. */
+void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
+                   double time);
+/* Height over a place, metres, in double, at a time of lom_fill_surf. */
+double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z);
+
+#endif

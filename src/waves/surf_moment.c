@@ -1,0 +1,79 @@
+/* Surf at a time. In: its maps, a time. Out: what shaders add to the maps' phases, and the height over a place in
+ * double. Invariant: a function of place and time; whole turns of the time are taken off in double. */
+#include "waves/surf.h"
+
+static const double two_pi = 6.283185307179586;
+/* Groups: the heights of crests vary as where two pairs of neighbouring periods beat, 6.1 and 3.7 crests apart, along
+ * crests by as many lengths. Their sum is at most 1. */
+static const double group[2] = { 6.1, 3.7 }, share[2] = { 0.6, 0.4 };
+
+static double reduced(double phase)
+{
+    double turns = phase / two_pi;
+    return (turns - lom_double_floor(turns + 0.5)) * two_pi;
+}
+
+void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
+                   double time)
+{
+    const double rate = two_pi / surf->period;
+    const int size[2] = { map->width, map->height };
+    out->time = (float)reduced(rate * time);
+    out->rate = (float)rate;
+    out->variation = (float)surf->variation;
+    for (int i = 0; i < 2; i++) {
+        out->corner[i] = (float)map->corner[i];
+        out->last[i] = (float)(map->corner[i] + map->spacing[i] * (size[i] - 1));
+        out->scale[i] = (float)(1 / (map->spacing[i] * size[i]));
+        out->half[i] = (float)(0.5 / size[i]);
+        out->group_time[i] = (float)reduced(rate * time / group[i]);
+        out->group_rate[i] = (float)(1 / group[i]);
+        out->group_share[i] = (float)share[i];
+        for (int k = 0; k < 2; k++)
+            out->group_along[i][k] = (float)(map->along[k] * two_pi / (map->length * group[i]) * (i == 0 ? 1 : -1));
+    }
+}
+
+/* Bilinear between the cells, as a texture of them is. */
+static void look_up(const struct lom_surf_map *map, double x, double z, double value[6])
+{
+    const double place[2] = { (x - map->corner[0]) / map->spacing[0], (z - map->corner[1]) / map->spacing[1] };
+    const int size[2] = { map->width, map->height };
+    int cell[2];
+    double part[2];
+    for (int i = 0; i < 2; i++) {
+        double at = place[i] < 0 ? 0 : place[i] > size[i] - 1 ? size[i] - 1 : place[i];
+        cell[i] = (int)at < size[i] - 2 ? (int)at : size[i] - 2;
+        part[i] = at - cell[i];
+    }
+    for (int k = 0; k < 6; k++)
+        value[k] = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        int dx = corner & 1, dz = corner >> 1;
+        const struct lom_surf_cell *c = &map->cells[(cell[1] + dz) * map->width + cell[0] + dx];
+        const float from[6] = { c->phase, c->kx, c->kz, c->amplitude, c->skew, c->lean };
+        double weight = (dx ? part[0] : 1 - part[0]) * (dz ? part[1] : 1 - part[1]);
+        for (int k = 0; k < 6; k++)
+            value[k] += weight * (double)from[k];
+    }
+}
+
+double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z)
+{
+    double v[6], low[2] = { map->corner[0], map->corner[1] };
+    look_up(map, x, z, v);
+    const double at[2] = { x, z };
+    double outside = 0;
+    for (int i = 0; i < 2; i++) {
+        double last = (double)moment->last[i], inside = at[i] < low[i] ? low[i] : at[i] > last ? last : at[i];
+        outside += v[1 + i] * (at[i] - inside);
+    }
+    const double theta = v[0] + outside, angle = (double)moment->time - theta, s = lom_double_sin(angle);
+    const double c = lom_double_cos(angle), root = lom_double_sqrt(1 - v[4] * v[4] - v[5] * v[5]);
+    double size = 1;
+    for (int i = 0; i < 2; i++)
+        size += (double)moment->variation * share[i] *
+                lom_double_sin((double)moment->group_time[i] - theta / group[i] +
+                               (double)moment->group_along[i][0] * x + (double)moment->group_along[i][1] * z);
+    return v[3] * size * root * (s + v[5] / (1 + root)) / (1 - v[4] * c + v[5] * s);
+}

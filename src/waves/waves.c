@@ -1,0 +1,181 @@
+/* Trochoids from the water's parameters. In: direction, lengths, height, steepness, a time; out: wave vectors, phases
+ * and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
+#include "waves/waves.h"
+
+static const double turn = 6.283185307179586, gravity = 9.80665;
+
+static double wave_length(const lom_water_waves *waves, int i)
+{
+    double place = (i + lom_random_uniform((uint64_t)waves->seed, 3 * (uint64_t)i)) / waves->count;
+    return waves->length[0] * lom_double_pow(waves->length[1] / waves->length[0], place);
+}
+
+/* Equal slopes of all waves: a = c length, with half the sum of a^2 equal to the variance (height / 4)^2. */
+static double amplitude_factor(const lom_water_waves *waves)
+{
+    double sum = 0;
+    for (int i = 0; i < waves->count; i++) {
+        double length = wave_length(waves, i);
+        sum += length * length / 2;
+    }
+    return waves->height / 4 / lom_double_sqrt(sum);
+}
+
+static lom_trochoid choose_wave(const lom_water_waves *waves, int i, double factor)
+{
+    uint64_t key = (uint64_t)waves->seed;
+    double normal[2], length = wave_length(waves, i);
+    lom_random_normal(key, 3 * (uint64_t)i + 1, normal);
+    double angle = waves->direction + waves->spread * normal[0];
+    lom_trochoid t = { .direction = { lom_double_cos(angle), lom_double_sin(angle) },
+                       .number = turn / length,
+                       .rate = lom_double_sqrt(gravity * (turn / length)),
+                       .phase = lom_random_uniform(key, 3 * (uint64_t)i + 2),
+                       .amplitude = factor * length };
+    double bound = 1 / (waves->count * t.number);
+    t.across = waves->steepness * (t.amplitude < bound ? t.amplitude : bound);
+    return t;
+}
+
+static bool is_within(double x, double low, double high)
+{
+    return x >= low && x <= high;
+}
+
+static bool check_trochoids(const lom_water_waves *w, lom_error *error)
+{
+    if (w->count < 1 || w->count > LOM_MAX_WAVES)
+        return lom_fail(error, LOM_ERROR_USAGE, "%d waves were asked for; there are 1 to %d.", w->count, LOM_MAX_WAVES);
+    if (!is_within(w->length[1], 1e-3, w->length[0]) || !is_within(w->length[0], 1e-3, 1e5))
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "The lengths of waves go from 0.001 to 100000 metres, the longest first.");
+    if (!is_within(w->height, 0, 100) || !is_within(w->steepness, 0, 1))
+        return lom_fail(error, LOM_ERROR_USAGE, "Waves are 0 to 100 metres high and their steepness is 0 to 1.");
+    if (!is_within(w->direction, -1e6, 1e6) || !is_within(w->spread, 0, 10))
+        return lom_fail(error, LOM_ERROR_USAGE, "The direction of waves is a finite angle, their spread 0 to 10.");
+    return true;
+}
+
+static int make_trochoids(const lom_water_waves *waves, lom_trochoid *out, lom_trochoid_report *report)
+{
+    int count = waves->height > 0 ? waves->count : 0;
+    double factor = count > 0 ? amplitude_factor(waves) : 0;
+    *report = (lom_trochoid_report){ .asked = 0 };
+    for (int i = 0; i < count; i++) {
+        out[i] = choose_wave(waves, i, factor);
+        report->asked += waves->steepness * out[i].amplitude * out[i].number;
+        report->steepness += out[i].across * out[i].number;
+        report->limited += out[i].across < waves->steepness * out[i].amplitude;
+    }
+    return count;
+}
+
+int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WAVES], lom_trochoid_report *report,
+                       lom_error *error)
+{
+    lom_trochoid_report unread;
+    if (!check_trochoids(waves, error))
+        return -1;
+    return make_trochoids(waves, out, report != NULL ? report : &unread);
+}
+
+/* Without whole turns, so that what follows is a small angle: both products are rounded in turns, 2^-53 of them. */
+static double phase_at(const lom_trochoid *t, double x, double z, double time)
+{
+    double turns = t->phase - t->rate * time / turn;
+    turns -= lom_double_floor(turns + 0.5);
+    double along = t->number * (t->direction[0] * x + t->direction[1] * z) / turn;
+    return (turns + (along - lom_double_floor(along + 0.5))) * turn;
+}
+
+lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, double x, double z, double time)
+{
+    lom_trochoid_point p = { .place = { x, 0, z } };
+    double sx = 0, sz = 0, xx = 0, zz = 0, xz = 0;
+    for (int i = 0; i < count; i++) {
+        const lom_trochoid *t = &trochoids[i];
+        double phase = phase_at(t, x, z, time), s = lom_double_sin(phase), c = lom_double_cos(phase);
+        double dx = t->direction[0], dz = t->direction[1], slope = t->number * t->amplitude * s;
+        double narrowing = t->number * t->across * c;
+        p.place[0] -= t->across * dx * s;
+        p.place[1] += t->amplitude * c;
+        p.place[2] -= t->across * dz * s;
+        sx -= dx * slope;
+        sz -= dz * slope;
+        xx -= dx * dx * narrowing;
+        zz -= dz * dz * narrowing;
+        xz -= dx * dz * narrowing;
+    }
+    p.jacobian = (1 + xx) * (1 + zz) - xz * xz;
+    /* The cross product of the tangents (xz, sz, 1 + zz) and (1 + xx, sx, xz). */
+    double n[3] = { sz * xz - (1 + zz) * sx, p.jacobian, sx * xz - (1 + xx) * sz };
+    double length = lom_double_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; k++)
+        p.normal[k] = length > 0 ? n[k] / length : k == 1;
+    return p;
+}
+
+void lom_fill_trochoids(struct lom_waves_uniform *out, double level, const lom_water_waves *waves,
+                        const lom_water_foam *foam, double time)
+{
+    lom_trochoid trochoids[LOM_MAX_WAVES];
+    lom_trochoid_report unread;
+    double high = 0, reach = 0;
+    out->level = (float)level;
+    out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER ? make_trochoids(waves, trochoids, &unread) : 0;
+    for (int i = 0; i < out->trochoid_count; i++) {
+        const lom_trochoid *t = &trochoids[i];
+        double turns = t->phase - t->rate * time / turn, x = t->direction[0], z = t->direction[1];
+        turns -= lom_double_floor(turns + 0.5);
+        out->trochoid[i] = (struct lom_trochoid_uniform){ .kx = (float)(x * t->number),
+                                                          .kz = (float)(z * t->number),
+                                                          .phase = (float)(turns * turn),
+                                                          .amplitude = (float)t->amplitude,
+                                                          .across_x = (float)(x * t->across),
+                                                          .across_z = (float)(z * t->across),
+                                                          .rate = (float)t->rate };
+        high += t->amplitude;
+        reach += t->across;
+    }
+    bool breaks = out->trochoid_count > 0 && foam->amount > 0;
+    out->foam_threshold = breaks ? (float)foam->threshold : 0;
+    out->foam_window = (float)foam->window;
+    out->highest = (float)(high * 1.0001);
+    out->lowest = -out->highest;
+    out->reach = (float)(reach * 1.0001);
+}
+
+double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z)
+{
+    double rest_x = x, rest_z = z, height = 0;
+    for (int step = 0; step < 12; step++) {
+        double dx = 0, dz = 0;
+        height = 0;
+        for (int i = 0; i < waves->trochoid_count; i++) {
+            const struct lom_trochoid_uniform *t = &waves->trochoid[i];
+            double angle = (double)t->kx * rest_x + (double)t->kz * rest_z + (double)t->phase;
+            dx -= t->across_x * lom_double_sin(angle);
+            dz -= t->across_z * lom_double_sin(angle);
+            height += t->amplitude * lom_double_cos(angle);
+        }
+        rest_x = x - dx;
+        rest_z = z - dz;
+    }
+    return height;
+}
+
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time)
+{
+    double period = speed > 0 ? tile / (3 * speed) : 1, weight[2];
+    for (int i = 0; i < 2; i++) {
+        double cycles = time / period + 0.5 * i, whole = lom_double_floor(cycles), share = cycles - whole;
+        double jump[2] = { 0.381966 * whole + 0.5 * i, 0.618034 * whole };
+        weight[i] = share < 0.5 ? 2 * share : 2 - 2 * share;
+        flow->drift[i] = (float)(speed * period * (share - 0.5));
+        for (int k = 0; k < 2; k++)
+            flow->jump[i][k] = (float)(jump[k] - lom_double_floor(jump[k]));
+    }
+    double norm = lom_double_sqrt(weight[0] * weight[0] + weight[1] * weight[1]);
+    flow->weight[0] = (float)(weight[0] / norm);
+    flow->weight[1] = (float)(weight[1] / norm);
+}

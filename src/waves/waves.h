@@ -1,0 +1,140 @@
+/* The waves of a surface, over lanes. In: a rest position (x, z) and the size of what is sampled there; out: where the
+ * surface is above it, how steep, and how rough below that size. A surface is the sum of trochoids (Gerstner) and of
+ * the cascades of a sea; either may be absent.
+ *
+ * A trochoid of wave vector k, amplitude a and phase f, with t = k.(x, z) + f: height a cos t; horizontal displacement
+ * -b k/|k| sin t with b <= a, which narrows the crests (Gerstner 1809; Fournier and Reeves 1986). Signs and names of
+ * derivatives are those of lom/sea.h.
+ *
+ * Invariant: what a filter takes from the slopes it adds to their covariance (Olano and Baker 2010, LEAN mapping: the
+ * mean square less the squared mean), so that a far surface is as rough as a near one. */
+#ifndef LOM_WAVES_WAVES_H
+#define LOM_WAVES_WAVES_H
+
+#include "shading/uniforms.h"
+
+#include <lom/waves.h>
+
+enum { LOM_SURFACE_CASCADES = 4 };
+
+struct lom_trochoid_uniform {
+    float kx, kz;                        /* rad/m */
+    float phase;                         /* radians at this time */
+    float amplitude, across_x, across_z; /* metres: a, and b k/|k| */
+    float rate;                          /* rad/s that the phase falls by */
+};
+
+struct lom_cascade_uniform {
+    const lom_texture *displacement; /* dx, h, dz, xz */
+    const lom_texture *derivatives;  /* sx, sz, xx, zz */
+    const lom_texture *moments;      /* sx^2, sz^2, sx sz, foam */
+    float inverse_length, shift;     /* s = x inverse_length + shift */
+};
+
+/* Ripples of a normal map that a flow carries, in two phases: each drifts for a period and starts again where its
+ * weight is 0. */
+struct lom_flow_uniform {
+    const lom_texture *field; /* velocities in parts of the mean speed; NULL: no flow */
+    const lom_texture *ripples;
+    float corner[2], scale[2]; /* of the field over x and z */
+    float inverse_tile, steepness;
+    float drift[2], weight[2], jump[2][2]; /* metres at speed 1; shares; offsets in repetitions */
+};
+
+/* A region whose surface is computed (water/shallow_surface.h): a texel a cell. */
+struct lom_shallow_uniform {
+    const lom_texture *surface, *moments; /* NULL: there is none */
+    float corner[2], scale[2];            /* s = (x - corner[0]) scale[0] */
+};
+
+/* Waves that come to a shore (water/surf.h), by maps over it. */
+struct lom_surf_uniform {
+    const lom_texture *waves;  /* phase, kx, kz, amplitude; NULL: there are none */
+    const lom_texture *shapes; /* r cos f, r sin f, how much the wave breaks */
+    float corner[2], last[2];  /* x and z of the first and of the last cell */
+    float scale[2], half[2];   /* a place is at (x - corner) scale + half */
+    float time, rate;          /* w t in radians, less whole turns; w in rad/s */
+    float variation, group_time[2], group_rate[2], group_share[2], group_along[2][2];
+};
+
+struct lom_waves_uniform {
+    struct lom_flow_uniform flow;
+    struct lom_shallow_uniform shallow;
+    struct lom_surf_uniform surf;
+    int trochoid_count, cascade_count;
+    struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
+    struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
+    float level;           /* y at rest */
+    float lowest, highest; /* bounds of h, metres from the level */
+    float reach;           /* bound of |(dx, dz)| */
+    float foam_threshold;  /* the Jacobian below which trochoids break; 0: they have no foam */
+    float foam_window;     /* seconds that the foam lasts */
+};
+
+enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked at */
+
+/* The trochoids of the water at a time in seconds, exact phases for |time| up to 1e9; and the bounds of their sum. The
+ * horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves keep the sum of b k at most 1, which is where the
+ * first loop would close: the Jacobian of the displacement never falls below 0. */
+void lom_fill_trochoids(struct lom_waves_uniform *out, double level, const lom_water_waves *waves,
+                        const lom_water_foam *foam, double time);
+/* Both phases of a flow at a time, for ripples that repeat after `tile` metres: a period is as long as the mean speed
+ * takes for a third of it. Closed in time. */
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time);
+/* The height over the point (x, z) itself, in double: the rest position is found by iteration. */
+double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z);
+
+struct lom_wave_shift {
+    lom_float dx, h, dz;
+};
+
+/* Two vectors of the rest plane: from a sample to its neighbours. */
+struct lom_footprint {
+    lom_float ax, az, bx, bz;
+};
+
+struct lom_wave_slopes {
+    lom_float sx, sz, xx, zz, xz;
+    lom_float vxx, vzz, vxz; /* covariance of the slopes that are too small to be seen */
+    lom_float foam;          /* 0 none .. 1 */
+};
+
+/* The level of a texture of `scale` repetitions a metre for a footprint. */
+LOM_INLINE lom_float lom_wave_lod(const lom_texture *texture, const struct lom_footprint *f, float scale)
+{
+    return lom_lod_of(texture, f->ax * scale, f->az * scale, f->bx * scale, f->bz * scale);
+}
+
+/* Where the water is that rests at (x, z), less (x, 0, z) and the level; what is smaller than the footprint is left
+ * out. One function a width, so that no shader has a copy. */
+void LOM_WIDE(lom_displace_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
+                                  const struct lom_footprint *f, struct lom_wave_shift *shift);
+void LOM_WIDE(lom_find_slopes_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
+                                     const struct lom_footprint *f, struct lom_wave_slopes *slopes);
+
+LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                              const struct lom_footprint *f)
+{
+    struct lom_wave_shift shift;
+    LOM_WIDE(lom_displace_lanes)(waves, &x, &z, f, &shift);
+    return shift;
+}
+
+LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                                  const struct lom_footprint *f)
+{
+    struct lom_wave_slopes slopes;
+    LOM_WIDE(lom_find_slopes_lanes)(waves, &x, &z, f, &slopes);
+    return slopes;
+}
+
+/* The cross product of the tangents (1 + xx, sx, xz) and (xz, sz, 1 + zz), upwards; straight up where it vanishes. */
+LOM_INLINE lom_float3 lom_wave_normal(const struct lom_wave_slopes *w)
+{
+    lom_float a = 1.0f + w->xx, b = 1.0f + w->zz;
+    lom_float3 n = { w->xz * w->sz - w->sx * b, a * b - w->xz * w->xz, w->xz * w->sx - w->sz * a };
+    n.y = lom_max(n.y, lom_splat(0.02f)); /* a fold shows its upper side */
+    return lom_normalize3(n);
+}
+
+#endif

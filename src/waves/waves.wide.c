@@ -1,0 +1,266 @@
+/* The waves of a surface over lanes. In: rest positions and the size of what is sampled there; out: displacements,
+ * slopes with the variance of what is too small to be seen, foam (waves.h says what each kind of wave is). */
+#include "waves/waves.h"
+
+#include <string.h>
+
+/* How much of a wave is left when its phase changes by so much from sample to sample: (1 - (change / pi)^2)^2, nothing
+ * from pi on, where it could not be told from another. */
+static lom_float wave_weight(lom_float change)
+{
+    lom_float left = lom_max(1.0f - change * change * 0.10132118f, (lom_float){ 0 });
+    return left * left;
+}
+
+static lom_float phase_change(const struct lom_trochoid_uniform *t, const struct lom_footprint *f)
+{
+    return lom_max(lom_abs(t->kx * f->ax + t->kz * f->az), lom_abs(t->kx * f->bx + t->kz * f->bz));
+}
+
+/* What is looked up of the region: 0 outside. */
+struct shallow_place {
+    lom_float s, t, lod;
+    lom_mask inside;
+};
+
+static struct shallow_place shallow_place_of(const struct lom_shallow_uniform *u, lom_float x, lom_float z,
+                                             const struct lom_footprint *f)
+{
+    struct shallow_place p = { (x - u->corner[0]) * u->scale[0], (z - u->corner[1]) * u->scale[1], { 0 }, { 0 } };
+    p.inside = (p.s >= 0.0f) & (p.s <= 1.0f) & (p.t >= 0.0f) & (p.t <= 1.0f);
+    p.lod = lom_lod_of(u->surface, f->ax * u->scale[0], f->az * u->scale[1], f->bx * u->scale[0], f->bz * u->scale[1]);
+    return p;
+}
+
+/* A wave of surf at a place: its amplitude times its size in its group, the angle w t - theta, and what follows of the
+ * angle: its height in amplitudes and the derivative of that. */
+struct surf_wave {
+    lom_float amplitude, kx, kz, angle, lean_angle, breaking;
+    lom_float height, change;
+};
+
+/* eta = a s (sin t + r sin f / (1 + s)) / (1 - r cos(t + f)), s = sqrt(1 - r^2) (Abreu, Silva, Sancho, Temperville
+ * 2010, equation 7): a sine, peaked crests or a steep front. Beyond the maps the phase goes on straight. */
+static struct surf_wave find_surf(const struct lom_surf_uniform *u, lom_float x, lom_float z)
+{
+    lom_float s = (x - u->corner[0]) * u->scale[0] + u->half[0], t = (z - u->corner[1]) * u->scale[1] + u->half[1];
+    lom_float4 wave = lom_sample(u->waves, s, t, (lom_float){ 0 }),
+               shape = lom_sample(u->shapes, s, t, (lom_float){ 0 });
+    lom_float outside_x = x - lom_clamp(x, lom_splat(u->corner[0]), lom_splat(u->last[0]));
+    lom_float outside_z = z - lom_clamp(z, lom_splat(u->corner[1]), lom_splat(u->last[1]));
+    lom_float theta = wave.x + wave.y * outside_x + wave.z * outside_z, size = lom_splat(1.0f);
+    for (int i = 0; i < 2; i++)
+        size = size + u->variation * u->group_share[i] *
+                          lom_sin(u->group_time[i] - theta * u->group_rate[i] + x * u->group_along[i][0] +
+                                  z * u->group_along[i][1]);
+    struct surf_wave w = { .amplitude = wave.w * size, .kx = wave.y, .kz = wave.z, .angle = u->time - theta };
+    lom_float sine = lom_sin(w.angle), cosine = lom_cos(w.angle);
+    lom_float root = lom_sqrt(lom_max(1.0f - shape.x * shape.x - shape.y * shape.y, lom_splat(0.01f)));
+    lom_float above = sine + shape.y / (1.0f + root), below = 1.0f - shape.x * cosine + shape.y * sine;
+    w.height = root * above / below;
+    w.change = root * (cosine * below - above * (shape.x * sine + shape.y * cosine)) / (below * below);
+    w.breaking = shape.z;
+    w.lean_angle = w.angle + lom_atan2(shape.y, lom_max(shape.x, lom_splat(1e-6f)));
+    return w;
+}
+
+/* How much of it a footprint leaves. */
+static lom_float surf_weight(const struct surf_wave *w, const struct lom_footprint *f)
+{
+    return wave_weight(lom_max(lom_abs(w->kx * f->ax + w->kz * f->az), lom_abs(w->kx * f->bx + w->kz * f->bz)));
+}
+
+/* Foam of a breaking wave: it begins at the foot of the front, half a radian before the steepest place t = -f, and
+ * lies behind it until it has faded, whatever broke before: the same at every moment at which the angle is the same. */
+static lom_float surf_foam(const struct lom_surf_uniform *u, const struct surf_wave *w, float window)
+{
+    lom_float turns = (w->lean_angle + 0.5f) * 0.15915494f, part = turns - lom_floor(turns);
+    lom_float behind = lom_exp(part * (-6.2831855f / (u->rate * window)));
+    lom_float ahead = lom_saturate(1.0f - (1.0f - part) * 20.0f);
+    return w->breaking * lom_max(behind, ahead);
+}
+
+static struct lom_wave_shift find_shift(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                        const struct lom_footprint *f)
+{
+    struct lom_wave_shift p = { { 0 }, { 0 }, { 0 } };
+    for (int i = 0; i < waves->trochoid_count; i++) {
+        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
+        lom_float weight = wave_weight(phase_change(t, f));
+        if (!lom_any(weight > 0.0f))
+            continue;
+        lom_float angle = t->kx * x + t->kz * z + t->phase, s = lom_sin(angle) * weight;
+        p.h = p.h + t->amplitude * (lom_cos(angle) * weight);
+        p.dx = p.dx - t->across_x * s;
+        p.dz = p.dz - t->across_z * s;
+    }
+    if (waves->shallow.surface != NULL) {
+        struct shallow_place at = shallow_place_of(&waves->shallow, x, z, f);
+        lom_float height = lom_sample(waves->shallow.surface, at.s, at.t, at.lod).x;
+        p.h = p.h + lom_select(at.inside, height, (lom_float){ 0 });
+    }
+    if (waves->surf.waves != NULL) {
+        struct surf_wave w = find_surf(&waves->surf, x, z);
+        p.h = p.h + w.amplitude * w.height * surf_weight(&w, f);
+    }
+    for (int i = 0; i < waves->cascade_count; i++) {
+        const struct lom_cascade_uniform *c = &waves->cascade[i];
+        lom_float4 d = lom_sample(c->displacement, x * c->inverse_length + c->shift, z * c->inverse_length + c->shift,
+                                  lom_wave_lod(c->displacement, f, c->inverse_length));
+        p.dx = p.dx + d.x;
+        p.h = p.h + d.y;
+        p.dz = p.dz + d.z;
+    }
+    return p;
+}
+
+static void add_trochoid_slopes(const struct lom_trochoid_uniform *t, lom_float x, lom_float z,
+                                const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float weight = wave_weight(phase_change(t, f));
+    float kxa = t->kx * t->amplitude, kza = t->kz * t->amplitude;
+    lom_float lost = 0.5f * (1.0f - weight * weight);
+    w->vxx = w->vxx + kxa * kxa * lost;
+    w->vzz = w->vzz + kza * kza * lost;
+    w->vxz = w->vxz + kxa * kza * lost;
+    if (!lom_any(weight > 0.0f))
+        return;
+    lom_float angle = t->kx * x + t->kz * z + t->phase;
+    lom_float s = lom_sin(angle) * weight, c = lom_cos(angle) * weight;
+    w->sx = w->sx - kxa * s;
+    w->sz = w->sz - kza * s;
+    w->xx = w->xx - t->across_x * t->kx * c;
+    w->zz = w->zz - t->across_z * t->kz * c;
+    w->xz = w->xz - t->across_x * t->kz * c;
+}
+
+/* What broke at a rest point within the window before this time: the largest of its moments, each by how far the
+ * Jacobian was below the threshold, fading with its age. A function of the time alone: any frame has its foam. */
+static lom_float trochoid_foam(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                               const struct lom_footprint *f)
+{
+    lom_float foam = { 0 }, xx[LOM_FOAM_MOMENTS], zz[LOM_FOAM_MOMENTS], xz[LOM_FOAM_MOMENTS];
+    for (int m = 0; m < LOM_FOAM_MOMENTS; m++)
+        xx[m] = zz[m] = xz[m] = (lom_float){ 0 };
+    for (int i = 0; i < waves->trochoid_count; i++) {
+        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
+        lom_float weight = wave_weight(phase_change(t, f)), angle = t->kx * x + t->kz * z + t->phase;
+        for (int m = 0; m < LOM_FOAM_MOMENTS && lom_any(weight > 0.0f); m++) {
+            float ago = waves->foam_window * (float)m / LOM_FOAM_MOMENTS;
+            lom_float c = lom_cos(angle + t->rate * ago) * weight;
+            xx[m] = xx[m] - t->across_x * t->kx * c;
+            zz[m] = zz[m] - t->across_z * t->kz * c;
+            xz[m] = xz[m] - t->across_x * t->kz * c;
+        }
+    }
+    for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
+        lom_float jacobian = (1.0f + xx[m]) * (1.0f + zz[m]) - xz[m] * xz[m];
+        float fresh = 1.0f - (float)m / LOM_FOAM_MOMENTS;
+        foam = lom_max(foam, lom_saturate((waves->foam_threshold - jacobian) * 4.0f) * fresh);
+    }
+    return foam;
+}
+
+static void add_cascade_slopes(const struct lom_cascade_uniform *c, lom_float x, lom_float z,
+                               const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float s = x * c->inverse_length + c->shift, t = z * c->inverse_length + c->shift;
+    lom_float lod = lom_wave_lod(c->derivatives, f, c->inverse_length);
+    lom_float4 d = lom_sample(c->derivatives, s, t, lod), m = lom_sample(c->moments, s, t, lod);
+    w->sx = w->sx + d.x;
+    w->sz = w->sz + d.y;
+    w->xx = w->xx + d.z;
+    w->zz = w->zz + d.w;
+    w->xz = w->xz + lom_sample(c->displacement, s, t, lod).w;
+    w->vxx = w->vxx + lom_max(m.x - d.x * d.x, (lom_float){ 0 });
+    w->vzz = w->vzz + lom_max(m.y - d.y * d.y, (lom_float){ 0 });
+    w->vxz = w->vxz + (m.z - d.x * d.y);
+    w->foam = w->foam + m.w;
+}
+
+static void add_shallow_slopes(const struct lom_shallow_uniform *u, lom_float x, lom_float z,
+                               const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    struct shallow_place at = shallow_place_of(u, x, z, f);
+    lom_float zero = { 0 };
+    lom_float4 d = lom_sample(u->surface, at.s, at.t, at.lod), m = lom_sample(u->moments, at.s, at.t, at.lod);
+    w->sx = w->sx + lom_select(at.inside, d.y, zero);
+    w->sz = w->sz + lom_select(at.inside, d.z, zero);
+    w->vxx = w->vxx + lom_select(at.inside, lom_max(m.x - d.y * d.y, zero), zero);
+    w->vzz = w->vzz + lom_select(at.inside, lom_max(m.y - d.z * d.z, zero), zero);
+    w->vxz = w->vxz + lom_select(at.inside, m.z - d.y * d.z, zero);
+    w->foam = w->foam + lom_select(at.inside, d.w, zero);
+}
+
+static void add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                            const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    struct surf_wave wave = find_surf(&waves->surf, x, z);
+    lom_float weight = surf_weight(&wave, f), slope = -(wave.amplitude * wave.change * weight);
+    lom_float lost = 0.5f * (1.0f - weight * weight) * wave.amplitude * wave.amplitude;
+    w->sx = w->sx + slope * wave.kx;
+    w->sz = w->sz + slope * wave.kz;
+    w->vxx = w->vxx + lost * wave.kx * wave.kx;
+    w->vzz = w->vzz + lost * wave.kz * wave.kz;
+    w->vxz = w->vxz + lost * wave.kx * wave.kz;
+    w->foam = w->foam + surf_foam(&waves->surf, &wave, waves->foam_window);
+}
+
+/* Two waves of independent phase: their variances add up as w0^2 + w1^2, which is divided out, so that the ripples
+ * never pulse. What the map's levels average away shortens the normals: (1 - l) / l is its variance (Toksvig 2005). */
+static void add_flow_slopes(const struct lom_flow_uniform *flow, lom_float x, lom_float z,
+                            const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float s = (x - flow->corner[0]) * flow->scale[0], t = (z - flow->corner[1]) * flow->scale[1];
+    lom_float4 v = lom_sample(flow->field, s, t, (lom_float){ 0 });
+    lom_float lod = lom_wave_lod(flow->ripples, f, flow->inverse_tile);
+    lom_float sx = { 0 }, sz = { 0 }, lost = { 0 };
+    for (int i = 0; i < 2; i++) {
+        lom_float u = (x - v.x * flow->drift[i]) * flow->inverse_tile + flow->jump[i][0];
+        lom_float r = (z - v.y * flow->drift[i]) * flow->inverse_tile + flow->jump[i][1];
+        lom_float4 texel = lom_sample(flow->ripples, u, r, lod);
+        lom_float3 n = { texel.x * 2.0f - 1.0f, texel.z * 2.0f - 1.0f, texel.y * 2.0f - 1.0f };
+        lom_float length = lom_clamp(lom_sqrt(lom_dot3(n, n)), lom_splat(0.1f), lom_splat(1.0f));
+        lom_float scale = flow->weight[i] * flow->steepness / lom_max(n.y, lom_splat(0.1f));
+        sx = sx - n.x * scale;
+        sz = sz - n.z * scale;
+        lost = lost + flow->weight[i] * flow->weight[i] * (1.0f - length) / length;
+    }
+    lom_float hidden = 0.5f * flow->steepness * flow->steepness * lost;
+    w->sx = w->sx + sx;
+    w->sz = w->sz + sz;
+    w->vxx = w->vxx + hidden;
+    w->vzz = w->vzz + hidden;
+}
+
+static struct lom_wave_slopes find_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                                          const struct lom_footprint *f)
+{
+    struct lom_wave_slopes w;
+    memset(&w, 0, sizeof w);
+    for (int i = 0; i < waves->trochoid_count; i++)
+        add_trochoid_slopes(&waves->trochoid[i], x, z, f, &w);
+    if (waves->foam_threshold > 0)
+        w.foam = trochoid_foam(waves, x, z, f);
+    if (waves->surf.waves != NULL)
+        add_surf_slopes(waves, x, z, f, &w);
+    for (int i = 0; i < waves->cascade_count; i++)
+        add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
+    if (waves->shallow.surface != NULL)
+        add_shallow_slopes(&waves->shallow, x, z, f, &w);
+    if (waves->flow.field != NULL)
+        add_flow_slopes(&waves->flow, x, z, f, &w);
+    return w;
+}
+
+void LOM_WIDE(lom_displace_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
+                                  const struct lom_footprint *f, struct lom_wave_shift *shift)
+{
+    *shift = find_shift(waves, *x, *z, f);
+}
+
+void LOM_WIDE(lom_find_slopes_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
+                                     const struct lom_footprint *f, struct lom_wave_slopes *slopes)
+{
+    *slopes = find_slopes(waves, *x, *z, f);
+}

@@ -1,0 +1,211 @@
+/* Proves of the surface of trochoids at every width: slopes are the derivatives of the displacement, crests never loop,
+ * what a filter takes from the slopes it adds to their variance, phases stay exact after years, and bounds hold. */
+#include "check.h"
+
+#include "water/surface.h"
+
+static lom_water_params parameters(double height, double steepness, int count)
+{
+    lom_water_params water = { .level = 2 };
+    water.waves = (lom_water_waves){ .kind = LOM_WAVES_GERSTNER,
+                                     .seed = 7,
+                                     .direction = 0.4,
+                                     .height = height,
+                                     .length = { 20, 0.7 },
+                                     .count = count,
+                                     .steepness = steepness,
+                                     .spread = 0.5 };
+    return water;
+}
+
+static struct lom_waves_uniform waves_at(double height, double steepness, int count, double time)
+{
+    struct lom_waves_uniform waves;
+    lom_water_params water = parameters(height, steepness, count);
+    memset(&waves, 0, sizeof waves);
+    lom_fill_trochoids(&waves, water.level, &water.waves, &water.foam, time);
+    return waves;
+}
+
+static const struct lom_footprint point; /* no size: nothing is filtered */
+
+static struct lom_wave_shift shift_at(const struct lom_waves_uniform *waves, double x, double z)
+{
+    return lom_displace(waves, lom_splat((float)x), lom_splat((float)z), &point);
+}
+
+static double difference(lom_float after, lom_float before, double step)
+{
+    return ((double)after[0] - before[0]) / (2 * step);
+}
+
+static bool near(double a, double b, double bound)
+{
+    return a - b < bound && b - a < bound;
+}
+
+static void slopes_are_derivatives_of_the_displacement(void)
+{
+    struct lom_waves_uniform waves = waves_at(0.8, 0.7, 12, 3.5);
+    double step = 1.0 / 64;
+    for (int i = 0; i < 200; i++) {
+        double x = 0.37 * i - 20, z = 11 - 0.21 * i;
+        struct lom_wave_slopes s = lom_find_slopes(&waves, lom_splat((float)x), lom_splat((float)z), &point);
+        struct lom_wave_shift e = shift_at(&waves, x + step, z), w = shift_at(&waves, x - step, z);
+        struct lom_wave_shift n = shift_at(&waves, x, z + step), b = shift_at(&waves, x, z - step);
+        CHECK(near(difference(e.h, w.h, step), s.sx[0], 2e-3), "sx %g", s.sx[0]);
+        CHECK(near(difference(n.h, b.h, step), s.sz[0], 2e-3), "sz %g", s.sz[0]);
+        CHECK(near(difference(e.dx, w.dx, step), s.xx[0], 2e-3), "xx %g", s.xx[0]);
+        CHECK(near(difference(n.dz, b.dz, step), s.zz[0], 2e-3), "zz %g", s.zz[0]);
+        CHECK(near(difference(n.dx, b.dx, step), s.xz[0], 2e-3), "xz %g", s.xz[0]);
+        CHECK(near(difference(e.dz, w.dz, step), s.xz[0], 2e-3), "zx %g", s.xz[0]);
+        lom_float3 normal = lom_wave_normal(&s);
+        CHECK(near(lom_dot3(normal, normal)[0], 1, 1e-6) && normal.y[0] > 0, "normal %g", normal.y[0]);
+    }
+}
+
+/* W1: absurd heights; the Jacobian may touch 0 and no more. */
+static void w1_crests_never_loop(void)
+{
+    static const double heights[] = { 0.1, 1, 10, 100 };
+    for (size_t k = 0; k < sizeof heights / sizeof heights[0]; k++)
+        for (int count = 1; count <= LOM_MAX_WAVES; count += 21) {
+            struct lom_waves_uniform waves = waves_at(heights[k], 1, count, 1);
+            for (int i = 0; i < 2000; i++) {
+                struct lom_wave_slopes s =
+                    lom_find_slopes(&waves, lom_splat(0.05f * (float)i), lom_splat(0.031f * (float)i), &point);
+                double jacobian = (1.0 + s.xx[0]) * (1.0 + s.zz[0]) - (double)s.xz[0] * s.xz[0];
+                CHECK(jacobian > -1e-5, "height %g: a loop, Jacobian %g", heights[k], jacobian);
+                lom_float3 normal = lom_wave_normal(&s);
+                CHECK(near(lom_dot3(normal, normal)[0], 1, 1e-6), "a normal of length %g", lom_dot3(normal, normal)[0]);
+            }
+        }
+}
+
+/* W3: foam is a share at any steepness, none where no crest breaks, and some where they do. */
+static void w3_foam_is_a_share(void)
+{
+    for (int k = 0; k < 2; k++) {
+        struct lom_waves_uniform waves = waves_at(k == 0 ? 0.05 : 100, k == 0 ? 0.1 : 1, 21, 1);
+        waves.foam_threshold = 0.7f;
+        waves.foam_window = 2;
+        int foaming = 0;
+        for (int i = 0; i < 2000; i++) {
+            float foam =
+                lom_find_slopes(&waves, lom_splat(0.05f * (float)i), lom_splat(0.031f * (float)i), &point).foam[0];
+            CHECK(foam >= 0 && foam <= 1, "foam %g", foam);
+            foaming += foam > 0;
+        }
+        CHECK(k == 0 ? foaming == 0 : foaming > 0, "%d points of %s waves foam", foaming, k == 0 ? "gentle" : "steep");
+    }
+}
+
+static void w2_no_height_is_flat(void)
+{
+    struct lom_waves_uniform waves = waves_at(0, 1, 8, 5);
+    struct lom_wave_shift s = shift_at(&waves, 3, 4);
+    CHECK(waves.trochoid_count == 0 && s.h[0] == 0 && s.dx[0] == 0, "%d waves of no height", waves.trochoid_count);
+    CHECK(waves.highest == 0 && waves.reach == 0 && waves.level == 2, "bounds of nothing");
+}
+
+/* The mean square slope of the surface, seen or filtered away, is the same from every distance. */
+static void filtered_slopes_become_variance(void)
+{
+    struct lom_waves_uniform waves = waves_at(0.5, 0, 10, 0);
+    double all = 0;
+    for (int i = 0; i < waves.trochoid_count; i++) {
+        double k = waves.trochoid[i].kx, m = waves.trochoid[i].kz, a = waves.trochoid[i].amplitude;
+        all += (k * k + m * m) * a * a / 2;
+    }
+    for (double size = 0.01; size < 100; size *= 1.7) {
+        struct lom_footprint f = { lom_splat((float)size), { 0 }, { 0 }, lom_splat((float)size) };
+        double seen = 0, hidden = 0;
+        enum { SAMPLES = 6000 };
+        for (int i = 0; i < SAMPLES; i++) {
+            float x = (float)(4000 * lom_random_uniform(1, 2 * (uint64_t)i));
+            float z = (float)(4000 * lom_random_uniform(1, 2 * (uint64_t)i + 1));
+            struct lom_wave_slopes s = lom_find_slopes(&waves, lom_splat(x), lom_splat(z), &f);
+            seen += ((double)s.sx[0] * s.sx[0] + (double)s.sz[0] * s.sz[0]) / SAMPLES;
+            hidden = (double)s.vxx[0] + s.vzz[0];
+        }
+        CHECK(near(seen + hidden, all, 0.05 * all), "size %g: %g seen + %g hidden, not %g", size, seen, hidden, all);
+        CHECK(size < 30 || near(hidden, all, 1e-5), "from far away %g of %g is hidden", hidden, all);
+    }
+}
+
+/* After 10^7 seconds the phase is that of double arithmetic, and time runs: a wave travels along its direction. */
+static void phases_are_exact_after_years(void)
+{
+    struct lom_waves_uniform late = waves_at(0.5, 0.5, 6, 1e7), start = waves_at(0.5, 0.5, 6, 0);
+    for (int i = 0; i < 6; i++) {
+        const struct lom_trochoid_uniform *t = &late.trochoid[i];
+        double k = lom_double_sqrt((double)t->kx * t->kx + (double)t->kz * t->kz);
+        CHECK(t->phase >= -3.1415930f && t->phase <= 3.1415930f, "phase %g", t->phase);
+        struct lom_waves_uniform next = waves_at(0.5, 0.5, 6, 0.01);
+        double moved = (double)next.trochoid[i].phase - start.trochoid[i].phase;
+        moved -= 6.283185307179586 * lom_double_floor(moved / 6.283185307179586 + 0.5);
+        CHECK(near(moved, -0.01 * lom_double_sqrt(9.80665 * k), 1e-5), "moved by %g", moved);
+    }
+}
+
+static void bounds_and_height_hold(void)
+{
+    struct lom_waves_uniform waves = waves_at(2, 1, 16, 40);
+    for (int i = 0; i < 3000; i++) {
+        struct lom_wave_shift s = shift_at(&waves, 0.31 * i, -0.17 * i);
+        CHECK(s.h[0] <= waves.highest && s.h[0] >= waves.lowest, "height %g", s.h[0]);
+        CHECK(s.dx[0] * s.dx[0] + s.dz[0] * s.dz[0] <= waves.reach * waves.reach, "shift %g %g", s.dx[0], s.dz[0]);
+    }
+    struct lom_waves_uniform gentle = waves_at(0.3, 0.5, 8, 4);
+    struct lom_wave_shift s = shift_at(&gentle, 5, 6);
+    double over = lom_trochoid_height(&gentle, 5.0 + (double)s.dx[0], 6.0 + (double)s.dz[0]);
+    CHECK(near(over, s.h[0], 1e-4), "over the point %g, at rest %g", over, s.h[0]);
+}
+
+/* The mesh of a view: rings go outwards to the far corner, a full circle closes on itself, and it is a function of the
+ * camera that asks for no more than its limits. */
+static void the_mesh_closes_and_reaches_the_corners(void)
+{
+    static const double pitches[] = { 0, -0.5, -1.5, 1.2 };
+    struct lom_polar_mesh mesh = { .rings = 0 };
+    for (size_t i = 0; i < sizeof pitches / sizeof pitches[0]; i++) {
+        lom_vec3 eye = { 10, 3, -20 };
+        lom_vec3 target = { 10 + lom_double_cos(pitches[i]), 3 + lom_double_sin(pitches[i]), -20 };
+        struct lom_polar_mesh_desc desc = { .projection = lom_perspective(0.8, 1.6, 0.1),
+                                            .view = lom_look_at(eye, target, (lom_vec3){ 0, 1, 0 }),
+                                            .eye = eye,
+                                            .lowest = -1,
+                                            .highest = 1,
+                                            .reach = 0.8,
+                                            .quad = { -5000, -5000, 5000, 5000 },
+                                            .cell = 6,
+                                            .pixel_angle = 0.001 };
+        lom_error error = { 0 };
+        CHECK(lom_fill_polar_mesh(&mesh, &desc, &error), "%s", error.text);
+        CHECK(mesh.radius[0] == 0 && mesh.radius[mesh.rings - 1] > 7000, "from %g to %g", mesh.radius[0],
+              mesh.radius[mesh.rings - 1]);
+        for (int r = 1; r < mesh.rings; r++)
+            CHECK(mesh.radius[r] > mesh.radius[r - 1], "ring %d is not outside the one before", r);
+        int last = mesh.columns - 1;
+        bool whole = pitches[i] < -1 || pitches[i] > 1;
+        CHECK(whole == (mesh.cosine[0] == mesh.cosine[last] && mesh.sine[0] == mesh.sine[last]), "pitch %g: the seam",
+              pitches[i]);
+        CHECK(mesh.index_count == (size_t)(mesh.rings - 1) * (size_t)last * 6, "%zu indices", mesh.index_count);
+        for (size_t k = 0; k < mesh.index_count; k += 997)
+            CHECK(mesh.indices[k] < (uint32_t)(mesh.rings * mesh.columns), "index %u", mesh.indices[k]);
+    }
+    lom_free_polar_mesh(&mesh);
+}
+
+int main(int argc, char **argv)
+{
+    RUN(slopes_are_derivatives_of_the_displacement);
+    RUN(w1_crests_never_loop);
+    RUN(w3_foam_is_a_share);
+    RUN(w2_no_height_is_flat);
+    RUN(filtered_slopes_become_variance);
+    RUN(phases_are_exact_after_years);
+    RUN(bounds_and_height_hold);
+    RUN(the_mesh_closes_and_reaches_the_corners);
+    return check_result();
+}
