@@ -47,6 +47,19 @@ typedef struct lom_error {
  * false, so that a failing function can `return lom_fail(...)`. */
 bool lom_fail(lom_error *error, lom_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* What a lenient reader passed over. */
+typedef struct lom_warnings {
+    size_t count;    /* of sentences, those that found no room included */
+    char text[1000]; /* the first of them, whole, each ended by a newline */
+} lom_warnings;
+/* Adds one sentence, unless it is there already; control characters become '?'. NULL is allowed. */
+void lom_warn(lom_warnings *warnings, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Adds those of another thing. */
+void lom_add_warnings(lom_warnings *warnings, const lom_warnings *more);
+/* Where an unreadable file is no failure: turns the error of one (LOM_ERROR_FILE, _INPUT or _LIMIT) into a warning and
+ * clears it. False for any other error, which stays. */
+bool lom_warn_instead(lom_warnings *warnings, lom_error *error);
+
 /* ---- memory ---- */
 
 /* Zeroed memory for count elements of size bytes, aligned to 64. NULL (and LOM_ERROR_MEMORY) when the product overflows

@@ -117,7 +117,7 @@ typedef struct lom_mesh {
     lom_material *materials;
     size_t vertex_count, index_count, part_count, material_count;
     size_t source_triangles; /* n - 2 for every polygon of the source */
-    char warning[256];       /* empty, or one sentence about what a lenient reader passed over */
+    lom_warnings warnings;   /* what a lenient reader passed over */
 } lom_mesh;
 
 /* A mesh with zeroed arrays of these lengths, for callers that fill it themselves. At most 2^32 - 1 vertices and
@@ -133,14 +133,20 @@ lom_material lom_default_material(const char *name);
  * v x y z [w] [r g b]: w weighs free-form curves and is ignored. vt u [v [w]]. vn as the file has it, not normalised.
  * f in its four forms, negative indices count back from the statement, positive ones may point forward. A polygon is
  * cut by ear clipping in the plane of its normal into n - 2 triangles, always. Corners with equal (v, vt, vn) become
- * one vertex; vertices are numbered by first use. A backslash at the end of a line continues it. '#' at the start of a
- * word begins a comment. Other statements (g, o, s, l, p, curves) are passed over.
+ * one vertex; vertices are numbered by first use in triangles. A backslash at the end of a line continues it. '#' at
+ * the start of a word begins a comment, but the names of materials and files go on to the end of their line ("Material
+ * #25"); a comment behind one is told from it when what stands before '#' is a material or file that is there, or, for
+ * a map, ends with an extension. Other statements (g, o, s) are passed over.
  * Missing normals: the normalised sum of the unit normals of all faces (polygons, not triangles) that share the v; the
  * first of these faces decides where the sum is 0, and (0, 1, 0) where all are degenerate.
- * A material that no file defines gets lom_default_material; that, and an MTL file that cannot be opened, is told in
- * mesh->warning. A material defined again replaces the first. MTL: newmtl Ka Kd Ks Ns d Tr map_Kd, the rest passed
- * over. Errors begin with "name:line: "; a number that is not finite, an index out of range or a file without any face
- * is one. Files are at most 1 GiB, polygons at most 4096 corners. */
+ * mesh->warnings tells, once for each sort with its number: points, lines and curves, which are passed over; faces of
+ * fewer than 3 corners, passed over; normals and texture coordinates that a face names and the file lacks, taken as not
+ * named; a file without faces, whose mesh has all its positions as vertices (normals 0, 1, 0) and no triangle;
+ * materials that no file defines, which get lom_default_material; MTL files that cannot be opened; in MTL, newmtl
+ * without a name, statements before the first newmtl, maps without a file. A material defined again replaces the first.
+ * MTL: newmtl Ka Kd Ks Ns d Tr map_Kd, the rest passed over. Errors begin with "name:line: "; a number that is not
+ * finite, a vertex that is not there or a file without any vertex is one. Files are at most 1 GiB, polygons at most
+ * 4096 corners. */
 
 /* Reads an OBJ file and the MTL files it names (relative to its folder). NULL on failure. */
 lom_mesh *lom_read_obj(const char *path, lom_error *error);

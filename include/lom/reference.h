@@ -65,6 +65,8 @@ typedef struct lom_reference lom_reference;
  * such a scene again for its time. */
 lom_reference *lom_create_reference(const lom_scene *scene, lom_error *error);
 void lom_free_reference(lom_reference *reference); /* NULL is allowed */
+/* What was passed over while loading, as lom_renderer_warning says. */
+const lom_warnings *lom_reference_warnings(const lom_reference *reference);
 
 /* The water of the scene's [water] table as the reference has it: to be changed and put back. */
 lom_reference_water lom_get_reference_water(const lom_reference *reference);

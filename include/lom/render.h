@@ -86,8 +86,11 @@ typedef struct lom_frame {
  * renderer drew, at the same size; else every cloud is drawn afresh. False on failure (image is then NULL). */
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *frame, lom_error *error);
 
-/* Empty, or one sentence about what was passed over while loading, such as a material file that is not there. */
+/* Empty, or sentences about what was passed over while loading, such as a material file that is not there or a mesh's
+ * texture that cannot be read; each ended by a newline. */
 const char *lom_renderer_warning(const lom_renderer *renderer);
+/* How many there are: more than those sentences when not all of them found room. */
+size_t lom_renderer_warning_count(const lom_renderer *renderer);
 /* The device that draws, for its descriptor and counters. */
 const lom_device *lom_renderer_device(const lom_renderer *renderer);
 

@@ -212,6 +212,7 @@ static bool convert_mesh(const char *in, const char *out, lom_error *error)
     lom_mesh *mesh = lom_read_obj(in, error);
     if (mesh == NULL)
         return false;
+    lom_tell_warnings(mesh->warnings.text, mesh->warnings.count);
     char material_file[256];
     bool done = write_materials(mesh, out, material_file, sizeof material_file, error);
     if (done) {

@@ -29,7 +29,9 @@ static const lom_command_line line = {
     .summary = "Says what is in images, meshes and scenes",
     .details =
         "Meshes are *.obj, scenes *.toml, anything else is read as an image (PNG, PPM, PGM, PBM, PAM, PFM) or as a\n"
-        "volume (NRRD). Triangles count n - 2 a polygon; vertices are those left after equal corners became one. The\n"
+        "volume (NRRD). Triangles count n - 2 a polygon; vertices are those left after equal corners became one;\n"
+        "their bounds are the lowest and the highest x, y and z. What a lenient reader passed over is told as "
+        "warnings. The\n"
         "hash of an image covers its size, its format and its samples; that of a mesh its vertices, its triangles and\n"
         "their materials; that of a scene the bytes of all its files.",
     .options = options,
@@ -41,7 +43,8 @@ static const lom_command_line line = {
 /* What is known of a file; -1 is what its kind does not have. */
 struct facts {
     const char *file, *kind, *format;
-    int64_t width, height, depth, channels, bits, vertices, triangles, materials;
+    int64_t width, height, depth, channels, bits, vertices, triangles, materials, warnings;
+    lom_box bounds; /* of a mesh */
     uint64_t hash;
 };
 
@@ -90,6 +93,9 @@ static bool find_mesh_facts(const char *path, struct facts *facts, lom_error *er
     facts->vertices = (int64_t)mesh->vertex_count;
     facts->triangles = (int64_t)mesh->source_triangles;
     facts->materials = (int64_t)mesh->material_count;
+    facts->warnings = (int64_t)mesh->warnings.count;
+    facts->bounds = lom_mesh_bounds(mesh);
+    lom_tell_warnings(mesh->warnings.text, mesh->warnings.count);
     facts->hash = hash_mesh(mesh);
     lom_free_mesh(mesh);
     return true;
@@ -158,7 +164,11 @@ static const struct {
 
 static bool find_facts(const char *path, struct facts *facts, lom_error *error)
 {
-    *facts = (struct facts){ path, NULL, NULL, -1, -1, -1, -1, -1, -1, -1, -1, 0 };
+    *facts = (struct facts){ .file = path };
+    int64_t *const numbers[] = { &facts->width,    &facts->height,    &facts->depth,     &facts->channels, &facts->bits,
+                                 &facts->vertices, &facts->triangles, &facts->materials, &facts->warnings };
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        *numbers[i] = -1;
     size_t kind = 0;
     while (kinds[kind].extension != NULL && !lom_path_is(path, kinds[kind].extension))
         kind++;
@@ -173,7 +183,7 @@ static void print_json(const struct facts *facts)
     } numbers[] = {
         { "width", facts->width },         { "height", facts->height },       { "depth", facts->depth },
         { "channels", facts->channels },   { "bits", facts->bits },           { "vertices", facts->vertices },
-        { "triangles", facts->triangles }, { "materials", facts->materials },
+        { "triangles", facts->triangles }, { "materials", facts->materials }, { "warnings", facts->warnings },
     };
     lom_json json = lom_json_begin(stdout);
     lom_json_text(&json, "file", facts->file);
@@ -185,8 +195,22 @@ static void print_json(const struct facts *facts)
         else
             lom_json_null(&json, numbers[i].name);
     }
+    if (facts->vertices >= 0)
+        lom_json_points(&json, "bounds", (const lom_vec3[]){ facts->bounds.low, facts->bounds.high }, 2);
+    else
+        lom_json_null(&json, "bounds");
     lom_json_hash(&json, "hash", facts->hash);
     lom_json_end(&json);
+}
+
+static void print_point(const char *before, lom_vec3 point)
+{
+    const double values[3] = { point.x, point.y, point.z };
+    char text[32];
+    for (int i = 0; i < 3; i++) {
+        lom_print_float(text, (float)values[i]);
+        printf("%s %s", i == 0 ? before : "", text);
+    }
 }
 
 static void print_line(const struct facts *facts)
@@ -198,6 +222,10 @@ static void print_line(const struct facts *facts)
         printf(" x %" PRId64, facts->depth);
     if (facts->format != NULL)
         printf(", %s", facts->format);
+    if (facts->vertices >= 0) {
+        print_point(", from", facts->bounds.low);
+        print_point(" to", facts->bounds.high);
+    }
     if (facts->vertices >= 0)
         printf(", %" PRId64 " vertices, %" PRId64 " triangles, %" PRId64 " materials", facts->vertices,
                facts->triangles, facts->materials);

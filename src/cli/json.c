@@ -116,6 +116,22 @@ void lom_json_integers(lom_json *json, const char *name, const int64_t *values, 
     fputc(']', json->out);
 }
 
+void lom_json_points(lom_json *json, const char *name, const lom_vec3 *points, size_t count)
+{
+    char text[32];
+    write_name(json, name);
+    for (size_t i = 0; i < count; i++) {
+        const double values[3] = { points[i].x, points[i].y, points[i].z };
+        fputs(i > 0 ? ", " : "[", json->out);
+        for (int k = 0; k < 3; k++) {
+            lom_print_double(text, values[k]);
+            fprintf(json->out, "%s%s", k > 0 ? ", " : "[", __builtin_isfinite(values[k]) ? text : "null");
+        }
+        fputc(']', json->out);
+    }
+    fputc(']', json->out);
+}
+
 void lom_json_hash(lom_json *json, const char *name, uint64_t hash)
 {
     write_name(json, name);

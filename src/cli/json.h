@@ -3,7 +3,7 @@
 #ifndef LOM_CLI_JSON_H
 #define LOM_CLI_JSON_H
 
-#include <lom/base.h>
+#include <lom/geometry.h>
 
 #include <stdio.h>
 
@@ -21,6 +21,8 @@ void lom_json_number(lom_json *json, const char *name, double value); /* the sho
 void lom_json_bool(lom_json *json, const char *name, bool value);
 void lom_json_null(lom_json *json, const char *name);
 void lom_json_integers(lom_json *json, const char *name, const int64_t *values, size_t count); /* an array */
+/* An array of arrays of x, y and z; at least one. */
+void lom_json_points(lom_json *json, const char *name, const lom_vec3 *points, size_t count);
 void lom_json_hash(lom_json *json, const char *name, uint64_t hash); /* text of 16 hexadecimal digits */
 
 #endif

@@ -19,6 +19,18 @@ int lom_complain(const char *format, ...)
     return LOM_EXIT_FAILED;
 }
 
+void lom_tell_warnings(const char *sentences, size_t count)
+{
+    size_t told = 0;
+    for (const char *at = sentences; *at != 0; told++) {
+        size_t length = strcspn(at, "\n");
+        fprintf(stderr, "lom: warning: %.*s\n", (int)length, at);
+        at += length + (at[length] != 0);
+    }
+    if (told < count)
+        fprintf(stderr, "lom: warning: %zu more warnings are not shown.\n", count - told);
+}
+
 int lom_complain_error(const lom_error *error)
 {
     return lom_complain("%s", error->text);

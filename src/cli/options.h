@@ -82,5 +82,7 @@ void lom_print_help(const lom_command_line *line, FILE *out);
 int lom_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same with the text of error. */
 int lom_complain_error(const lom_error *error);
+/* Prints "lom: warning: " and each of the sentences (ended by newlines) to stderr, and how many of count are left. */
+void lom_tell_warnings(const char *sentences, size_t count);
 
 #endif

@@ -302,8 +302,8 @@ static bool render_once(struct run *run, const char *path, lom_error *error)
     if (run->scene == NULL)
         return false;
     run->renderer = lom_create_renderer(run->scene, &device, error);
-    if (run->renderer != NULL && lom_renderer_warning(run->renderer)[0] != 0 && !v->quiet)
-        fprintf(stderr, "lom: warning: %s\n", lom_renderer_warning(run->renderer));
+    if (run->renderer != NULL && !v->quiet)
+        lom_tell_warnings(lom_renderer_warning(run->renderer), lom_renderer_warning_count(run->renderer));
     bool done = run->renderer != NULL && open_stats(run, error) && draw_frames(run, error);
     return close_stats(run, error) && done;
 }

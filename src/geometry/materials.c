@@ -67,6 +67,11 @@ int lom_find_material(struct lom_materials *materials, const char *name, size_t 
     return (int)materials->count - 1;
 }
 
+int lom_known_material(const struct lom_materials *materials, const char *name, size_t length)
+{
+    return materials->slot_count == 0 ? -1 : (int)materials->slots[find_slot(materials, name, length)] - 1;
+}
+
 int lom_text_material(struct lom_materials *materials, struct lom_text *text, struct lom_word name)
 {
     lom_error error = { 0 };

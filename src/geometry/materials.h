@@ -23,11 +23,13 @@ struct lom_materials {
 /* The number of the material called name (1 to 63 bytes), added as lom_default_material when there is none. -1 on
  * failure. */
 int lom_find_material(struct lom_materials *materials, const char *name, size_t length, lom_error *error);
-/* The same for a name in a file; the messages say where. */
+/* The number of the material called name, -1 when there is none. */
+int lom_known_material(const struct lom_materials *materials, const char *name, size_t length);
+/* lom_find_material for a name in a file; the messages say where. */
 int lom_text_material(struct lom_materials *materials, struct lom_text *text, struct lom_word name);
 void lom_free_materials(struct lom_materials *materials);
 /* Adds what an MTL file defines. folder goes in front of the paths of maps; name is for messages. */
 bool lom_decode_mtl(struct lom_materials *materials, lom_bytes file, const char *name, const char *folder,
-                    size_t folder_length, lom_error *error);
+                    size_t folder_length, lom_warnings *warnings, lom_error *error);
 
 #endif

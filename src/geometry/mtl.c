@@ -7,7 +7,10 @@
 struct mtl {
     struct lom_text text;
     struct lom_materials *materials;
-    lom_material *material; /* the one being defined, NULL before the first newmtl */
+    lom_material *material; /* the one being defined */
+    lom_material nameless;  /* takes what belongs to no material that a face can name */
+    lom_warnings *warnings;
+    bool named; /* after the first newmtl */
     const char *folder;
     size_t folder_length;
 };
@@ -16,8 +19,13 @@ static bool read_name(struct mtl *mtl, void *unused)
 {
     (void)unused;
     struct lom_word name = lom_text_rest(&mtl->text);
-    if (name.length == 0)
-        return lom_text_fail(&mtl->text, LOM_ERROR_INPUT, "newmtl without a name.");
+    mtl->named = true;
+    if (name.length == 0) {
+        lom_warn(mtl->warnings, "%s:%zu: newmtl without a name: no face has this material.", mtl->text.name,
+                 mtl->text.line);
+        mtl->material = &mtl->nameless;
+        return true;
+    }
     int number = lom_text_material(mtl->materials, &mtl->text, name);
     if (number < 0)
         return false;
@@ -123,9 +131,11 @@ static bool read_map(struct mtl *mtl, void *target)
     size_t limit = sizeof mtl->material->diffuse_map, folder_length = mtl->folder_length;
     while (skip_option(&mtl->text)) {
     }
-    struct lom_word name = lom_text_rest(&mtl->text);
-    if (name.length == 0)
-        return lom_text_fail(&mtl->text, LOM_ERROR_INPUT, "map_Kd without a file name.");
+    struct lom_word name = lom_file_name(lom_text_rest(&mtl->text));
+    if (name.length == 0) {
+        lom_warn(mtl->warnings, "%s:%zu: map_Kd without a file name.", mtl->text.name, mtl->text.line);
+        return true;
+    }
     if (name.start[0] == '/')
         folder_length = 0;
     if (name.length >= limit || folder_length >= limit - name.length)
@@ -159,17 +169,22 @@ static bool read_statement(struct mtl *mtl)
     for (size_t i = 0; i < sizeof statements / sizeof *statements; i++) {
         if (!lom_word_is(word, statements[i].word))
             continue;
-        if (mtl->material == NULL && statements[i].read != read_name)
-            return lom_text_fail(&mtl->text, LOM_ERROR_INPUT, "%s before the first newmtl.", statements[i].word);
-        return statements[i].read(mtl, mtl->material == NULL ? NULL : (char *)mtl->material + statements[i].offset);
+        if (!mtl->named && statements[i].read != read_name) {
+            lom_warn(mtl->warnings, "%s:%zu: %s before the first newmtl belongs to no material.", mtl->text.name,
+                     mtl->text.line, statements[i].word);
+            mtl->named = true;
+        }
+        return statements[i].read(mtl, (char *)mtl->material + statements[i].offset);
     }
     return true;
 }
 
 bool lom_decode_mtl(struct lom_materials *materials, lom_bytes file, const char *name, const char *folder,
-                    size_t folder_length, lom_error *error)
+                    size_t folder_length, lom_warnings *warnings, lom_error *error)
 {
-    struct mtl mtl = { .materials = materials, .folder = folder, .folder_length = folder_length };
+    struct mtl mtl = { .materials = materials, .folder = folder, .folder_length = folder_length, .warnings = warnings };
+    mtl.nameless = lom_default_material("");
+    mtl.material = &mtl.nameless;
     if (!lom_text_open(&mtl.text, (const char *)file.data, file.size, name, error))
         return false;
     do {

@@ -13,7 +13,7 @@ struct obj_triple {
 };
 
 struct obj_corner {
-    int32_t v, vt, vn; /* from 0; vt and vn -1 when absent */
+    int32_t v, vt, vn; /* from 0; vt and vn -1 when absent, INT32_MAX when the file lacks them */
 };
 
 struct obj_face {
@@ -21,6 +21,9 @@ struct obj_face {
     uint32_t line;
     int32_t material;
 };
+
+/* What is passed over with a warning, wherever it stands in the file. */
+enum obj_passed { OBJ_NO_FACES, OBJ_POINTS, OBJ_FEW_CORNERS, OBJ_LACKING, OBJ_PASSED_COUNT };
 
 struct lom_obj {
     struct lom_text text;
@@ -35,9 +38,14 @@ struct lom_obj {
     size_t position_capacity, texture_capacity, normal_capacity, corner_capacity, face_capacity;
     struct lom_materials materials;
     int material; /* of the faces that follow, -1 for none */
-    char warning[256];
+    struct {
+        size_t count, line; /* how often, and where first */
+    } passed[OBJ_PASSED_COUNT];
+    lom_warnings warnings;
 };
 
+/* Counts one more of what is passed over. */
+void lom_pass_over(struct lom_obj *obj, enum obj_passed what, size_t line);
 /* The mesh of what was read; checks that every index is in range. NULL on failure. */
 lom_mesh *lom_build_obj(struct lom_obj *obj);
 

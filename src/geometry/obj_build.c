@@ -1,10 +1,9 @@
 /* Reads Wavefront OBJ, stage 2 of 2: arrays to a mesh. In: struct lom_obj. Out: a mesh with n - 2 triangles a polygon
- * in file order, one vertex for each different (v, vt, vn), numbered by first use. The hash only finds equal corners;
- * it never orders anything. */
+ * in file order, one vertex for each different (v, vt, vn), numbered by first use in triangles: so what is written as
+ * triangles is numbered the same when it is read. The hash only finds equal corners; it never orders anything. */
 #include "obj.h"
 #include "polygon.h"
 
-#include <stdio.h>
 #include <string.h>
 
 struct build {
@@ -16,32 +15,36 @@ struct build {
     uint32_t *slots;         /* hash table of vertex numbers + 1 */
     size_t slot_count;       /* a power of two */
     struct obj_corner *keys; /* of the vertices */
-    uint32_t *vertex_of_corner;
-    size_t vertex_count;
+    uint32_t *order;         /* corners of the triangles, then their vertices; all corners when there is no triangle */
+    size_t order_count, vertex_count;
 };
 
 /* ---- indices ---- */
 
-static bool check_index(struct lom_obj *obj, const struct obj_face *face, int32_t index, size_t count, const char *what)
+/* An index that the file lacks is one that was not given; whether it was so. */
+static bool drop_lacking(int32_t *index, size_t count)
 {
-    if (index < 0 || (size_t)index < count)
-        return true;
-    obj->text.line = face->line;
-    return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The face names %s %d, and the file has %zu.", what,
-                         (int)index + 1, count);
+    bool lacking = *index >= 0 && (size_t)*index >= count;
+    *index = lacking ? -1 : *index;
+    return lacking;
 }
 
 static bool check_indices(struct lom_obj *obj)
 {
     for (size_t k = 0; k < obj->face_count; k++) {
         const struct obj_face *face = &obj->faces[k];
+        bool lacking = false;
         for (uint32_t i = 0; i < face->count; i++) {
-            const struct obj_corner *corner = &obj->corners[face->first + i];
-            if (!check_index(obj, face, corner->v, obj->position_count, "vertex") ||
-                !check_index(obj, face, corner->vt, obj->texture_count, "texture vertex") ||
-                !check_index(obj, face, corner->vn, obj->normal_count, "normal"))
-                return false;
+            struct obj_corner *corner = &obj->corners[face->first + i];
+            obj->text.line = face->line;
+            if ((size_t)corner->v >= obj->position_count)
+                return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The face names vertex %d, and the file has %zu.",
+                                     (int)corner->v + 1, obj->position_count);
+            lacking |= drop_lacking(&corner->vt, obj->texture_count);
+            lacking |= drop_lacking(&corner->vn, obj->normal_count);
         }
+        if (lacking)
+            lom_pass_over(obj, OBJ_LACKING, face->line);
     }
     return true;
 }
@@ -69,8 +72,8 @@ static bool sum_normals(struct build *build)
 {
     struct lom_obj *obj = build->obj;
     bool missing = false;
-    for (size_t k = 0; k < obj->face_count; k++)
-        missing = missing || obj->corners[obj->faces[k].first].vn < 0;
+    for (size_t k = 0; obj->face_count > 0 && k < obj->corner_count; k++)
+        missing = missing || obj->corners[k].vn < 0;
     if (!missing)
         return true;
     build->sums = lom_allocate(obj->position_count, sizeof *build->sums, obj->text.error);
@@ -100,13 +103,36 @@ static bool sum_normals(struct build *build)
 static void computed_normal(struct build *build, size_t v, float normal[3])
 {
     lom_vec3 unit = { 0, 1, 0 };
-    if (lom_vec3_length(build->sums[v]) > 1e-12)
+    if (build->sums != NULL && lom_vec3_length(build->sums[v]) > 1e-12)
         unit = lom_vec3_normalize(build->sums[v]);
-    else if (build->first_faces[v] != 0)
+    else if (build->sums != NULL && build->first_faces[v] != 0)
         unit = face_normal(build, &build->obj->faces[build->first_faces[v] - 1]);
     normal[0] = (float)unit.x;
     normal[1] = (float)unit.y;
     normal[2] = (float)unit.z;
+}
+
+/* ---- triangles ---- */
+
+static bool order_corners(struct build *build)
+{
+    const struct lom_obj *obj = build->obj;
+    build->order_count = obj->face_count > 0 ? 3 * (obj->corner_count - 2 * obj->face_count) : obj->corner_count;
+    build->order = lom_allocate(build->order_count, sizeof *build->order, obj->text.error);
+    if (build->order == NULL)
+        return false;
+    for (size_t k = 0; obj->face_count == 0 && k < build->order_count; k++)
+        build->order[k] = (uint32_t)k;
+    uint32_t *triangles = build->order;
+    for (size_t k = 0; k < obj->face_count; k++) {
+        const struct obj_face *face = &obj->faces[k];
+        uint32_t *end = triangles + 3 * (face->count - 2);
+        load_polygon(build, face);
+        lom_polygon_triangulate(build->polygon, triangles);
+        for (; triangles < end; triangles++)
+            *triangles += face->first;
+    }
+    return true;
 }
 
 /* ---- vertices ---- */
@@ -142,11 +168,10 @@ static bool number_vertices(struct build *build)
         build->slot_count *= 2;
     build->slots = lom_allocate(build->slot_count, sizeof *build->slots, obj->text.error);
     build->keys = lom_allocate(obj->corner_count, sizeof *build->keys, obj->text.error);
-    build->vertex_of_corner = lom_allocate(obj->corner_count, sizeof *build->vertex_of_corner, obj->text.error);
-    if (build->slots == NULL || build->keys == NULL || build->vertex_of_corner == NULL)
+    if (build->slots == NULL || build->keys == NULL)
         return false;
-    for (size_t k = 0; k < obj->corner_count; k++)
-        build->vertex_of_corner[k] = find_vertex(build, obj->corners[k]);
+    for (size_t k = 0; k < build->order_count; k++)
+        build->order[k] = find_vertex(build, obj->corners[build->order[k]]);
     return true;
 }
 
@@ -168,28 +193,23 @@ static void fill_vertices(struct build *build, lom_mesh *mesh)
     }
 }
 
-/* ---- triangles and parts ---- */
+/* ---- parts and materials ---- */
 
 static size_t count_parts(const struct lom_obj *obj)
 {
-    size_t parts = 1;
+    size_t parts = obj->face_count > 0;
     for (size_t k = 1; k < obj->face_count; k++)
         parts += obj->faces[k].material != obj->faces[k - 1].material;
     return parts;
 }
 
-static void fill_triangles(struct build *build, lom_mesh *mesh)
+static void fill_parts(const struct lom_obj *obj, lom_mesh *mesh)
 {
-    const struct lom_obj *obj = build->obj;
     uint32_t first = 0;
     lom_mesh_part *part = mesh->parts;
     for (size_t k = 0; k < obj->face_count; k++) {
         const struct obj_face *face = &obj->faces[k];
         uint32_t count = 3 * (face->count - 2);
-        load_polygon(build, face);
-        lom_polygon_triangulate(build->polygon, mesh->indices + first);
-        for (uint32_t i = 0; i < count; i++)
-            mesh->indices[first + i] = build->vertex_of_corner[face->first + mesh->indices[first + i]];
         if (k > 0 && face->material != face[-1].material)
             part++;
         if (part->index_count == 0)
@@ -201,15 +221,34 @@ static void fill_triangles(struct build *build, lom_mesh *mesh)
 
 static void fill_materials(struct lom_obj *obj, lom_mesh *mesh)
 {
-    const char *undefined = NULL;
     for (size_t k = 0; k < mesh->material_count; k++) {
         mesh->materials[k] = obj->materials.entries[k].material;
-        if (undefined == NULL && !obj->materials.entries[k].defined)
-            undefined = mesh->materials[k].name;
+        if (!obj->materials.entries[k].defined && obj->read_material != NULL)
+            lom_warn(&obj->warnings, "%s: no material file defines \"%s\".", obj->text.name, mesh->materials[k].name);
     }
-    if (obj->warning[0] == 0 && undefined != NULL && obj->read_material != NULL)
-        snprintf(obj->warning, sizeof obj->warning, "%s: no material file defines \"%s\".", obj->text.name, undefined);
-    memcpy(mesh->warning, obj->warning, sizeof mesh->warning);
+}
+
+/* A sentence for each sort of thing that was passed over. */
+static void warn_of_passed(struct lom_obj *obj)
+{
+    static const struct {
+        const char *one, *many;
+    } texts[OBJ_PASSED_COUNT] = {
+        [OBJ_NO_FACES] = { "the file has no face: nothing of it is drawn", "" },
+        [OBJ_POINTS] = { "a point, line, curve or surface is passed over",
+                         "points, lines, curves or surfaces are passed over, this one first" },
+        [OBJ_FEW_CORNERS] = { "a face of fewer than 3 corners is passed over",
+                              "faces of fewer than 3 corners are passed over, this one first" },
+        [OBJ_LACKING] = { "a face names normals or texture coordinates that the file lacks",
+                          "faces name normals or texture coordinates that the file lacks, this one first" },
+    };
+    for (int i = 0; i < OBJ_PASSED_COUNT; i++) {
+        size_t count = obj->passed[i].count;
+        if (count == 1)
+            lom_warn(&obj->warnings, "%s:%zu: %s.", obj->text.name, obj->passed[i].line, texts[i].one);
+        else if (count > 1)
+            lom_warn(&obj->warnings, "%s:%zu: %zu %s.", obj->text.name, obj->passed[i].line, count, texts[i].many);
+    }
 }
 
 lom_mesh *lom_build_obj(struct lom_obj *obj)
@@ -217,13 +256,18 @@ lom_mesh *lom_build_obj(struct lom_obj *obj)
     struct build build = { .obj = obj };
     lom_mesh *mesh = NULL;
     build.polygon = lom_allocate(1, sizeof *build.polygon, obj->text.error);
-    if (build.polygon != NULL && check_indices(obj) && sum_normals(&build) && number_vertices(&build))
-        mesh = lom_create_mesh(build.vertex_count, 3 * (obj->corner_count - 2 * obj->face_count), count_parts(obj),
+    if (build.polygon != NULL && check_indices(obj) && sum_normals(&build) && order_corners(&build) &&
+        number_vertices(&build))
+        mesh = lom_create_mesh(build.vertex_count, obj->face_count > 0 ? build.order_count : 0, count_parts(obj),
                                obj->materials.count, obj->text.error);
     if (mesh != NULL) {
         fill_vertices(&build, mesh);
-        fill_triangles(&build, mesh);
+        if (mesh->index_count > 0)
+            memcpy(mesh->indices, build.order, mesh->index_count * sizeof *mesh->indices);
+        fill_parts(obj, mesh);
         fill_materials(obj, mesh);
+        warn_of_passed(obj);
+        mesh->warnings = obj->warnings;
     }
     lom_release(build.polygon);
     lom_release(build.sums);
@@ -231,6 +275,6 @@ lom_mesh *lom_build_obj(struct lom_obj *obj)
     lom_release(build.last_faces);
     lom_release(build.slots);
     lom_release(build.keys);
-    lom_release(build.vertex_of_corner);
+    lom_release(build.order);
     return mesh;
 }

@@ -5,7 +5,6 @@
 #include "array.h"
 #include "polygon.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -81,9 +80,13 @@ static bool read_normal(struct lom_obj *obj)
 
 /* ---- f ---- */
 
-/* One index of a corner at *at, moved past it; from 0, negative ones counted back from count. */
+enum { LACKING = INT32_MAX }; /* an index that no file can hold */
+
+/* One index of a corner at *at, moved past it; from 0, negative ones counted back from count. What a corner may leave
+ * out may also be out of range. */
 static bool read_index(struct lom_obj *obj, struct lom_word word, const char **at, size_t count, int32_t *index)
 {
+    bool optional = *index == LACKING;
     const char *p = *at, *end = word.start + word.length;
     bool negative = p < end && *p == '-';
     p += p < end && (*p == '-' || *p == '+');
@@ -94,15 +97,25 @@ static bool read_index(struct lom_obj *obj, struct lom_word word, const char **a
     if (p == digits)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "\"%.*s\" is not a corner: v, v/vt, v//vn or v/vt/vn.",
                              lom_word_shown(word), word.start);
+    *at = p;
+    bool lacking = value == 0 || value > INT32_MAX || (negative && (uint64_t)value > count);
+    if (optional && lacking)
+        return true;
     if (value == 0)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "An index of 0 in \"%.*s\": they count from 1.",
                              lom_word_shown(word), word.start);
-    if (value > INT32_MAX || (negative && (uint64_t)value > count))
+    if (lacking)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "An index in \"%.*s\" is out of range: there are %zu so far.",
                              lom_word_shown(word), word.start, count);
     *index = (int32_t)(negative ? (int64_t)count - value : value - 1);
-    *at = p;
     return true;
+}
+
+/* An index that a corner may leave out: LACKING when it is out of range. */
+static bool read_optional(struct lom_obj *obj, struct lom_word word, const char **at, size_t count, int32_t *index)
+{
+    *index = LACKING;
+    return read_index(obj, word, at, count, index);
 }
 
 static bool read_corner(struct lom_obj *obj, struct lom_word word, struct obj_corner *corner)
@@ -114,12 +127,12 @@ static bool read_corner(struct lom_obj *obj, struct lom_word word, struct obj_co
     if (at == end)
         return true;
     bool slash = *at++ == '/';
-    if (slash && (at == end || *at != '/') && !read_index(obj, word, &at, obj->texture_count, &corner->vt))
+    if (slash && (at == end || *at != '/') && !read_optional(obj, word, &at, obj->texture_count, &corner->vt))
         return false;
     if (slash && at == end)
         return true;
     slash = slash && *at++ == '/';
-    if (slash && !read_index(obj, word, &at, obj->normal_count, &corner->vn))
+    if (slash && !read_optional(obj, word, &at, obj->normal_count, &corner->vn))
         return false;
     if (!slash || at != end)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "\"%.*s\" is not a corner: v, v/vt, v//vn or v/vt/vn.",
@@ -157,8 +170,11 @@ static bool read_face(struct lom_obj *obj)
         if (!read_corner(obj, word, &corner) || !add_corner(obj, &face, corner))
             return false;
     }
-    if (face.count < 3)
-        return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "A face of %u corners.", (unsigned)face.count);
+    if (face.count < 3) {
+        lom_pass_over(obj, OBJ_FEW_CORNERS, face.line);
+        obj->corner_count = face.first;
+        return true;
+    }
     void *grown = lom_grow(obj->faces, &obj->face_capacity, obj->face_count, sizeof *obj->faces, obj->text.error);
     if (grown == NULL)
         return false;
@@ -169,10 +185,18 @@ static bool read_face(struct lom_obj *obj)
 
 /* ---- materials ---- */
 
+/* A name is all of its line; but a comment behind the name of a material that is defined is a comment, and so is a '#'
+ * with a blank behind it alone. */
 static bool read_usemtl(struct lom_obj *obj)
 {
-    struct lom_word name = lom_text_rest(&obj->text);
+    struct lom_word name = lom_text_rest(&obj->text), shorter = lom_before_comment(name);
     obj->material = -1;
+    if (shorter.length < name.length && lom_known_material(&obj->materials, name.start, name.length) < 0) {
+        int known = lom_known_material(&obj->materials, shorter.start, shorter.length);
+        bool comment = shorter.length == 0 && (name.length == 1 || name.start[1] == ' ' || name.start[1] == '\t');
+        if (comment || (known >= 0 && obj->materials.entries[known].defined))
+            name = shorter;
+    }
     if (name.length == 0)
         return true;
     obj->material = lom_text_material(&obj->materials, &obj->text, name);
@@ -208,7 +232,7 @@ static enum found read_library(struct lom_obj *obj, struct lom_word word)
             lom_text_fail(&obj->text, error.code == LOM_OK ? LOM_ERROR_FILE : error.code, "%s",
                           error.code == LOM_OK ? "A material file gave nothing." : error.text);
     } else if (!lom_decode_mtl(&obj->materials, file, path[folder] == '/' ? path + folder : path, path + folder,
-                               folder_length(path + folder, word.length), obj->text.error)) {
+                               folder_length(path + folder, word.length), &obj->warnings, obj->text.error)) {
         found = FAILED;
     }
     lom_release(file.data);
@@ -216,21 +240,16 @@ static enum found read_library(struct lom_obj *obj, struct lom_word word)
     return found;
 }
 
-static void warn(struct lom_obj *obj, const char *before, struct lom_word word, const char *after)
-{
-    if (obj->warning[0] == 0)
-        snprintf(obj->warning, sizeof obj->warning, "%s:%zu: %s \"%.*s\" %s", obj->text.name, obj->text.line, before,
-                 lom_word_shown(word), word.start, after);
-}
-
-/* One name with blanks in it when there is such a file, otherwise several names. */
+/* One name with blanks (and '#') in it when there is such a file, or before a comment; otherwise several names. */
 static bool read_mtllib(struct lom_obj *obj)
 {
     struct lom_text start = obj->text;
-    struct lom_word rest = lom_text_rest(&obj->text);
-    if (obj->read_material == NULL || rest.length == 0)
+    struct lom_word rest = lom_text_rest(&obj->text), shorter = lom_before_comment(rest);
+    if (obj->read_material == NULL || shorter.length == 0)
         return true;
     enum found found = read_library(obj, rest);
+    if (found == MISSING && shorter.length < rest.length)
+        found = read_library(obj, rest = shorter);
     if (found != MISSING)
         return found == FOUND;
     obj->text = start;
@@ -239,19 +258,47 @@ static bool read_mtllib(struct lom_obj *obj)
         if (found == FAILED)
             return false;
         if (found == MISSING)
-            warn(obj, "the material file", word, "could not be opened.");
+            lom_warn(&obj->warnings, "%s:%zu: the material file \"%.*s\" could not be opened.", obj->text.name,
+                     obj->text.line, lom_word_shown(word), word.start);
     }
     return true;
 }
 
 /* ---- the file ---- */
 
+void lom_pass_over(struct lom_obj *obj, enum obj_passed what, size_t line)
+{
+    if (obj->passed[what].count++ == 0)
+        obj->passed[what].line = line;
+}
+
+/* Shapes other than faces. */
+static bool pass_over(struct lom_obj *obj)
+{
+    lom_pass_over(obj, OBJ_POINTS, obj->text.line);
+    return true;
+}
+
+/* Without faces every position is a vertex. */
+static bool keep_positions(struct lom_obj *obj)
+{
+    if (obj->position_count == 0)
+        return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The file ends without a face, and without a vertex.");
+    obj->corner_count = 0;
+    for (size_t i = 0; i < obj->position_count; i++)
+        if (!add_corner(obj, &(struct obj_face){ .count = 0 }, (struct obj_corner){ (int32_t)i, -1, -1 }))
+            return false;
+    lom_pass_over(obj, OBJ_NO_FACES, obj->text.line);
+    return true;
+}
+
 static const struct {
     const char *word;
     bool (*read)(struct lom_obj *obj);
 } statements[] = {
     { "v", read_position }, { "vt", read_texture },    { "vn", read_normal },     { "f", read_face },
-    { "fo", read_face },    { "usemtl", read_usemtl }, { "mtllib", read_mtllib },
+    { "fo", read_face },    { "usemtl", read_usemtl }, { "mtllib", read_mtllib }, { "p", pass_over },
+    { "l", pass_over },     { "curv", pass_over },     { "curv2", pass_over },    { "surf", pass_over },
 };
 
 static bool read_statement(struct lom_obj *obj)
@@ -269,9 +316,7 @@ static bool read_statements(struct lom_obj *obj)
         if (!read_statement(obj))
             return false;
     } while (lom_text_next(&obj->text));
-    if (obj->face_count == 0)
-        return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The file ends without a face.");
-    return true;
+    return obj->face_count > 0 || keep_positions(obj);
 }
 
 lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, lom_read_material read_material,

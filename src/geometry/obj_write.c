@@ -1,6 +1,7 @@
 /* Writes OBJ and MTL. In: a mesh, which is checked first. Out: text that reads back as the same mesh (geometry.h says
  * when). Numbers are the shortest that give the same float. */
 #include "array.h"
+#include "text.h"
 
 #include <lom/geometry.h>
 
@@ -16,15 +17,21 @@ static bool finite_floats(const float *values, int count)
     return finite;
 }
 
-/* Would a reader get this name, in an array of size bytes, back as it is? */
+/* Would a reader get this name, in an array of size bytes, back as it is? A first '#' before a blank is a comment. */
 static bool plain_name(const char *name, size_t size)
 {
     size_t length = strnlen(name, size);
-    bool plain = length > 0 && length < size && name[0] != ' ' && name[0] != '#' && name[length - 1] != ' ';
+    bool plain = length > 0 && length < size && name[0] != ' ' && name[length - 1] != ' ' &&
+                 !(name[0] == '#' && (length == 1 || name[1] == ' '));
     for (size_t i = 0; plain && i < length; i++)
-        plain = (unsigned char)name[i] >= ' ' && name[i] != 127 && name[i] != '\\' &&
-                !(name[i] == '#' && name[i - 1] == ' ');
+        plain = (unsigned char)name[i] >= ' ' && name[i] != 127 && name[i] != '\\';
     return plain;
+}
+
+static bool plain_map(const char *map, size_t size)
+{
+    struct lom_word rest = { map, strnlen(map, size) };
+    return map[0] != '-' && plain_name(map, size) && lom_file_name(rest).length == rest.length;
 }
 
 static bool check_mesh(const lom_mesh *mesh, lom_error *error)
@@ -53,8 +60,7 @@ static bool check_materials(const lom_mesh *mesh, lom_error *error)
     for (size_t k = 0; k < mesh->material_count; k++) {
         const lom_material *m = &mesh->materials[k];
         bool map = m->diffuse_map[0] != 0;
-        if (!plain_name(m->name, sizeof m->name) ||
-            (map && (m->diffuse_map[0] == '-' || !plain_name(m->diffuse_map, sizeof m->diffuse_map))))
+        if (!plain_name(m->name, sizeof m->name) || (map && !plain_map(m->diffuse_map, sizeof m->diffuse_map)))
             return lom_fail(error, LOM_ERROR_USAGE, "Material %zu has a name or map that MTL cannot hold.", k);
         if (!finite_floats(m->ambient, 3) || !finite_floats(m->diffuse, 3) || !finite_floats(m->specular, 3) ||
             !finite_floats(&m->shininess, 1) || !finite_floats(&m->opacity, 1))

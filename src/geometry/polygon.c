@@ -1,7 +1,7 @@
 /* Ear clipping (Meisters 1975; Eberly, Triangulation by Ear Clipping) in the plane of the polygon. In: corners in
- * order. Out: count - 2 triangles whose areas add up to the polygon's when it is simple. A polygon that crosses itself
- * or has no area still gives that many triangles, by rules that are weakened only when no corner keeps the strict one.
- */
+ * order. Out: count - 2 triangles whose areas add up to the polygon's when it is simple, needles of no width that go
+ * out or in aside. A polygon that crosses itself or has no area still gives that many triangles, by rules that are
+ * weakened only when no corner keeps the strict one. */
 #include "polygon.h"
 
 lom_vec3 lom_polygon_area(const struct lom_polygon *polygon)
@@ -47,6 +47,15 @@ static void update_turn(struct lom_polygon *p, int corner)
 {
     p->turn[corner] = turn(p, p->previous[corner], corner, p->next[corner]);
     p->witness[corner] = -1;
+}
+
+/* Do its two sides go back on one another, or has one of them no length? The corner is the tip of a needle, and its
+ * triangle has no area: cutting it off changes nothing. */
+static bool is_spike(const struct lom_polygon *p, int b)
+{
+    int a = p->previous[b], c = p->next[b];
+    return p->turn[b] == 0 &&
+           (p->x[a] - p->x[b]) * (p->x[c] - p->x[b]) + (p->y[a] - p->y[b]) * (p->y[c] - p->y[b]) >= 0;
 }
 
 static bool same_place(const struct lom_polygon *p, int a, int b)
@@ -98,9 +107,40 @@ static uint32_t *emit(uint32_t *triangle, int a, int b, int c)
     return triangle + 3;
 }
 
+/* Cuts a corner off; gives the end of the triangles. */
+static uint32_t *clip(struct lom_polygon *p, int corner, uint32_t *triangle)
+{
+    int before = p->previous[corner], after = p->next[corner];
+    p->next[before] = after;
+    p->previous[after] = before;
+    p->turn[corner] = __builtin_inf(); /* no witness any more */
+    update_turn(p, before);
+    update_turn(p, after);
+    return emit(triangle, before, corner, after);
+}
+
+/* Cuts off the spikes from `corner` on, as far as `count` corners; those before a spike are looked at again, since
+ * their sides have changed. Gives a corner that is left. */
+static int clip_spikes(struct lom_polygon *p, int corner, int count, int *left, uint32_t **triangle)
+{
+    while (count > 0 && *left > 3) {
+        int before = p->previous[corner], after = p->next[corner];
+        if (is_spike(p, corner)) {
+            *triangle = clip(p, corner, *triangle);
+            --*left;
+            count += 1;
+            corner = before;
+        } else {
+            count--;
+            corner = after;
+        }
+    }
+    return corner;
+}
+
 static void clip_ears(struct lom_polygon *p, uint32_t *triangle)
 {
-    int corner = 1, left = p->count, misses = 0;
+    int left = p->count, misses = 0, corner = p->next[clip_spikes(p, 0, left, &left, &triangle)];
     enum rule rule = RULE_EAR;
     while (left > 3) {
         if (!may_clip(p, corner, rule)) {
@@ -112,16 +152,13 @@ static void clip_ears(struct lom_polygon *p, uint32_t *triangle)
             continue;
         }
         int before = p->previous[corner], after = p->next[corner];
-        triangle = emit(triangle, before, corner, after);
-        p->next[before] = after;
-        p->previous[after] = before;
-        p->turn[corner] = __builtin_inf(); /* no witness any more */
-        update_turn(p, before);
-        update_turn(p, after);
+        triangle = clip(p, corner, triangle);
         left--;
         misses = 0;
         rule = RULE_EAR;
         corner = p->next[after]; /* leaving one out keeps the triangles rounder */
+        if (left > 3 && (is_spike(p, before) || is_spike(p, after)))
+            corner = clip_spikes(p, before, 2, &left, &triangle);
     }
     emit(triangle, p->previous[corner], corner, p->next[corner]);
 }

@@ -72,16 +72,42 @@ struct lom_word lom_text_word(struct lom_text *text)
 
 struct lom_word lom_text_rest(struct lom_text *text)
 {
-    struct lom_word rest = lom_text_word(text);
+    skip_blanks(text);
+    struct lom_word rest = { text->at, 0 };
     const char *p = text->at;
-    for (; p < text->end && line_end(p, text->end) == 0 && continuation(p, text->end) == 0; p++) {
-        if (rest.length == 0 || (*p == '#' && is_blank(p[-1])))
-            break;
+    for (; p < text->end && line_end(p, text->end) == 0 && continuation(p, text->end) == 0; p++)
         if (!is_blank(*p))
             rest.length = (size_t)(p + 1 - rest.start);
-    }
     text->at = p;
     return rest;
+}
+
+struct lom_word lom_before_comment(struct lom_word rest)
+{
+    size_t end = 0, at = 0;
+    for (; at < rest.length && !(rest.start[at] == '#' && (at == 0 || is_blank(rest.start[at - 1]))); at++)
+        if (!is_blank(rest.start[at]))
+            end = at + 1;
+    return (struct lom_word){ rest.start, end };
+}
+
+/* Whether its last point begins an extension, without blanks or '#'. */
+static bool has_extension(struct lom_word name)
+{
+    size_t at = name.length;
+    while (at > 0 && name.start[at - 1] != '.' && name.start[at - 1] != '#' && !is_blank(name.start[at - 1]))
+        at--;
+    return at > 1 && at < name.length && name.start[at - 1] == '.';
+}
+
+struct lom_word lom_file_name(struct lom_word rest)
+{
+    struct lom_word shorter = lom_before_comment(rest);
+    size_t mark = shorter.length;
+    while (mark < rest.length && rest.start[mark] != '#')
+        mark++;
+    bool comment = mark + 1 >= rest.length || is_blank(rest.start[mark + 1]);
+    return has_extension(shorter) && (comment || !has_extension(rest)) ? shorter : rest;
 }
 
 bool lom_text_next(struct lom_text *text)
@@ -138,7 +164,7 @@ bool lom_text_number(struct lom_text *text, struct lom_word word, double *value)
 {
     *value = 0;
     size_t used = lom_parse_double(word.start, word.length, value);
-    return check_number(text, word, used, __builtin_fabs(*value) <= 0x1.fffffep+127);
+    return check_number(text, word, used, __builtin_fabsf((float)*value) < __builtin_inff());
 }
 
 int lom_text_floats(struct lom_text *text, float *values, int limit)

@@ -21,8 +21,13 @@ struct lom_word {
 bool lom_text_open(struct lom_text *text, const char *bytes, size_t size, const char *name, lom_error *error);
 /* The next word of the statement; a backslash before the end of the line continues it; none at its end or at '#'. */
 struct lom_word lom_text_word(struct lom_text *text);
-/* Everything up to the end of the statement or a comment, without the blanks around it; may hold blanks. */
+/* Everything up to the end of the statement, without the blanks around it; may hold blanks, and '#'. */
 struct lom_word lom_text_rest(struct lom_text *text);
+/* The part of such a rest before what would be a comment if it were one: a '#' at its start or behind a blank. */
+struct lom_word lom_before_comment(struct lom_word rest);
+/* A file name out of such a rest, without what looks like a comment: what stands before '#' ends with an extension, and
+ * a blank follows '#' or the whole ends with none. */
+struct lom_word lom_file_name(struct lom_word rest);
 /* Moves to the start of the next statement; false at the end of the text. */
 bool lom_text_next(struct lom_text *text);
 /* "name:line: " and the sentence. Always false. */

@@ -51,11 +51,17 @@ static bool find_picture(lom_reference *world, const char *path, bool color, int
     char *copy = lom_allocate(size, 1, error);
     if (copy == NULL)
         return false;
+    if (!lom_load_picture(&picture->picture, path, color && world->scene->output.transfer == LOM_TRANSFER_SRGB,
+                          error)) {
+        lom_free_picture(&picture->picture);
+        *picture = (struct lom_ray_picture){ .path = NULL };
+        lom_release(copy);
+        return false;
+    }
     picture->path = memcpy(copy, path, size);
     picture->color = color;
     *index = (int)world->picture_count++;
-    return lom_load_picture(&picture->picture, path, color && world->scene->output.transfer == LOM_TRANSFER_SRGB,
-                            error);
+    return true;
 }
 
 /* ---- terrain ---- */
@@ -135,10 +141,12 @@ static bool read_meshes(struct loader *loader)
         if (!scene->entities[i].visible)
             continue;
         loader->meshes[i] = find_mesh(loader, i, scene->entities[i].mesh);
-        if (loader->meshes[i] == NULL)
+        if (loader->meshes[i] == NULL) {
             loader->meshes[i] = lom_read_obj(scene->entities[i].mesh, loader->error);
-        if (loader->meshes[i] == NULL)
-            return false;
+            if (loader->meshes[i] == NULL)
+                return false;
+            lom_add_warnings(&world->warnings, &loader->meshes[i]->warnings);
+        }
         world->point_count += loader->meshes[i]->vertex_count;
         world->triangle_count += loader->meshes[i]->index_count / 3;
         world->material_count += loader->meshes[i]->part_count;
@@ -192,6 +200,21 @@ static void add_triangles(lom_reference *world, const lom_mesh *mesh, const lom_
 /* ---- entities ---- */
 
 /* The mesh's own material, where the entity does not say otherwise. */
+/* The map of a mesh's material, beside the mesh. One that cannot be read is left out with a warning. */
+static bool find_map(lom_reference *world, const lom_entity *entity, const lom_material *material, int *index,
+                     lom_error *error)
+{
+    char path[4096];
+    lom_error unreadable = { .code = LOM_OK };
+    const char *slash = strrchr(entity->mesh, '/');
+    int folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
+    snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, material->diffuse_map);
+    if (find_picture(world, material->diffuse_map[0] != 0 ? path : NULL, true, index, &unreadable))
+        return true;
+    *index = LOM_NO_PICTURE;
+    return lom_warn_instead(&world->warnings, &unreadable) || lom_fail(error, unreadable.code, "%s", unreadable.text);
+}
+
 static bool add_material(lom_reference *world, const lom_entity *entity, const lom_material *own, lom_error *error)
 {
     const lom_scene_material *over = &entity->material;
@@ -202,15 +225,9 @@ static bool add_material(lom_reference *world, const lom_entity *entity, const l
     m->diffuse = given & LOM_MATERIAL_DIFFUSE ? vector(over->diffuse) : vector_of_floats(base.diffuse);
     m->specular = given & LOM_MATERIAL_SPECULAR ? vector(over->specular) : vector_of_floats(base.specular);
     m->shininess = given & LOM_MATERIAL_SHININESS ? over->shininess : base.shininess;
-    char path[4096];
-    const char *texture = given & LOM_MATERIAL_TEXTURE ? over->texture : NULL;
-    if (texture == NULL && base.diffuse_map[0] != 0) {
-        const char *slash = strrchr(entity->mesh, '/');
-        int folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
-        snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, base.diffuse_map);
-        texture = path;
-    }
-    return find_picture(world, texture, true, &m->picture, error);
+    if (given & LOM_MATERIAL_TEXTURE)
+        return find_picture(world, over->texture, true, &m->picture, error);
+    return find_map(world, entity, &base, &m->picture, error);
 }
 
 static double determinant(const lom_mat4 *m)

@@ -42,6 +42,11 @@ lom_reference *lom_create_reference(const lom_scene *scene, lom_error *error)
     return lom_create_reference_at(scene, 0, error);
 }
 
+const lom_warnings *lom_reference_warnings(const lom_reference *reference)
+{
+    return &reference->warnings;
+}
+
 void lom_free_reference(lom_reference *reference)
 {
     if (reference == NULL)

@@ -45,6 +45,7 @@ struct lom_reference {
     lom_entity *entities;    /* of the moment */
     const lom_scene *scene;  /* moment, for those who read it */
     bool own_water;          /* put in by lom_set_reference_water */
+    lom_warnings warnings;   /* of the meshes and their pictures */
     struct lom_ray_triangles opaque;
     lom_vec3 *points;
     struct lom_ray_corner *corners; /* of each point */

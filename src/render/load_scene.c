@@ -110,6 +110,28 @@ static void copy3(float out[3], const double in[3])
         out[i] = (float)in[i];
 }
 
+static bool load_texture(lom_renderer *renderer, const char *path, const lom_texture **texture, lom_error *error)
+{
+    *texture = lom_load_texture(renderer, path, true, error);
+    return *texture != NULL;
+}
+
+/* The map of a mesh's material, beside the mesh. One that cannot be read is left out with a warning. */
+static bool load_map(lom_renderer *renderer, const lom_entity *entity, const lom_material *material,
+                     const lom_texture **texture, lom_error *error)
+{
+    char path[4096];
+    lom_error unreadable = { .code = LOM_OK };
+    const char *slash = strrchr(entity->mesh, '/');
+    int folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
+    snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, material->diffuse_map);
+    if (load_texture(renderer, path, texture, &unreadable))
+        return true;
+    bool drawable = lom_device_error(renderer->device)->code == LOM_OK;
+    return (drawable && lom_warn_instead(&renderer->warnings, &unreadable)) ||
+           lom_fail(error, unreadable.code, "%s", unreadable.text);
+}
+
 /* The mesh's own material, where the entity does not say otherwise. */
 static bool load_material(lom_renderer *renderer, const lom_entity *entity, const lom_material *own,
                           struct lom_material_uniform *out, lom_error *error)
@@ -129,17 +151,9 @@ static bool load_material(lom_renderer *renderer, const lom_entity *entity, cons
         copy3(out->specular, over->specular);
     if (over->given & LOM_MATERIAL_SHININESS)
         out->shininess = (float)over->shininess;
-    char path[4096];
-    const char *texture = (over->given & LOM_MATERIAL_TEXTURE) != 0 ? over->texture : NULL;
-    if (texture == NULL && base.diffuse_map[0] != 0) {
-        const char *slash = strrchr(entity->mesh, '/');
-        int folder = slash == NULL ? 0 : (int)(slash - entity->mesh) + 1;
-        snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, base.diffuse_map);
-        texture = path;
-    }
-    if (texture != NULL)
-        out->texture = lom_load_texture(renderer, texture, true, error);
-    return texture == NULL || out->texture != NULL;
+    if (over->given & LOM_MATERIAL_TEXTURE)
+        return load_texture(renderer, over->texture, &out->texture, error);
+    return base.diffuse_map[0] == 0 || load_map(renderer, entity, &base, &out->texture, error);
 }
 
 static bool load_parts(lom_renderer *renderer, struct lom_loaded_entity *loaded, lom_error *error)
@@ -177,8 +191,8 @@ static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const 
     renderer->entity_count++;
     if (loaded->drawn == NULL)
         return false;
-    if (renderer->warning[0] == 0)
-        memcpy(renderer->warning, loaded->drawn->warning, sizeof renderer->warning);
+    if (loaded->mesh != NULL)
+        lom_add_warnings(&renderer->warnings, &loaded->mesh->warnings);
     const lom_terrain *t = &renderer->scene->terrain;
     lom_vec3 position = entity->position;
     if (entity->on_ground && ground != NULL)

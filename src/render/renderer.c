@@ -24,6 +24,8 @@ static bool load(lom_renderer *renderer, lom_error *error)
     const lom_scene *scene = renderer->scene;
     if (scene->quality.water == LOM_WATER_REFERENCE || scene->quality.clouds == LOM_CLOUDS_REFERENCE) {
         renderer->reference = lom_create_reference(scene, error);
+        if (renderer->reference != NULL)
+            lom_add_warnings(&renderer->warnings, lom_reference_warnings(renderer->reference));
         return renderer->reference != NULL;
     }
     renderer->sky = lom_load_sky(renderer->device, &scene->sky, scene->output.transfer == LOM_TRANSFER_SRGB, error);
@@ -84,7 +86,12 @@ void lom_free_renderer(lom_renderer *renderer)
 
 const char *lom_renderer_warning(const lom_renderer *renderer)
 {
-    return renderer->warning;
+    return renderer->warnings.text;
+}
+
+size_t lom_renderer_warning_count(const lom_renderer *renderer)
+{
+    return renderer->warnings.count;
 }
 
 const lom_device *lom_renderer_device(const lom_renderer *renderer)

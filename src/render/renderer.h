@@ -98,7 +98,7 @@ struct lom_renderer {
     lom_scene moment;       /* the scene at the time of the frame: its light moves */
     const lom_scene *scene; /* moment, for those who read it */
     lom_device *device;
-    char warning[256];        /* of the first mesh that has one */
+    lom_warnings warnings;    /* of the meshes and their textures */
     lom_reference *reference; /* instead of all that follows, where the water's model is the reference */
 
     struct lom_cached_texture *textures;

@@ -42,7 +42,7 @@ static int try_decode(const char *obj, size_t obj_size, const char *mtl, size_t 
               "\"%s\"", error.text);
         return 0;
     }
-    CHECK(error.code == LOM_OK && mesh->index_count == 3 * mesh->source_triangles && mesh->index_count > 0);
+    CHECK(error.code == LOM_OK && mesh->index_count == 3 * mesh->source_triangles && mesh->vertex_count > 0);
     for (size_t k = 0; k < mesh->index_count; k++)
         CHECK(mesh->indices[k] < mesh->vertex_count);
     size_t next = 0;

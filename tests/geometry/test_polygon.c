@@ -133,6 +133,63 @@ static void shapes(void)
     check_everywhere("repeated corners", (o = OUTLINE(repeated), &o), true);
 }
 
+/* Appends a point. */
+static void add_point(struct outline *o, double x, double y)
+{
+    o->x[o->count] = x;
+    o->y[o->count++] = y;
+}
+
+/* Goes from (x, y) to a random point and back, by way of other needles. Odd keys: points of a grid, and a corner on the
+ * way out that is none on the way back, which is exact only in the outline's own plane. */
+static void add_needle(struct outline *o, double x, double y, uint64_t key, uint64_t *counter, int depth)
+{
+    double tip[2];
+    for (int i = 0; i < 2; i++) {
+        double uniform = 16 * lom_random_uniform(key, (*counter)++) - 4;
+        tip[i] = key % 2 ? lom_double_floor(uniform) + .5 : uniform;
+    }
+    int repeats = 1 + (int)(lom_random_bits(key, (*counter)++) % 2);
+    if (key % 2)
+        add_point(o, x + (tip[0] - x) / 4, y + (tip[1] - y) / 4);
+    for (int i = 0; i < repeats; i++)
+        add_point(o, tip[0], tip[1]);
+    for (int i = 0; i < (int)(lom_random_bits(key, (*counter)++) % 2) && depth < 3; i++)
+        add_needle(o, tip[0], tip[1], key, counter, depth + 1);
+    add_point(o, x, y);
+}
+
+/* Needles of no width, out of a corner or an edge of a simple outline or into it, slanting, doubled, branching: they
+ * cover nothing, so areas and inside points are those of the outline without them. */
+static void needles(void)
+{
+    static const double shapes[][8][2] = {
+        { { 0, 0 }, { 2, 0 }, { 8, 0 }, { 8, 8 }, { 4, 8 }, { 2, 8 }, { 0, 8 }, { 0, 4 } },
+        { { 0, 0 }, { 8, 0 }, { 8, 2 }, { 2, 2 }, { 2, 6 }, { 8, 6 }, { 8, 8 }, { 0, 8 } },
+        { { 0, 0 }, { 4, 3 }, { 8, 0 }, { 5, 4 }, { 8, 8 }, { 4, 5 }, { 0, 8 }, { 3, 4 } },
+    };
+    lom_mat4 identity = lom_identity();
+    for (uint64_t k = 0; k < 600; k++) {
+        struct outline o = { .count = 0 };
+        uint64_t counter = 0;
+        for (int i = 0; i < 8; i++) {
+            const double *p = shapes[k / 2 % 3][i];
+            add_point(&o, p[0], p[1]);
+            for (int n = (int)(lom_random_bits(k, counter++) % 8); n < 2; n++)
+                add_needle(&o, p[0], p[1], k, &counter, 0);
+        }
+        check_outline("needles", &o, &identity, true);
+        if (k % 2 == 0)
+            check_everywhere("needles", &o, true);
+    }
+    /* beyond the end of an edge and back along it */
+    const double overshoot[][2] = { { 0, 0 }, { 4, 0 }, { 4, 6 }, { 4, 4 }, { 0, 4 } };
+    const double into_edge[][2] = { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 2, 4 }, { 2, 9 }, { 2, 4 }, { 0, 4 } };
+    struct outline o;
+    check_outline("overshoot", (o = OUTLINE(overshoot), &o), &identity, true);
+    check_everywhere("into an edge", (o = OUTLINE(into_edge), &o), true);
+}
+
 static void random_stars(void)
 {
     for (uint64_t k = 0; k < 60; k++) { /* a radius for each angle: simple, and as jagged as one likes */
@@ -239,6 +296,7 @@ static void fans(void)
 int main(int argc, char **argv)
 {
     RUN(shapes);
+    RUN(needles);
     RUN(random_stars);
     RUN(long_polygons);
     RUN(degenerate);
