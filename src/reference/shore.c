@@ -15,21 +15,20 @@ static float *find_heights(const lom_reference *world, lom_error *error)
     return heights;
 }
 
-static bool make_surf(struct lom_wave_surface *surface, const lom_scene *scene, const struct lom_bed *bed, double time,
-                      lom_error *error)
+static bool make_surf(struct lom_wave_surface *surface, const struct lom_wave_site *site, double time, lom_error *error)
 {
-    if (!lom_make_scene_surf(&surface->surf, scene, bed, error))
+    if (!lom_make_site_surf(&surface->surf, site, error))
         return false;
     if (surface->surf.cells != NULL)
-        lom_fill_surf(&surface->surf_moment, &surface->surf, &scene->surf, time);
+        lom_fill_surf(&surface->surf_moment, &surface->surf, site->surf, time);
     return true;
 }
 
-static bool make_shallow(struct lom_wave_surface *surface, const lom_scene *scene, const struct lom_bed *bed,
-                         double time, lom_error *error)
+static bool make_shallow(struct lom_wave_surface *surface, const struct lom_wave_site *site, double time,
+                         lom_error *error)
 {
-    struct lom_scene_shallow *state = &surface->shallow;
-    if (!lom_open_scene_shallow(state, scene, bed, error))
+    struct lom_shallow_region *state = &surface->shallow;
+    if (!lom_open_shallow_region(state, site, error))
         return false;
     if (state->first == NULL)
         return true;
@@ -37,10 +36,10 @@ static bool make_shallow(struct lom_wave_surface *surface, const lom_scene *scen
     float bounds[2], (*moments)[4] = lom_allocate(cells, sizeof *moments, error);
     surface->shallow_texels = lom_allocate(cells, sizeof *surface->shallow_texels, error);
     bool done =
-        moments != NULL && surface->shallow_texels != NULL && lom_advance_scene_shallow(state, scene, time, error);
+        moments != NULL && surface->shallow_texels != NULL && lom_advance_shallow_region(state, site, time, error);
     if (done) {
         surface->shallow_view = lom_view_shallow(state->now);
-        lom_fill_shallow_surface(&surface->shallow_view, scene->water.level, scene->shallow.edge == LOM_SHALLOW_OPEN,
+        lom_fill_shallow_surface(&surface->shallow_view, site->level, site->shallow->edge == LOM_SHALLOW_OPEN,
                                  surface->shallow_texels, moments, bounds);
     }
     lom_release(moments);
@@ -60,9 +59,11 @@ bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *w
         return true;
     bool ground = world->ground_columns > 0;
     float *heights = ground ? find_heights(world, error) : NULL;
-    const struct lom_bed bed = { heights, world->ground_columns - 1, world->ground_rows - 1 };
-    bool done = (!ground || heights != NULL) && make_surf(surface, scene, &bed, time, error) &&
-                make_shallow(surface, scene, &bed, time, error);
+    const double *size = scene->terrain.size;
+    const struct lom_wave_site site = lom_scene_wave_site(
+        scene, &(struct lom_bed){ heights, world->ground_columns - 1, world->ground_rows - 1, { size[0], size[1] } });
+    bool done = (!ground || heights != NULL) && make_surf(surface, &site, time, error) &&
+                make_shallow(surface, &site, time, error);
     lom_release(heights);
     if (done && surface->surf.cells != NULL) /* its steepest front is a twentieth of a wave */
         *shortest = finer(*shortest, surface->surf.length / 20);
@@ -74,7 +75,7 @@ bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *w
 void lom_free_ray_shore(struct lom_wave_surface *surface)
 {
     lom_free_surf_map(&surface->surf);
-    lom_close_scene_shallow(&surface->shallow);
+    lom_close_shallow_region(&surface->shallow);
     lom_release(surface->shallow_texels);
 }
 
@@ -90,7 +91,7 @@ static void add_surf(struct lom_wave_place *place, const struct lom_wave_surface
 
 static void add_shallow(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z)
 {
-    const struct lom_scene_shallow *state = &surface->shallow;
+    const struct lom_shallow_region *state = &surface->shallow;
     double column = (x - state->corner[0]) / state->cell, row = (z - state->corner[1]) / state->cell, texel[4];
     if (!(column >= 0 && column <= state->columns && row >= 0 && row <= state->rows))
         return;

@@ -53,7 +53,7 @@ static bool find_waves(struct lom_wave_surface *surface, const lom_reference *wo
     const lom_water_params *water = &world->scene->water;
     struct lom_waves_uniform waves = { .trochoid_count = 0 };
     double greatest = 0;
-    lom_fill_trochoids(&waves, water->level, &water->waves, &water->foam, time);
+    lom_fill_trochoids(&waves, &water->waves, &water->foam, time);
     surface->level = water->level;
     surface->count = waves.trochoid_count;
     for (int i = 0; i < surface->count; i++) {

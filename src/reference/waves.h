@@ -26,7 +26,7 @@ struct lom_wave_surface {
     lom_sea_cascade cascade[LOM_MAX_CASCADES];
     struct lom_surf_map surf; /* cells NULL: there is none */
     struct lom_surf_uniform surf_moment;
-    struct lom_scene_shallow shallow; /* first NULL: there is none */
+    struct lom_shallow_region shallow; /* first NULL: there is none */
     lom_shallow_view shallow_view;
     float (*shallow_texels)[4];
     double level;

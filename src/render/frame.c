@@ -151,7 +151,7 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     lom_counters before = lom_device_counters(renderer->device);
     lom_float_state state;
     lom_enter_float_state(&state);
-    f.shallow_run = renderer->shallow.state.run;
+    f.wave_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) : 0;
     lom_move_scene(renderer, f.time);
     look(&f);
     lom_image *drawn = renderer->reference != NULL ? lom_draw_reference(&f, error) : draw_stages(&f, out->stage, error);
@@ -160,7 +160,7 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     if (drawn != NULL)
         out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
     lom_leave_float_state(&state);
-    out->shallow_steps = renderer->shallow.state.run - f.shallow_run;
+    out->shallow_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) - f.wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);
     return out->image != NULL;
 }

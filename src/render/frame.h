@@ -18,9 +18,9 @@ struct frame {
     struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
     lom_rect water;                 /* where a surface of water is seen, in frame pixels; width 0: nowhere */
     struct lom_waves_uniform waves; /* of water with waves, at this time */
-    enum { WAVES_BOUNDED, WAVES_PLACED, WAVES_FILLED } sea; /* how much of a sea `waves` has: what was needed */
-    uint64_t shallow_run;                                   /* steps of shallow water before this frame */
-    bool below;                                             /* the eye is under water with waves */
+    enum lom_waves_known known;     /* how much `waves` has of them: what was needed */
+    uint64_t wave_steps;            /* lom_wave_steps before this frame */
+    bool below;                     /* the eye is under water with waves */
     lom_plan *plan;
     const lom_frame_desc *desc;
     double done; /* the share of the stages behind this one */

@@ -154,7 +154,7 @@ static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_err
         return true;
     }
     lom_step *step = lom_add_step(f, "visibility", true, "which pixels may show the water's surface%s",
-                                  f->sea != WAVES_BOUNDED ? "" : ", however high its waves");
+                                  f->known != LOM_WAVES_BOUNDED ? "" : ", however high its waves");
     step->width = f->crop.width;
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->mask);
@@ -411,17 +411,16 @@ static bool find_waves(struct sea *sea, struct frame *f, const char **why, lom_e
 {
     if (!find_seen(sea, f, why, error))
         return false;
-    if (*why == NULL && f->sea == WAVES_BOUNDED) {
+    if (*why == NULL && f->known == LOM_WAVES_BOUNDED) {
         if (!lom_place_frame_waves(f, error))
             return false;
         sea->uniforms.waves = f->waves;
         if (!find_seen(sea, f, why, error))
             return false;
     }
-    if (*why != NULL && f->renderer->sea != NULL && f->sea != WAVES_FILLED)
-        lom_add_step(f, "waves", false, "%s: %s", *why,
-                     f->sea == WAVES_BOUNDED ? "no cascade is advanced" : "their places tell, no more of them is made");
-    return *why != NULL || f->sea == WAVES_FILLED || lom_fill_frame_waves(f, error);
+    if (*why != NULL && f->known != LOM_WAVES_FILLED)
+        lom_report_frame_waves(f, LOM_WAVES_AT_FILLING, *why);
+    return *why != NULL || f->known == LOM_WAVES_FILLED || lom_fill_frame_waves(f, error);
 }
 
 bool lom_find_sea_stage(struct frame *f, lom_error *error)
@@ -434,8 +433,7 @@ bool lom_find_sea_stage(struct frame *f, lom_error *error)
     look_at_sea(&sea, f);
     if (!find_waves(&sea, f, &why, error))
         return false;
-    lom_report_trochoids(f, why);
-    lom_report_shallow(f, why);
+    lom_report_frame_waves(f, LOM_WAVES_AT_DRAWING, why);
     return why == NULL || lom_skip_water(f, why);
 }
 

@@ -32,8 +32,7 @@ void lom_begin_water(struct frame *f, const char *text);
 bool lom_has_waves(const struct frame *f);
 bool lom_place_frame_waves(struct frame *f, lom_error *error);
 bool lom_fill_frame_waves(struct frame *f, lom_error *error);
-/* The plan's step of trochoids: how steep they are; or, with a reason, why no water is drawn. */
-void lom_report_shallow(struct frame *f, const char *why);
-void lom_report_trochoids(struct frame *f, const char *why);
+/* The plan's steps of the waves that report at this stage; with a reason, why no water is drawn. */
+void lom_report_frame_waves(struct frame *f, enum lom_wave_stage stage, const char *why);
 
 #endif

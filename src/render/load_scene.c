@@ -1,6 +1,7 @@
 /* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks, entities placed in the world
  * with a material for each part, the water's maps. */
 #include "render/renderer.h"
+#include "spray/make_foam.h"
 #include "water/lake.h"
 
 #include <stdio.h>
@@ -82,6 +83,41 @@ bool lom_load_water(lom_renderer *renderer, lom_error *error)
     lom_free_image(flow);
     lom_free_image(rgba);
     return renderer->flow_map != NULL;
+}
+
+static bool load_foam(lom_renderer *renderer, lom_error *error)
+{
+    const lom_water_foam *foam = &renderer->scene->water.foam;
+    if (!(foam->amount > 0) && !(foam->shore_depth > 0))
+        return true;
+    lom_image *pattern = lom_make_foam(256, 1, error);
+    if (pattern == NULL)
+        return false;
+    renderer->foam = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = pattern->width,
+                                                                             .height = pattern->height,
+                                                                             .format = LOM_FORMAT_R8,
+                                                                             .pixels = pattern->pixels,
+                                                                             .mips = LOM_MIPS_ALL });
+    lom_free_image(pattern);
+    const lom_error *failed = lom_device_error(renderer->device);
+    return renderer->foam != NULL || lom_fail(error, failed->code, "%s", failed->text);
+}
+
+bool lom_load_waves(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    const struct lom_ground *ground = &renderer->ground;
+    if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP)
+        return true;
+    renderer->wave_site = lom_scene_wave_site(
+        scene,
+        &(struct lom_bed){
+            ground->heights, ground->columns, ground->rows, { scene->terrain.size[0], scene->terrain.size[1] } });
+    const struct lom_wave_source source = { &renderer->wave_site, renderer->normal_map, renderer->device };
+    if (!load_foam(renderer, error))
+        return false;
+    renderer->waves = lom_load_wave_field(&source, error);
+    return renderer->waves != NULL;
 }
 
 /* T Rz Ry Rx S, and what follows from it. False when it is singular. */

@@ -70,12 +70,10 @@ void lom_free_renderer(lom_renderer *renderer)
     for (size_t i = 0; i < renderer->path_count; i++)
         lom_release(renderer->paths[i]);
     lom_free_reference(renderer->reference);
-    lom_free_sea(renderer->sea);
-    lom_free_shallow_waves(renderer);
+    lom_free_wave_field(renderer->waves);
     lom_free_polar_mesh(&renderer->polar);
     lom_free_scene_clouds(renderer);
     lom_free_spray(renderer);
-    lom_free_surf_map(&renderer->surf);
     lom_free_ground(&renderer->ground);
     lom_release(renderer->entities);
     lom_release(renderer->paths);

@@ -8,6 +8,7 @@
 #include "scene/scene_water.h"
 #include "spray/spray.h"
 #include "water/surface.h"
+#include "waves/wave_field.h"
 
 #include <lom/reference.h>
 #include <lom/sea.h>
@@ -86,14 +87,6 @@ struct lom_spray_memory {
     lom_texture *layer; /* a target */
 };
 
-/* Shallow water of the scene. */
-struct lom_shallow_waves {
-    struct lom_scene_shallow state;
-    float (*surface)[4], (*moments)[4]; /* of the last moment */
-    lom_texture *map[2];
-    int wet; /* cells */
-};
-
 struct lom_renderer {
     lom_scene moment;       /* the scene at the time of the frame: its light moves */
     const lom_scene *scene; /* moment, for those who read it */
@@ -120,13 +113,9 @@ struct lom_renderer {
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
     lom_texture *photons, *caustics;
-    struct lom_surf_map surf; /* cells NULL: none */
-    lom_texture *surf_maps[2];
-    lom_texture *flow; /* field of velocities, or NULL */
-    struct lom_shallow_waves shallow;
-    lom_sea *sea; /* or NULL */
-    lom_texture *sea_fields[LOM_SURFACE_CASCADES][3];
-    struct lom_polar_mesh polar; /* of displaced water */
+    struct lom_wave_site wave_site;
+    struct lom_wave_field *waves; /* of water with waves; or NULL */
+    struct lom_polar_mesh polar;  /* of displaced water */
 
     /* targets, remade when the size changes */
     int width, height, target_width, target_height;
@@ -144,30 +133,8 @@ void lom_move_scene(lom_renderer *renderer, double time);
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
 /* The terrain's heights as a texture, where caustics need them. */
 bool lom_load_bed(lom_renderer *renderer, lom_error *error);
-/* sea_waves.c: the cascades of a sea. As much as a picture needs is done of: bounds (widens those of `out` by all that
- * cascades could add at any time); places (heights and displacements at a time, and the bounds of those); the rest,
- * which must follow the places at the same time, as textures. */
-bool lom_load_sea(lom_renderer *renderer, lom_error *error);
-void lom_bound_sea(const lom_renderer *renderer, struct lom_waves_uniform *out);
-bool lom_place_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
-bool lom_fill_sea(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
-/* Over a point where the places were made last, metres. */
-double lom_sea_height(const lom_renderer *renderer, double x, double z);
-/* shallow_waves.c: like the sea's: bounds at any time, then the surface at a time. */
-bool lom_load_shallow(lom_renderer *renderer, lom_error *error);
-void lom_free_shallow_waves(lom_renderer *renderer); /* its textures are the device's */
-void lom_bound_shallow(const lom_renderer *renderer, struct lom_waves_uniform *out);
-bool lom_place_shallow(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
-double lom_shallow_height(const lom_renderer *renderer, double x, double z);
-/* surf_waves.c: maps of waves that come in to the shore; those waves at a time, added to the others. */
-bool lom_load_surf(lom_renderer *renderer, lom_error *error);
-void lom_add_surf(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
-/* What water with waves needs; its waves at a time, of a sea the bounds or the places alone; and their height over a
- * point of the world, metres. */
+/* What water with waves needs. */
 bool lom_load_waves(lom_renderer *renderer, lom_error *error);
-void lom_bound_waves(const lom_renderer *renderer, struct lom_waves_uniform *out, double time);
-bool lom_place_waves(lom_renderer *renderer, struct lom_waves_uniform *out, double time, lom_error *error);
-double lom_wave_height(const lom_renderer *renderer, const struct lom_waves_uniform *waves, double x, double z);
 /* frame_spray.c: room for the drops of the scene. */
 bool lom_load_spray(lom_renderer *renderer, lom_error *error);
 void lom_free_spray(lom_renderer *renderer);

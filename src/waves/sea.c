@@ -1,6 +1,6 @@
 /* Making a sea. In: its description; out: the amplitudes and frequencies of every wave of every cascade. Invariant: an
  * amplitude is a function of the spectrum, the seed, the patch and (n, m) alone; rows are made by any worker. */
-#include "waves/sea_waves.h"
+#include "waves/sea_state.h"
 
 #include "base/threads.h"
 #include "pipeline/device.h"

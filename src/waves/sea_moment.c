@@ -1,6 +1,6 @@
 /* The sea in double, point by point. In: a sea and a time; out: the direct sum of its waves at any point. Invariant:
  * shares the amplitudes' definition with the sea's steps, and neither their tables nor a transform. */
-#include "waves/sea_waves.h"
+#include "waves/sea_state.h"
 
 static const double two_pi = 6.283185307179586;
 

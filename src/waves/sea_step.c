@@ -1,6 +1,6 @@
 /* A step of the sea: spectra at a time, one transform a field, pixels. In: a sea and a time; out: its views. Invariant:
  * nothing of an earlier step is read, so any time can be made in any order. */
-#include "waves/sea_waves.h"
+#include "waves/sea_state.h"
 
 #include "base/threads.h"
 #include "pipeline/device.h"

@@ -1,7 +1,7 @@
 /* Rows of a step of the sea, over lanes. In: amplitudes, a time; out: the spectrum at that time, that of a field, the
  * pixels of the view. Invariant: the phase is reduced in double, in turns, so that it is exact to 1e-6 radians even at
  * 1e7 s (float would be off by half a radian). */
-#include "waves/sea_waves.h"
+#include "waves/sea_state.h"
 
 #include <lom/lanes_mathematics.h>
 

@@ -41,13 +41,13 @@ struct lom_flow_uniform {
     float drift[2], weight[2], jump[2][2]; /* metres at speed 1; shares; offsets in repetitions */
 };
 
-/* A region whose surface is computed (water/shallow_surface.h): a texel a cell. */
+/* A region whose surface is computed (waves/shallow_surface.h): a texel a cell. */
 struct lom_shallow_uniform {
     const lom_texture *surface, *moments; /* NULL: there is none */
     float corner[2], scale[2];            /* s = (x - corner[0]) scale[0] */
 };
 
-/* Waves that come to a shore (water/surf.h), by maps over it. */
+/* Waves that come to a shore (waves/surf.h), by maps over it. */
 struct lom_surf_uniform {
     const lom_texture *waves;  /* phase, kx, kz, amplitude; NULL: there are none */
     const lom_texture *shapes; /* r cos f, r sin f, how much the wave breaks */
@@ -76,8 +76,8 @@ enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked a
 /* The trochoids of the water at a time in seconds, exact phases for |time| up to 1e9; and the bounds of their sum. The
  * horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves keep the sum of b k at most 1, which is where the
  * first loop would close: the Jacobian of the displacement never falls below 0. */
-void lom_fill_trochoids(struct lom_waves_uniform *out, double level, const lom_water_waves *waves,
-                        const lom_water_foam *foam, double time);
+void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *waves, const lom_water_foam *foam,
+                        double time);
 /* Both phases of a flow at a time, for ripples that repeat after `tile` metres: a period is as long as the mean speed
  * takes for a third of it. Closed in time. */
 void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time);

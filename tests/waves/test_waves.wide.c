@@ -23,7 +23,7 @@ static struct lom_waves_uniform waves_at(double height, double steepness, int co
     struct lom_waves_uniform waves;
     lom_water_params water = parameters(height, steepness, count);
     memset(&waves, 0, sizeof waves);
-    lom_fill_trochoids(&waves, water.level, &water.waves, &water.foam, time);
+    lom_fill_trochoids(&waves, &water.waves, &water.foam, time);
     return waves;
 }
 
@@ -105,7 +105,7 @@ static void w2_no_height_is_flat(void)
     struct lom_waves_uniform waves = waves_at(0, 1, 8, 5);
     struct lom_wave_shift s = shift_at(&waves, 3, 4);
     CHECK(waves.trochoid_count == 0 && s.h[0] == 0 && s.dx[0] == 0, "%d waves of no height", waves.trochoid_count);
-    CHECK(waves.highest == 0 && waves.reach == 0 && waves.level == 2, "bounds of nothing");
+    CHECK(waves.highest == 0 && waves.reach == 0, "bounds of nothing");
 }
 
 /* The mean square slope of the surface, seen or filtered away, is the same from every distance. */

@@ -1,6 +1,8 @@
-/* Trochoids from the water's parameters. In: direction, lengths, height, steepness, a time; out: wave vectors, phases
- * and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
-#include "waves/waves.h"
+/* Waves of kind "gerstner": trochoids from the water's parameters. In: direction, lengths, height, steepness, a time;
+ * out: wave vectors, phases and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
+#include "waves/wave_field.h"
+
+#include <stdio.h>
 
 static const double turn = 6.283185307179586, gravity = 9.80665;
 
@@ -115,13 +117,12 @@ lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, do
     return p;
 }
 
-void lom_fill_trochoids(struct lom_waves_uniform *out, double level, const lom_water_waves *waves,
-                        const lom_water_foam *foam, double time)
+void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *waves, const lom_water_foam *foam,
+                        double time)
 {
     lom_trochoid trochoids[LOM_MAX_WAVES];
     lom_trochoid_report unread;
     double high = 0, reach = 0;
-    out->level = (float)level;
     out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER ? make_trochoids(waves, trochoids, &unread) : 0;
     for (int i = 0; i < out->trochoid_count; i++) {
         const lom_trochoid *t = &trochoids[i];
@@ -164,18 +165,59 @@ double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, doub
     return height;
 }
 
-void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time)
+/* ---- as a kind of waves ---- */
+
+struct state {
+    const struct lom_wave_site *site;
+};
+
+static bool exists(const struct lom_wave_source *source)
 {
-    double period = speed > 0 ? tile / (3 * speed) : 1, weight[2];
-    for (int i = 0; i < 2; i++) {
-        double cycles = time / period + 0.5 * i, whole = lom_double_floor(cycles), share = cycles - whole;
-        double jump[2] = { 0.381966 * whole + 0.5 * i, 0.618034 * whole };
-        weight[i] = share < 0.5 ? 2 * share : 2 - 2 * share;
-        flow->drift[i] = (float)(speed * period * (share - 0.5));
-        for (int k = 0; k < 2; k++)
-            flow->jump[i][k] = (float)(jump[k] - lom_double_floor(jump[k]));
-    }
-    double norm = lom_double_sqrt(weight[0] * weight[0] + weight[1] * weight[1]);
-    flow->weight[0] = (float)(weight[0] / norm);
-    flow->weight[1] = (float)(weight[1] / norm);
+    return source->site->waves->kind == LOM_WAVES_GERSTNER;
 }
+
+static bool load(void *state, const struct lom_wave_source *source, lom_error *error)
+{
+    (void)error;
+    *(struct state *)state = (struct state){ source->site };
+    return true;
+}
+
+static void bound(const void *state, struct lom_waves_uniform *out, double time)
+{
+    const struct lom_wave_site *site = ((const struct state *)state)->site;
+    lom_fill_trochoids(out, site->waves, site->foam, time);
+}
+
+static double height(const void *state, const struct lom_waves_uniform *waves, double x, double z)
+{
+    (void)state;
+    return lom_trochoid_height(waves, x, z);
+}
+
+static void report(const void *state, const struct lom_wave_moment *moment, struct lom_wave_report *out)
+{
+    lom_trochoid trochoids[LOM_MAX_WAVES];
+    lom_trochoid_report steep;
+    int count = make_trochoids(((const struct state *)state)->site->waves, trochoids, &steep);
+    out->says = count > 0;
+    out->runs = moment->why == NULL;
+    if (moment->why != NULL)
+        snprintf(out->text, sizeof out->text, "%s", moment->why);
+    else if (steep.limited > 0)
+        snprintf(out->text, sizeof out->text,
+                 "%d trochoids; their steepness is %.3f, not %.3f: %d are held back, so that none can loop", count,
+                 steep.steepness, steep.asked, steep.limited);
+    else
+        snprintf(out->text, sizeof out->text, "%d trochoids; their steepness is %.3f, and crests would loop above 1",
+                 count, steep.steepness);
+}
+
+const struct lom_wave_kind lom_trochoid_waves = { .step = "waves",
+                                                  .size = sizeof(struct state),
+                                                  .exists = exists,
+                                                  .load = load,
+                                                  .bound = bound,
+                                                  .height = height,
+                                                  .stage = LOM_WAVES_AT_DRAWING,
+                                                  .report = report };

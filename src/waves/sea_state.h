@@ -1,7 +1,7 @@
 /* What a sea holds. The half of the k plane that the transforms take: rows m in transform order (0 .. N/2 - 1, -N/2 ..
  * -1), columns n = 0 .. N/2 - 1. */
-#ifndef LOM_WAVES_SEA_WAVES_H
-#define LOM_WAVES_SEA_WAVES_H
+#ifndef LOM_WAVES_SEA_STATE_H
+#define LOM_WAVES_SEA_STATE_H
 
 #include "waves/fft.h"
 

@@ -1,0 +1,90 @@
+/* Waves of kind "flow": the ripples of a river, carried by a field of velocities that follows from the bed and the
+ * level. In: a site, a time. Out: the field as a texture, and the phases of the ripples. Invariant: closed in time. */
+#include "waves/flow.h"
+#include "waves/wave_field.h"
+
+enum { CELLS = 160 };
+
+struct state {
+    const struct lom_wave_site *site;
+    const lom_texture *ripples;
+    lom_texture *field;
+};
+
+static bool exists(const struct lom_wave_source *source)
+{
+    return source->site->waves->kind == LOM_WAVES_FLOW && source->ripples != NULL;
+}
+
+/* The depth of water over a grid: the level less the terrain's vertices. */
+static void find_depths(const struct lom_wave_site *site, double *depth)
+{
+    const struct lom_bed *bed = &site->bed;
+    for (int y = 0; y < CELLS; y++)
+        for (int x = 0; x < CELLS; x++) {
+            size_t column = (size_t)(x * bed->columns / (CELLS - 1)), row = (size_t)(y * bed->rows / (CELLS - 1));
+            size_t vertex = row * ((size_t)bed->columns + 1) + column;
+            double height = bed->heights != NULL ? (double)bed->heights[vertex] : -1e3;
+            depth[y * CELLS + x] = site->level - height;
+        }
+}
+
+static bool load(void *memory, const struct lom_wave_source *source, lom_error *error)
+{
+    struct state *state = memory;
+    *state = (struct state){ source->site, source->ripples, NULL };
+    double *depth = lom_allocate((size_t)CELLS * CELLS, sizeof *depth, error);
+    if (depth == NULL)
+        return false;
+    find_depths(state->site, depth);
+    lom_image *field = lom_make_flow(depth, CELLS, state->site->waves->direction, error);
+    lom_release(depth);
+    if (field == NULL)
+        return false;
+    state->field = lom_make_texture(
+        source->device, &(lom_texture_desc){ .width = CELLS,
+                                             .height = CELLS,
+                                             .format = LOM_FORMAT_RG32F,
+                                             .pixels = field->pixels,
+                                             .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    lom_free_image(field);
+    const lom_error *failed = lom_device_error(source->device);
+    return state->field != NULL || lom_fail(error, failed->code, "%s", failed->text);
+}
+
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time)
+{
+    double period = speed > 0 ? tile / (3 * speed) : 1, weight[2];
+    for (int i = 0; i < 2; i++) {
+        double cycles = time / period + 0.5 * i, whole = lom_double_floor(cycles), share = cycles - whole;
+        double jump[2] = { 0.381966 * whole + 0.5 * i, 0.618034 * whole };
+        weight[i] = share < 0.5 ? 2 * share : 2 - 2 * share;
+        flow->drift[i] = (float)(speed * period * (share - 0.5));
+        for (int k = 0; k < 2; k++)
+            flow->jump[i][k] = (float)(jump[k] - lom_double_floor(jump[k]));
+    }
+    double norm = lom_double_sqrt(weight[0] * weight[0] + weight[1] * weight[1]);
+    flow->weight[0] = (float)(weight[0] / norm);
+    flow->weight[1] = (float)(weight[1] / norm);
+}
+
+static void bound(const void *memory, struct lom_waves_uniform *out, double time)
+{
+    const struct state *state = memory;
+    const struct lom_wave_site *site = state->site;
+    struct lom_flow_uniform *flow = &out->flow;
+    flow->field = state->field;
+    flow->ripples = state->ripples;
+    flow->inverse_tile = (float)(1 / site->tile);
+    flow->steepness = (float)(1 / site->ripple_up);
+    for (int i = 0; i < 2; i++) { /* the grid's corners are the middles of its texels */
+        double size = site->bed.heights != NULL ? site->bed.size[i] : site->size[i], step = size / (CELLS - 1);
+        flow->corner[i] = (float)(-size / 2 - step / 2);
+        flow->scale[i] = (float)(1 / (step * CELLS));
+    }
+    lom_fill_flow_phases(flow, site->waves->speed, site->tile, time);
+}
+
+const struct lom_wave_kind lom_flow_waves = {
+    .size = sizeof(struct state), .exists = exists, .load = load, .bound = bound
+};

@@ -1,0 +1,204 @@
+/* The cascades of a sea as textures. In: the scene's wind, a time. Out: what shaders look up: displacements,
+ * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
+#include "waves/sea_desc.h"
+#include "waves/wave_field.h"
+
+#include <lom/sea.h>
+
+#include <stdio.h>
+
+struct state {
+    const struct lom_wave_site *site;
+    lom_device *device;
+    lom_sea *sea;
+    lom_texture *field[LOM_SURFACE_CASCADES][3];
+};
+
+enum { places = LOM_SEA_HEIGHT | LOM_SEA_DISPLACEMENT };
+enum { MOMENTS = 3 }; /* of the window before this one, at which foam is looked for */
+
+static bool exists(const struct lom_wave_source *source)
+{
+    return source->site->waves->kind == LOM_WAVES_SEA;
+}
+
+static bool load(void *memory, const struct lom_wave_source *source, lom_error *error)
+{
+    struct state *state = memory;
+    lom_sea_desc desc = lom_scene_sea(source->site->waves);
+    state->site = source->site;
+    state->device = source->device;
+    state->sea = lom_create_sea(&desc, source->device, error);
+    return state->sea != NULL;
+}
+
+static void unload(void *memory)
+{
+    lom_free_sea(((struct state *)memory)->sea);
+}
+
+static lom_texture *make_field(const struct state *state, int size, const float *pixels)
+{
+    return lom_make_texture(
+        state->device,
+        &(lom_texture_desc){
+            .width = size, .height = size, .format = LOM_FORMAT_RGBA32F, .pixels = pixels, .mips = LOM_MIPS_ALL });
+}
+
+/* Adds to the fourth of each four what breaks at this moment, in parts `fresh`; the largest stays. */
+static void add_foam(float *moments, const lom_sea_cascade *c, float threshold, float fresh)
+{
+    for (int i = 0; i < c->size * c->size; i++) {
+        float below = (threshold - c->jacobian[i]) * 4 * fresh;
+        float bounded = below < 0 ? 0 : below < fresh ? below : fresh;
+        if (bounded > moments[4 * i + 3])
+            moments[4 * i + 3] = bounded;
+    }
+}
+
+static bool find_foam(struct state *state, int cascade, float *moments, double time, lom_error *error)
+{
+    const lom_water_foam *foam = state->site->foam;
+    for (int m = MOMENTS; foam->amount > 0 && m > 0; m--) {
+        double then = time - foam->window * m / (MOMENTS + 1);
+        if (!lom_advance_cascade(state->sea, state->device, cascade, LOM_SEA_JACOBIAN, then, error))
+            return false;
+        lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
+        add_foam(moments, &c, (float)foam->threshold, 1 - (float)m / (MOMENTS + 1));
+    }
+    return true;
+}
+
+static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int cascade, float *moments, double time,
+                         lom_error *error)
+{
+    struct lom_cascade_uniform *u = &out->cascade[cascade];
+    lom_texture **held = state->field[cascade];
+    if (!find_foam(state, cascade, moments, time, error) ||
+        !lom_advance_cascade(state->sea, state->device, cascade, LOM_SEA_ALL & ~(unsigned)places, time, error))
+        return false;
+    lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
+    if (state->site->foam->amount > 0)
+        add_foam(moments, &c, (float)state->site->foam->threshold, 1);
+    for (int i = 0; i < c.size * c.size; i++) {
+        float sx = c.derivatives[4 * i], sz = c.derivatives[4 * i + 1];
+        moments[4 * i] = sx * sx;
+        moments[4 * i + 1] = sz * sz;
+        moments[4 * i + 2] = sx * sz;
+    }
+    const float *const pixels[3] = { c.displacement, c.derivatives, moments };
+    for (int i = 0; i < 3; i++) {
+        lom_release_texture(state->device, held[i]);
+        held[i] = make_field(state, c.size, pixels[i]);
+        if (held[i] == NULL)
+            return lom_fail(error, lom_device_error(state->device)->code, "%s", lom_device_error(state->device)->text);
+    }
+    *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], (float)(1 / c.length), 0.5f / (float)c.size };
+    return true;
+}
+
+static void bound(const void *memory, struct lom_waves_uniform *out, double time)
+{
+    (void)time;
+    const struct state *state = memory;
+    const lom_sea_desc *desc = lom_describe_sea(state->sea);
+    for (int i = 0; i < desc->cascade_count; i++) {
+        float bound = (float)(1.001 * lom_view_cascade(state->sea, i).bound);
+        out->lowest -= bound;
+        out->highest += bound;
+        out->reach += 1.4142137f * (float)desc->choppiness * bound;
+    }
+}
+
+static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_error *error)
+{
+    struct state *state = memory;
+    for (int i = 0; i < lom_describe_sea(state->sea)->cascade_count; i++) {
+        if (!lom_advance_cascade(state->sea, state->device, i, places, time, error))
+            return false;
+        lom_sea_cascade c = lom_view_cascade(state->sea, i);
+        out->lowest += c.lowest;
+        out->highest += c.highest;
+        out->reach += 1.4142137f * c.reach;
+    }
+    return true;
+}
+
+static bool fill(void *memory, struct lom_waves_uniform *out, double time, lom_error *error)
+{
+    struct state *state = memory;
+    const lom_sea_desc *desc = lom_describe_sea(state->sea);
+    out->cascade_count = desc->cascade_count;
+    for (int i = 0; i < desc->cascade_count; i++) {
+        size_t count = (size_t)desc->cascade[i].size * (size_t)desc->cascade[i].size;
+        float *moments = lom_allocate(count, 4 * sizeof *moments, error);
+        bool done = moments != NULL && fill_cascade(state, out, i, moments, time, error);
+        lom_release(moments);
+        if (!done)
+            return false;
+    }
+    return true;
+}
+
+/* The height of a cascade's samples at a rest position, to the nearest sample. */
+static const float *sample_at(const lom_sea_cascade *c, double x, double z)
+{
+    double s = x / c->length, t = z / c->length;
+    int column = (int)((s - lom_double_floor(s)) * c->size), row = (int)((t - lom_double_floor(t)) * c->size);
+    column = column < c->size ? column : c->size - 1;
+    row = row < c->size ? row : c->size - 1;
+    return c->displacement + 4 * ((size_t)row * (size_t)c->size + (size_t)column);
+}
+
+static double height(const void *memory, const struct lom_waves_uniform *waves, double x, double z)
+{
+    (void)waves;
+    const lom_sea *sea = ((const struct state *)memory)->sea;
+    double rest_x = x, rest_z = z, height = 0;
+    for (int step = 0; step < 4; step++) {
+        double dx = 0, dz = 0;
+        height = 0;
+        for (int i = 0; i < lom_describe_sea(sea)->cascade_count; i++) {
+            lom_sea_cascade c = lom_view_cascade(sea, i);
+            const float *p = sample_at(&c, rest_x, rest_z);
+            dx += (double)p[0];
+            height += (double)p[1];
+            dz += (double)p[2];
+        }
+        rest_x = x - dx;
+        rest_z = z - dz;
+    }
+    return height;
+}
+
+static void report(const void *memory, const struct lom_wave_moment *moment, struct lom_wave_report *out)
+{
+    const lom_sea *sea = ((const struct state *)memory)->sea;
+    int calm = 0, count = lom_describe_sea(sea)->cascade_count;
+    for (int i = 0; i < count; i++)
+        calm += lom_view_cascade(sea, i).waves == 0;
+    out->says = true;
+    out->runs = moment->why == NULL && calm < count;
+    if (moment->why != NULL)
+        snprintf(out->text, sizeof out->text, "%s: %s", moment->why,
+                 moment->known == LOM_WAVES_BOUNDED ? "no cascade is advanced"
+                                                    : "their places tell, no more of them is made");
+    else if (calm < count)
+        snprintf(out->text, sizeof out->text, "%d of %d cascades are advanced; %d have no waves", count - calm, count,
+                 calm);
+    else
+        snprintf(out->text, sizeof out->text, "none of %d cascades has waves", count);
+}
+
+const struct lom_wave_kind lom_sea_waves = { .step = "waves",
+                                             .size = sizeof(struct state),
+                                             .advances = true,
+                                             .exists = exists,
+                                             .load = load,
+                                             .free = unload,
+                                             .bound = bound,
+                                             .place = place,
+                                             .fill = fill,
+                                             .height = height,
+                                             .stage = LOM_WAVES_AT_FILLING,
+                                             .report = report };

@@ -1,0 +1,99 @@
+/* Waves of [surf] as shaders look them up. In: a site. Out: textures of its maps, made once; what shaders need of them
+ * at a time. Invariant: closed in time. */
+#include "waves/wave_field.h"
+
+#include <stdio.h>
+#include <string.h>
+
+struct state {
+    const struct lom_wave_site *site;
+    struct lom_surf_map map;
+    lom_texture *texture[2];
+};
+
+static bool exists(const struct lom_wave_source *source)
+{
+    return source->site->surf->height > 0;
+}
+
+/* Half of each cell: four of its floats. */
+static lom_texture *make_texture(lom_device *device, const struct lom_surf_map *map, size_t first, lom_error *error)
+{
+    const size_t count = (size_t)map->width * (size_t)map->height;
+    float(*texels)[4] = lom_allocate(count, sizeof *texels, error);
+    if (texels == NULL)
+        return NULL;
+    for (size_t i = 0; i < count; i++)
+        memcpy(texels[i], &map->cells[i].phase + first, sizeof texels[i]);
+    lom_texture *texture = lom_make_texture(
+        device, &(lom_texture_desc){ .width = map->width,
+                                     .height = map->height,
+                                     .format = LOM_FORMAT_RGBA32F,
+                                     .pixels = texels,
+                                     .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    lom_release(texels);
+    const lom_error *failed = lom_device_error(device);
+    if (texture == NULL)
+        lom_fail(error, failed->code, "%s", failed->text);
+    return texture;
+}
+
+static bool load(void *memory, const struct lom_wave_source *source, lom_error *error)
+{
+    struct state *state = memory;
+    state->site = source->site;
+    bool done = lom_make_site_surf(&state->map, source->site, error);
+    for (int i = 0; done && i < 2; i++) {
+        state->texture[i] = make_texture(source->device, &state->map, 4 * (size_t)i, error);
+        done = state->texture[i] != NULL;
+    }
+    return done;
+}
+
+static void unload(void *memory)
+{
+    lom_free_surf_map(&((struct state *)memory)->map);
+}
+
+/* No part of a wave is more than its height from the level. */
+static void bound(const void *memory, struct lom_waves_uniform *out, double time)
+{
+    const struct state *state = memory;
+    const lom_water_surf *surf = state->site->surf;
+    lom_fill_surf(&out->surf, &state->map, surf, time);
+    out->surf.waves = state->texture[0];
+    out->surf.shapes = state->texture[1];
+    float most = (float)(state->map.highest * (1 + surf->variation) * 1.0001);
+    out->highest += most;
+    out->lowest -= most;
+}
+
+static double height(const void *memory, const struct lom_waves_uniform *waves, double x, double z)
+{
+    return lom_surf_height(&((const struct state *)memory)->map, &waves->surf, x, z);
+}
+
+static void report(const void *memory, const struct lom_wave_moment *moment, struct lom_wave_report *out)
+{
+    (void)moment;
+    const struct state *state = memory;
+    const struct lom_surf_map *map = &state->map;
+    const lom_water_surf *surf = state->site->surf;
+    out->says = out->runs = true;
+    if (map->breaking_depth > 0)
+        snprintf(out->text, sizeof out->text, "waves of %g m and %g s rise to %.2f m and break from %.2f m of water on",
+                 surf->height, surf->period, map->highest, map->breaking_depth);
+    else
+        snprintf(out->text, sizeof out->text, "waves of %g m and %g s rise to %.2f m; none breaks", surf->height,
+                 surf->period, map->highest);
+}
+
+const struct lom_wave_kind lom_surf_waves = { .step = "surf",
+                                              .size = sizeof(struct state),
+                                              .exists = exists,
+                                              .load = load,
+                                              .free = unload,
+                                              .bound = bound,
+                                              .height = height,
+                                              .stage = LOM_WAVES_AT_FIRST,
+                                              .report = report };
