@@ -78,12 +78,12 @@ cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
 # What runs once and briefly is compiled for size.
 brief_sources := $(wildcard src/geometry/build*.c src/geometry/paint_*.c src/geometry/make_*.c src/geometry/shapes.c \
-	src/geometry/obj_*.c src/image/compare*.c src/measure/*.c src/render/load_*.c src/render/frame*.c src/cloud/*_keys.c \
+	src/geometry/obj_*.c src/measure/*.c src/render/load_*.c src/render/frame*.c src/cloud/*_keys.c \
 	src/water/*_keys.c src/water/make_*.c src/waves/*_keys.c src/spray/*_keys.c src/spray/make_*.c)
 # What loops over much is compiled for speed, as all lanes are; the rest of the library in between.
-busy_sources := $(wildcard src/pipeline/*.c src/march/*.c src/base/*.c src/reference/*.c src/geometry/erode_*.c src/render/*.c) \
-	$(addprefix src/,geometry/noise.c image/mipmap.c image/texture.c image/convert_rows.c image/convert_image.c waves/fft.c \
-	waves/sea_step.c waves/shallow_flow.c)
+busy_sources := $(wildcard src/pipeline/*.c src/march/*.c src/base/*.c src/reference/*.c src/geometry/erode_*.c src/render/*.c src/image/compare*.c) \
+	$(addprefix src/,geometry/noise.c image/checksum.c image/inflate_fast.c image/png_filter.c image/mipmap.c image/texture.c \
+	image/convert_rows.c image/convert_image.c waves/fft.c waves/sea_step.c waves/shallow_flow.c)
 ifeq ($(O),3)
 $(BUILD)/src/cli/%.o $(BUILD)/src/scene/%.o: private CFLAGS += -Os
 $(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c $(brief_sources) $(busy_sources) src/cli/% src/scene/%,$(sources))): private CFLAGS += -O2

@@ -67,14 +67,14 @@ run_models() {
     draw bench/cloud.toml --size 160x120 --set quality.clouds=reference --set "quality.reference.samples=$samples" -o "$work/reference.ppm"
     exact=$(least ms)
     draw bench/cloud.toml --size 160x120 --set quality.clouds=reference --set "quality.reference.samples=$((samples / 4))" -o "$work/quarter.ppm"
-    "$lom" compare "$work/reference.ppm" "$work/quarter.ppm" --json >"$work/quarter.json"
+    "$lom" compare "$work/reference.ppm" "$work/quarter.ppm" --json --metrics >"$work/quarter.json"
     echo "model,ms,FLIP,PSNR dB,SSIM" >"$work/table"
     for model in octaves forward single 'original combined' 'original advance' 'original real_time' 'original none' billboard; do
         light=${model#* }
         [ "$light" = "$model" ] && light=combined
         draw bench/cloud.toml --size 160x120 --threads 1 --frames 0:7 --set "quality.clouds=${model% *}" \
             --set "clouds.original_light=$light" -o "$work/model-%d.ppm"
-        "$lom" compare "$work/reference.ppm" "$work/model-0.ppm" --json | awk -F'[:,}]' -v model="$model" -v ms="$(least ms_clouds)" '
+        "$lom" compare "$work/reference.ppm" "$work/model-0.ppm" --json --metrics | awk -F'[:,}]' -v model="$model" -v ms="$(least ms_clouds)" '
             { for (i = 1; i < NF; i++) for (k = 1; k <= 3; k++) if (index($i, key[k])) at[k] = $(i + 1) }
             BEGIN { key[1] = "\"flip\""; key[2] = "\"psnr\""; key[3] = "\"ssim\"" }
             END { printf "%s,%s,%.3f,%.1f,%.3f\n", model, ms, at[1], at[2], at[3] }' >>"$work/table"

@@ -70,7 +70,7 @@ for scene in $scenes; do
         for model in $models; do
             draw "$model" "$work/$model-%d.ppm" --set water.enabled=$water --threads 1 --frames "0:$((frames - 1))" \
                 >"$work/stats" || exit 2
-            "$lom" compare "$work/reference.ppm" "$work/$model-0.ppm" --json >"$work/compared"
+            "$lom" compare "$work/reference.ppm" "$work/$model-0.ppm" --json --metrics >"$work/compared"
             for number in "$(least <"$work/stats")" "$(field psnr <"$work/compared")" "$(field ssim <"$work/compared")" \
                 "$(field flip <"$work/compared")"; do echo "$number"; done |
                 awk -v name="$([ $water = true ] && echo "$model" || echo 'no water')" 'NR == 1 { ms = $1 }

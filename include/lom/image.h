@@ -107,7 +107,8 @@ bool lom_reinterpret_image(lom_image *image, lom_format format, lom_error *error
  * 16-bit 257 n), floats when either is float or only one is sRGB-encoded, three colours when either has three (gray is
  * replicated; two channels are gray and alpha, as in files), alpha when either has it (missing alpha is 1). Unsigned
  * normalised formats differ in *steps*, 0 .. 2^bits - 1; floats in plain numbers. Equal means equal as numbers: -0 is
- * 0, a NaN equals a NaN and is infinitely far from any number. */
+ * 0, a NaN equals a NaN and is infinitely far from any number. Large pictures are compared by lom_default_threads()
+ * threads, which end with the call; the results depend neither on their number nor on the machine. */
 
 typedef struct lom_comparison {
     bool same_size;     /* width, height and depth agree; if not, nothing below is set but format */
@@ -127,6 +128,11 @@ typedef struct lom_comparison {
  * sizes are a result. */
 bool lom_compare_images(const lom_image *a, const lom_image *b, lom_comparison *result, lom_error *error);
 
+/* How many pixels have a sample that differs by more than `tolerance` (in the unit of max_delta), alpha included: with
+ * 0 these are lom_comparison.pixels. Sizes must agree. */
+bool lom_count_differing_pixels(const lom_image *a, const lom_image *b, double tolerance, size_t *pixels,
+                                lom_error *error);
+
 /* Structural similarity, 1 for equal pictures (Wang, Bovik, Sheikh, Simoncelli: Image Quality Assessment, IEEE TIP
  * 13(4), 2004): Gaussian window 11x11 with sigma 1.5, K1 0.01, K2 0.03, no downsampling, of the luma 0.299 R + 0.587 G
  * + 0.114 B of encoded samples. Only windows wholly inside the picture count, as in the authors' program; along a side
@@ -141,9 +147,11 @@ bool lom_compare_ssim(const lom_image *a, const lom_image *b, double *ssim, lom_
  * Sizes must agree. */
 bool lom_compare_flip(const lom_image *a, const lom_image *b, double *flip, lom_error *error);
 
-/* A picture of the differences, RGB8, of the same size: a channel is 0 where the samples are equal and 64
- * + 191 sqrt(d) where they differ by d of the range (floats: by d, at most 1), so that one step in 65535 can be seen. A
- * difference in alpha is shown in all three channels. Sizes must agree; NULL on failure, freed with lom_free_image. */
+/* A picture of the differences, RGB8: a channel is 0 where the samples are equal and 64 + 191 sqrt(d) where they differ
+ * by d of the range (floats: by d, at most 1), so that one step in 65535 can be seen. A difference in alpha is shown in
+ * all three channels. Pictures of different sizes are laid upon one another at the top left of the first slice: the
+ * picture is as large as both together, and its pixels are (32, 32, 32), which no difference is, where only one of them
+ * has a pixel, or none. NULL on failure, freed with lom_free_image. */
 lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error *error);
 
 /* ---- video ---- */

@@ -1,149 +1,172 @@
 /* The exact difference of two pictures. In: two images. Out: how many pixels differ, by how much, where, and the mean
- * squared difference of their colours. Invariant: equal rows are found by their bytes, all others sample by sample, and
- * sums are formed row by row from the top, so the result is one on every machine. */
+ * squared difference of their colours. Invariant: equal rows are found by their bytes, all others sample by sample;
+ * what is found in a row is put together from the top, so the result is one on every machine and number of threads. */
 #include "compare.h"
 
 #include <string.h>
 
-/* |a - b| with the rules of the header for what has no difference. */
-static double sample_delta(double a, double b)
-{
-    if (a == b)
-        return 0;
-    bool nan_a = __builtin_isnan(a), nan_b = __builtin_isnan(b);
-    if (nan_a || nan_b)
-        return nan_a && nan_b ? 0 : __builtin_inf();
-    return __builtin_fabs(a - b);
-}
-
-struct tally {
-    lom_comparison *result;
-    int left, top, right, bottom; /* of the differing pixels, both included */
-    double squares;
+/* What differs in a row. */
+struct row {
+    size_t pixels, above;    /* with any difference, with one above the tolerance */
+    double squares;          /* of the differences of colours */
+    double max_delta;        /* 0: the row is equal, and what follows is not set */
+    int left, right;         /* differing pixels, both included */
+    int max_at, max_channel; /* the first place of max_delta */
 };
 
-static void tally_row(struct tally *tally, const lom_common_format *common, const double *a, const double *b, int width,
-                      int y, int z)
+struct tally {
+    const lom_image *a, *b;
+    lom_common_format common;
+    double tolerance;
+    double *samples; /* two rows a worker */
+    struct row *rows;
+};
+
+static struct row tally_row(const lom_common_format *common, const double *a, const double *b, int width,
+                            double tolerance)
 {
-    lom_comparison *result = tally->result;
-    double squares = 0;
+    struct row row = { .left = -1 };
     for (int x = 0; x < width; x++, a += common->channels, b += common->channels) {
-        bool differs = false;
+        double largest = 0;
         for (int c = 0; c < common->channels; c++) {
-            double delta = sample_delta(a[c], b[c]);
-            if (delta == 0)
-                continue;
-            differs = true;
+            double delta = lom_sample_delta(a[c], b[c]);
             if (c < common->colors)
-                squares += delta * delta;
-            if (delta > result->max_delta) {
-                result->max_delta = delta;
-                result->max_channel = c;
-                result->max_at[0] = x;
-                result->max_at[1] = y;
-                result->max_at[2] = z;
+                row.squares += delta * delta;
+            largest = delta > largest ? delta : largest;
+            if (delta > row.max_delta) {
+                row.max_delta = delta;
+                row.max_at = x;
+                row.max_channel = c;
             }
         }
-        if (!differs)
+        if (largest == 0)
             continue;
-        result->pixels++;
-        tally->left = x < tally->left ? x : tally->left;
-        tally->right = x > tally->right ? x : tally->right;
-        tally->top = y < tally->top ? y : tally->top;
-        tally->bottom = y > tally->bottom ? y : tally->bottom;
+        row.pixels++;
+        row.above += largest > tolerance;
+        row.left = row.left < 0 ? x : row.left;
+        row.right = x;
     }
-    tally->squares += squares;
+    return row;
 }
 
-static void finish(struct tally *tally, const lom_common_format *common, const lom_image *a)
+static void tally_band(void *context, int worker, int z, int from, int to)
 {
-    lom_comparison *result = tally->result;
-    double samples = (double)a->width * a->height * a->depth * common->colors;
-    double mean = tally->squares / samples;
+    struct tally *tally = context;
+    const lom_image *a = tally->a, *b = tally->b;
+    size_t bytes = (size_t)a->width * lom_format_size(a->format);
+    size_t length = (size_t)a->width * (size_t)tally->common.channels;
+    double *samples = tally->samples + 2 * length * (size_t)worker;
+    for (int y = from; y < to; y++) {
+        if (a->format == b->format && memcmp(lom_image_pixel(a, 0, y, z), lom_image_pixel(b, 0, y, z), bytes) == 0)
+            continue;
+        lom_read_common_row(a, &tally->common, y, z, samples);
+        lom_read_common_row(b, &tally->common, y, z, samples + length);
+        tally->rows[(size_t)z * (size_t)a->height + (size_t)y] =
+            tally_row(&tally->common, samples, samples + length, a->width, tally->tolerance);
+    }
+}
+
+/* Fills tally->rows, which the caller frees. */
+static bool tally_rows(lom_pool *pool, struct tally *tally, lom_error *error)
+{
+    const lom_image *a = tally->a;
+    size_t length = (size_t)a->width * (size_t)tally->common.channels;
+    tally->rows = lom_allocate((size_t)a->height * (size_t)a->depth, sizeof *tally->rows, error);
+    tally->samples = lom_allocate(2 * length * (size_t)lom_pool_size(pool), sizeof *tally->samples, error);
+    bool good = tally->rows != NULL && tally->samples != NULL;
+    if (good)
+        lom_run_bands(pool, a->depth, a->height, tally_band, tally);
+    lom_release(tally->samples);
+    return good;
+}
+
+static void add_row(lom_comparison *result, const struct row *row, int y, int z)
+{
+    if (row->max_delta == 0)
+        return;
+    int *box = result->box; /* until finish: left, top, right, bottom */
+    box[0] = result->pixels == 0 || row->left < box[0] ? row->left : box[0];
+    box[1] = result->pixels == 0 || y < box[1] ? y : box[1];
+    box[2] = row->right > box[2] ? row->right : box[2];
+    box[3] = y > box[3] ? y : box[3];
+    result->pixels += row->pixels;
+    if (row->max_delta > result->max_delta) {
+        result->max_delta = row->max_delta;
+        result->max_channel = row->max_channel;
+        result->max_at[0] = row->max_at;
+        result->max_at[1] = y;
+        result->max_at[2] = z;
+    }
+}
+
+static void finish(const struct tally *tally, lom_comparison *result)
+{
+    const lom_image *a = tally->a;
+    double squares = 0, peak = tally->common.peak;
+    const struct row *row = tally->rows;
+    for (int z = 0; z < a->depth; z++)
+        for (int y = 0; y < a->height; y++, row++) {
+            squares += row->squares;
+            add_row(result, row, y, z);
+        }
     result->identical = result->pixels == 0;
     if (!result->identical) {
-        const int box[4] = { tally->left, tally->top, tally->right - tally->left + 1, tally->bottom - tally->top + 1 };
-        memcpy(result->box, box, sizeof box);
+        result->box[2] -= result->box[0] - 1;
+        result->box[3] -= result->box[1] - 1;
     }
+    double mean = squares / ((double)a->width * a->height * a->depth * tally->common.colors);
     result->rmse = __builtin_sqrt(mean);
-    result->psnr =
-        mean > 0 ? 10 * lom_double_log2(common->peak / mean * common->peak) / lom_double_log2(10) : __builtin_inf();
+    result->psnr = mean > 0 ? 10 * lom_double_log2(peak / mean * peak) / lom_double_log2(10) : __builtin_inf();
+}
+
+bool lom_compare_images_on(lom_pool *pool, const lom_image *a, const lom_image *b, lom_comparison *result,
+                           lom_error *error)
+{
+    struct tally tally = { .a = a, .b = b };
+    *result = (lom_comparison){ .same_size = false };
+    if (!lom_find_common_format(a, b, &tally.common, error))
+        return false;
+    result->is_float = tally.common.is_float;
+    result->channels = tally.common.channels;
+    result->bits = tally.common.bits;
+    result->same_size = lom_require_same_size(a, b, NULL);
+    if (!result->same_size)
+        return true;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool good = tally_rows(pool, &tally, error);
+    if (good)
+        finish(&tally, result);
+    lom_leave_float_state(&state);
+    lom_release(tally.rows);
+    return good;
 }
 
 bool lom_compare_images(const lom_image *a, const lom_image *b, lom_comparison *result, lom_error *error)
 {
-    lom_common_format common;
-    *result = (lom_comparison){ .same_size = false };
-    if (!lom_find_common_format(a, b, &common, error))
+    lom_pool *pool = lom_create_compare_pool(a, error);
+    bool good = pool != NULL && lom_compare_images_on(pool, a, b, result, error);
+    lom_free_pool(pool);
+    return good;
+}
+
+bool lom_count_differing_pixels(const lom_image *a, const lom_image *b, double tolerance, size_t *pixels,
+                                lom_error *error)
+{
+    struct tally tally = { .a = a, .b = b, .tolerance = tolerance };
+    if (!lom_find_common_format(a, b, &tally.common, error) || !lom_require_same_size(a, b, error))
         return false;
-    result->is_float = common.is_float;
-    result->channels = common.channels;
-    result->bits = common.bits;
-    result->same_size = lom_require_same_size(a, b, NULL);
-    if (!result->same_size)
-        return true;
-    size_t row = (size_t)a->width * (size_t)common.channels;
-    double *rows = lom_allocate(2 * row, sizeof *rows, error);
-    if (rows == NULL)
+    lom_pool *pool = lom_create_compare_pool(a, error);
+    if (pool == NULL)
         return false;
     lom_float_state state;
     lom_enter_float_state(&state);
-    struct tally tally = { .result = result, .left = a->width, .top = a->height, .right = -1, .bottom = -1 };
-    size_t bytes = (size_t)a->width * lom_format_size(a->format);
-    for (int z = 0; z < a->depth; z++)
-        for (int y = 0; y < a->height; y++) {
-            if (a->format == b->format && memcmp(lom_image_pixel(a, 0, y, z), lom_image_pixel(b, 0, y, z), bytes) == 0)
-                continue;
-            lom_read_common_row(a, &common, y, z, rows);
-            lom_read_common_row(b, &common, y, z, rows + row);
-            tally_row(&tally, &common, rows, rows + row, a->width, y, z);
-        }
-    finish(&tally, &common, a);
+    bool good = tally_rows(pool, &tally, error);
+    *pixels = 0;
+    for (size_t i = 0; good && i < (size_t)a->height * (size_t)a->depth; i++)
+        *pixels += tally.rows[i].above;
     lom_leave_float_state(&state);
-    lom_release(rows);
-    return true;
-}
-
-/* Black for equal samples; else 64 and more, by the square root, so that the least difference can be seen. */
-static uint8_t shade(double a, double b, double peak)
-{
-    double delta = sample_delta(a, b) / peak;
-    if (delta == 0)
-        return 0;
-    return (uint8_t)(64 + 191 * __builtin_sqrt(delta < 1 ? delta : 1) + 0.5);
-}
-
-lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error *error)
-{
-    lom_common_format common;
-    if (!lom_find_common_format(a, b, &common, error) || !lom_require_same_size(a, b, error))
-        return NULL;
-    size_t row = (size_t)a->width * (size_t)common.channels;
-    double *rows = lom_allocate(2 * row, sizeof *rows, error);
-    lom_image *picture = lom_create_image(a->width, a->height, a->depth, LOM_FORMAT_RGB8, error);
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    for (int z = 0; rows != NULL && picture != NULL && z < a->depth; z++)
-        for (int y = 0; y < a->height; y++) {
-            lom_read_common_row(a, &common, y, z, rows);
-            lom_read_common_row(b, &common, y, z, rows + row);
-            uint8_t *out = lom_image_pixel(picture, 0, y, z);
-            for (size_t i = 0; i < row; i += (size_t)common.channels, out += 3) {
-                uint8_t alpha = 0;
-                if (common.channels > common.colors)
-                    alpha = shade(rows[i + (size_t)common.colors], rows[row + i + (size_t)common.colors], common.peak);
-                for (int c = 0; c < 3; c++) {
-                    size_t at = i + (size_t)(common.colors == 3 ? c : 0);
-                    uint8_t color = shade(rows[at], rows[row + at], common.peak);
-                    out[c] = color > alpha ? color : alpha;
-                }
-            }
-        }
-    lom_leave_float_state(&state);
-    lom_release(rows);
-    if (rows == NULL) {
-        lom_free_image(picture);
-        return NULL;
-    }
-    return picture;
+    lom_free_pool(pool);
+    lom_release(tally.rows);
+    return good;
 }

@@ -1,6 +1,7 @@
 /* LDR FLIP (Andersson et al., FLIP: A Difference Evaluator for Alternating Images, Proc. ACM CGIT 3(2), 2020). In: two
  * images of one size. Out: the mean of the error map. Invariant: every pixel depends on the 21x21 pixels around it
- * alone, computed in double in one fixed order; equal pictures give exactly 0, and the pictures may be swapped.
+ * alone, computed in double in one fixed order, and rows are summed from the top whoever did them; equal pictures give
+ * exactly 0, and the pictures may be swapped.
  *
  * The filters are Gaussians, their derivatives and sums of two Gaussians, all separable: a row of each picture is
  * turned into YCxCz and filtered along the row when it is first needed, kept in a ring of 21 rows, and the columns are
@@ -150,29 +151,77 @@ static double row_error(const struct work *work)
     return sum;
 }
 
-static double slice_error(struct work *work, int z)
+struct errors {
+    struct work *work; /* of each worker */
+    double *sums;      /* of each row, slice after slice */
+};
+
+/* Whether the bytes of row y are the same in both pictures. */
+static bool is_equal_row(const struct work *work, int y, int z)
 {
-    double sum = 0;
-    work->pictures[0].next = work->pictures[1].next = 0;
-    for (int y = 0; y < work->height; y++) {
-        find_results(work, &work->pictures[0], y, z);
-        find_results(work, &work->pictures[1], y, z);
-        sum += row_error(work);
-    }
-    return sum / ((double)work->width * work->height);
+    const lom_image *a = work->pictures[0].image, *b = work->pictures[1].image;
+    return a->format == b->format && memcmp(lom_image_pixel(a, 0, y, z), lom_image_pixel(b, 0, y, z),
+                                            (size_t)a->width * lom_format_size(a->format)) == 0;
 }
 
-/* Points the rows of work into one block of memory. */
-static double *allocate_rows(struct work *work, lom_error *error)
+/* The last row at or before `to` that differs, at least `from`; from - 1 when there is none. */
+static int last_difference(const struct work *work, int from, int to, int z)
 {
-    size_t width = (size_t)work->width, padded = width + 2 * LOM_FLIP_RADIUS;
-    size_t rows = 4 + COLUMN_SCRATCH + 2 * (DIAMETER * ROW_FILTERS + RESULTS);
-    double *memory = lom_allocate(rows * width + 3 * padded, sizeof *memory, error), *next = memory;
-    if (memory == NULL)
-        return NULL;
+    while (to >= from && is_equal_row(work, to, z))
+        to--;
+    return to;
+}
+
+/* A row whose pixels all see equal rows alone has no error, and nothing is filtered for it. */
+static void error_band(void *context, int worker, int z, int from, int to)
+{
+    struct errors *errors = context;
+    struct work *work = &errors->work[worker];
+    int seen = from - LOM_FLIP_RADIUS < 0 ? 0 : from - LOM_FLIP_RADIUS; /* rows below are known */
+    int differing = seen - 1;                                           /* the last known row that differs */
+    work->pictures[0].next = work->pictures[1].next = seen;
+    for (int y = from; y < to; y++) {
+        int first = y - LOM_FLIP_RADIUS < 0 ? 0 : y - LOM_FLIP_RADIUS;
+        int end = work->height - y > LOM_FLIP_RADIUS ? y + LOM_FLIP_RADIUS + 1 : work->height;
+        int last = last_difference(work, seen, end - 1, z);
+        differing = last >= seen ? last : differing;
+        seen = end;
+        if (differing < first)
+            continue;
+        for (int p = 0; p < 2; p++)
+            work->pictures[p].next = work->pictures[p].next < first ? first : work->pictures[p].next;
+        find_results(work, &work->pictures[0], y, z);
+        find_results(work, &work->pictures[1], y, z);
+        errors->sums[(size_t)z * (size_t)work->height + (size_t)y] = row_error(work);
+    }
+}
+
+/* Of the rows of each slice from the top, then of the slices. */
+static double mean_error(const double *row, const lom_image *a)
+{
+    double sum = 0;
+    for (int z = 0; z < a->depth; z++) {
+        double total = 0;
+        for (int y = 0; y < a->height; y++)
+            total += *row++;
+        sum += total / ((double)a->width * a->height);
+    }
+    return sum / a->depth;
+}
+
+/* Doubles of the rows of one worker. */
+static size_t row_memory(size_t width)
+{
+    return (4 + COLUMN_SCRATCH + 2 * (DIAMETER * ROW_FILTERS + RESULTS)) * width + 3 * (width + 2 * LOM_FLIP_RADIUS);
+}
+
+/* Points the rows of work into memory. */
+static void place_rows(struct work *work, double *next)
+{
+    size_t width = (size_t)work->width;
     work->samples = next;
     next += 4 * width;
-    for (int c = 0; c < 3; c++, next += padded)
+    for (int c = 0; c < 3; c++, next += width + 2 * LOM_FLIP_RADIUS)
         work->opponent[c] = next;
     for (int c = 0; c < COLUMN_SCRATCH; c++, next += width)
         work->column[c] = next;
@@ -183,31 +232,45 @@ static double *allocate_rows(struct work *work, lom_error *error)
         for (int i = 0; i < RESULTS; i++, next += width)
             work->pictures[p].results[i] = next;
     }
-    return memory;
 }
 
-bool lom_compare_flip(const lom_image *a, const lom_image *b, double *flip, lom_error *error)
+bool lom_compare_flip_on(lom_pool *pool, const lom_image *a, const lom_image *b, double *flip, lom_error *error)
 {
     lom_common_format common;
     if (!lom_find_common_format(a, b, &common, error) || !lom_require_same_size(a, b, error))
         return false;
-    struct work work = { .common = &common, .width = a->width, .height = a->height };
-    work.pictures[0].image = a;
-    work.pictures[1].image = b;
-    double *memory = allocate_rows(&work, error);
+    size_t workers = (size_t)lom_pool_size(pool), memory_each = row_memory((size_t)a->width);
     lom_float_state state;
     lom_enter_float_state(&state);
-    lom_flip_constants *constants = memory != NULL ? lom_create_flip_constants(&common, error) : NULL;
-    if (constants != NULL) {
-        work.constants = constants;
-        double sum = 0;
-        for (int z = 0; z < a->depth; z++)
-            sum += slice_error(&work, z);
-        *flip = sum / a->depth;
+    struct errors errors = { .work = lom_allocate(workers, sizeof *errors.work, error),
+                             .sums = lom_allocate((size_t)a->height * (size_t)a->depth, sizeof *errors.sums, error) };
+    double *memory = lom_allocate(workers * memory_each, sizeof *memory, error);
+    lom_flip_constants *constants = lom_create_flip_constants(&common, error);
+    bool good = errors.work != NULL && errors.sums != NULL && memory != NULL && constants != NULL;
+    for (size_t i = 0; good && i < workers; i++) {
+        errors.work[i] = (struct work){ .common = &common,
+                                        .constants = constants,
+                                        .width = a->width,
+                                        .height = a->height,
+                                        .pictures = { { .image = a }, { .image = b } } };
+        place_rows(&errors.work[i], memory + i * memory_each);
+    }
+    if (good) {
+        lom_run_bands(pool, a->depth, a->height, error_band, &errors);
+        *flip = mean_error(errors.sums, a);
     }
     lom_leave_float_state(&state);
-    lom_release(memory);
-    bool done = constants != NULL;
     lom_free_flip_constants(constants);
-    return done;
+    lom_release(memory);
+    lom_release(errors.sums);
+    lom_release(errors.work);
+    return good;
+}
+
+bool lom_compare_flip(const lom_image *a, const lom_image *b, double *flip, lom_error *error)
+{
+    lom_pool *pool = lom_create_compare_pool(a, error);
+    bool good = pool != NULL && lom_compare_flip_on(pool, a, b, flip, error);
+    lom_free_pool(pool);
+    return good;
 }

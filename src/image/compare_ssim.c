@@ -1,6 +1,6 @@
 /* Structural similarity (Wang, Bovik, Sheikh, Simoncelli, IEEE TIP 13(4), 2004). In: two images of one size. Out: the
- * mean over all windows. Invariant: the five weighted moments of a window are formed in double in one fixed order;
- * equal pictures give exactly 1.
+ * mean over all windows. Invariant: the five weighted moments of a window are formed in double in one fixed order, and
+ * rows of windows are summed from the top whoever did them; equal pictures give exactly 1.
  *
  * The Gaussian is separable, so rows are filtered as they come and kept in a ring; a window's moments are a weighted
  * sum of WINDOW filtered rows. */
@@ -98,18 +98,25 @@ static double similarity_row(double *const *moments, int count)
     return sum;
 }
 
-static double slice_similarity(const lom_image *const images[2], const lom_common_format *common, int z,
-                               struct buffers *buffers)
+struct similarity {
+    const lom_image *images[2];
+    lom_common_format common;
+    struct buffers *buffers; /* of each worker */
+    double *sums;            /* of each row of windows, slice after slice */
+};
+
+static void similarity_band(void *context, int worker, int z, int from, int to)
 {
-    int width = images[0]->width, height = images[0]->height, next = 0;
-    int columns = window_count(width), rows = window_count(height);
-    double total = 0;
-    for (int i = 0; i < rows; i++) {
+    struct similarity *work = context;
+    struct buffers *buffers = &work->buffers[worker];
+    int width = work->images[0]->width, height = work->images[0]->height;
+    int columns = window_count(width), rows = window_count(height), next = find_window(height, from).start;
+    for (int i = from; i < to; i++) {
         struct window window = find_window(height, i);
         for (; next < window.start + window.taps; next++) {
             for (int p = 0; p < 2; p++) {
-                lom_read_common_row(images[p], common, next, z, buffers->common[p]);
-                luma_row(common, buffers->common[p], width, buffers->luma[p]);
+                lom_read_common_row(work->images[p], &work->common, next, z, buffers->common[p]);
+                luma_row(&work->common, buffers->common[p], width, buffers->luma[p]);
             }
             filter_moments(buffers, width, next);
         }
@@ -119,41 +126,73 @@ static double slice_similarity(const lom_image *const images[2], const lom_commo
                 taps[k] = buffers->moments[(window.start + k) % WINDOW][m];
             lom_filter_column(taps, columns, window.weight, window.taps, buffers->column[m]);
         }
-        total += similarity_row(buffers->column, columns);
+        work->sums[(size_t)z * (size_t)rows + (size_t)i] = similarity_row(buffers->column, columns);
     }
-    return total / ((double)columns * rows);
+}
+
+/* Points the rows of buffers into memory, and returns what lies behind them. */
+static double *place_rows(struct buffers *buffers, const lom_common_format *common, size_t width, double *next)
+{
+    for (int p = 0; p < 2; p++, next += width * (size_t)common->channels)
+        buffers->common[p] = next;
+    for (int p = 0; p < 2; p++, next += width)
+        buffers->luma[p] = next;
+    buffers->product = next;
+    for (int m = 0; m < MOMENTS; m++) {
+        for (int k = 0; k < WINDOW; k++)
+            buffers->moments[k][m] = next += width;
+        buffers->column[m] = next += width;
+    }
+    return next + width;
+}
+
+/* Of the rows of each slice from the top, then of the slices. */
+static double mean_similarity(const struct similarity *work)
+{
+    const lom_image *a = work->images[0];
+    int columns = window_count(a->width), rows = window_count(a->height);
+    const double *row = work->sums;
+    double sum = 0;
+    for (int z = 0; z < a->depth; z++) {
+        double total = 0;
+        for (int i = 0; i < rows; i++)
+            total += *row++;
+        sum += total / ((double)columns * rows);
+    }
+    return sum / a->depth;
+}
+
+bool lom_compare_ssim_on(lom_pool *pool, const lom_image *a, const lom_image *b, double *ssim, lom_error *error)
+{
+    struct similarity work = { .images = { a, b } };
+    if (!lom_find_common_format(a, b, &work.common, error) || !lom_require_same_size(a, b, error))
+        return false;
+    size_t width = (size_t)a->width, workers = (size_t)lom_pool_size(pool);
+    size_t rows = 2 * (size_t)work.common.channels + 3 + WINDOW * MOMENTS + MOMENTS;
+    double *memory = lom_allocate(width * rows * workers, sizeof *memory, error);
+    work.buffers = lom_allocate(workers, sizeof *work.buffers, error);
+    work.sums = lom_allocate((size_t)window_count(a->height) * (size_t)a->depth, sizeof *work.sums, error);
+    bool good = memory != NULL && work.buffers != NULL && work.sums != NULL;
+    if (good) {
+        double *next = memory;
+        for (size_t i = 0; i < workers; i++)
+            next = place_rows(&work.buffers[i], &work.common, width, next);
+        lom_float_state state;
+        lom_enter_float_state(&state);
+        lom_run_bands(pool, a->depth, window_count(a->height), similarity_band, &work);
+        *ssim = mean_similarity(&work);
+        lom_leave_float_state(&state);
+    }
+    lom_release(work.sums);
+    lom_release(work.buffers);
+    lom_release(memory);
+    return good;
 }
 
 bool lom_compare_ssim(const lom_image *a, const lom_image *b, double *ssim, lom_error *error)
 {
-    lom_common_format common;
-    if (!lom_find_common_format(a, b, &common, error) || !lom_require_same_size(a, b, error))
-        return false;
-    size_t width = (size_t)a->width;
-    double *memory =
-        lom_allocate(width * (2 * (size_t)common.channels + 3 + WINDOW * MOMENTS + MOMENTS), sizeof *memory, error);
-    if (memory == NULL)
-        return false;
-    struct buffers buffers;
-    double *next = memory;
-    for (int p = 0; p < 2; p++, next += width * (size_t)common.channels)
-        buffers.common[p] = next;
-    for (int p = 0; p < 2; p++, next += width)
-        buffers.luma[p] = next;
-    buffers.product = next;
-    for (int m = 0; m < MOMENTS; m++) {
-        for (int k = 0; k < WINDOW; k++)
-            buffers.moments[k][m] = next += width;
-        buffers.column[m] = next += width;
-    }
-    const lom_image *images[2] = { a, b };
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    double sum = 0;
-    for (int z = 0; z < a->depth; z++)
-        sum += slice_similarity(images, &common, z, &buffers);
-    *ssim = sum / a->depth;
-    lom_leave_float_state(&state);
-    lom_release(memory);
-    return true;
+    lom_pool *pool = lom_create_compare_pool(a, error);
+    bool good = pool != NULL && lom_compare_ssim_on(pool, a, b, ssim, error);
+    lom_free_pool(pool);
+    return good;
 }

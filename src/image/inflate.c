@@ -1,29 +1,11 @@
 /* Decompression of DEFLATE (RFC 1951), zlib (RFC 1950) and gzip (RFC 1952). In: compressed bytes; out: decompressed
  * bytes. Invariant: nothing is read behind the input or written behind the output's limit, whatever the input says. */
-#include "zip.h"
-
-#include "bytes.h"
+#include "inflate.h"
 
 #include <string.h>
 
-enum { MOST_BITS = 15, FAST_BITS = 10, LITERALS = 288, DISTANCES = 30, END_OF_BLOCK = 256, FIRST_LENGTH = 257 };
-
-/* The bits not yet used, the next one lowest. Behind the end of the data zeros would follow; taking one is an error. */
-typedef struct reader {
-    const char *name;
-    const uint8_t *data;
-    size_t size, at;
-    uint64_t bits;
-    int count;
-    lom_error *error;
-} reader;
-
-/* A canonical Huffman code: codes of one length are consecutive numbers, in the order of their symbols. */
-typedef struct code {
-    uint16_t fast[1 << FAST_BITS]; /* by the next bits: symbol * 16 + length, 0 for a longer code or none */
-    uint16_t count[MOST_BITS + 1]; /* codes of each length */
-    uint16_t symbol[LITERALS];     /* by length, then by number */
-} code;
+typedef lom_inflate_reader reader;
+typedef lom_inflate_code code;
 
 static bool fail(const reader *in, const char *what)
 {
@@ -75,15 +57,15 @@ static uint32_t reverse(uint32_t value, int bits)
 /* Complete codes only, but for a single code of one bit and no code at all (RFC 1951, section 3.2.7). */
 static bool build(code *c, const uint8_t *lengths, int symbols, bool allow_single)
 {
-    uint16_t offset[MOST_BITS + 2] = { 0 };
-    uint32_t next[MOST_BITS + 2] = { 0 };
+    uint16_t offset[INFLATE_MOST_BITS + 2] = { 0 };
+    uint32_t next[INFLATE_MOST_BITS + 2] = { 0 };
     memset(c->count, 0, sizeof c->count);
     for (int i = 0; i < symbols; i++)
         c->count[lengths[i]]++;
     int used = symbols - c->count[0];
     c->count[0] = 0;
     int left = 1;
-    for (int bits = 1; bits <= MOST_BITS; bits++) {
+    for (int bits = 1; bits <= INFLATE_MOST_BITS; bits++) {
         left = left * 2 - c->count[bits];
         if (left < 0)
             return false;
@@ -99,40 +81,35 @@ static bool build(code *c, const uint8_t *lengths, int symbols, bool allow_singl
             continue;
         c->symbol[offset[bits]++] = (uint16_t)i;
         uint32_t number = next[bits]++;
-        if (bits <= FAST_BITS)
-            for (uint32_t at = reverse(number, bits); at < 1u << FAST_BITS; at += 1u << bits)
+        if (bits <= INFLATE_FAST_BITS)
+            for (uint32_t at = reverse(number, bits); at < 1u << INFLATE_FAST_BITS; at += 1u << bits)
                 c->fast[at] = (uint16_t)(i * 16 + bits);
     }
     return true;
 }
 
-/* A code longer than FAST_BITS, bit after bit: at each length the codes are [first, first + count). -1 when none. */
-static int decode_long(reader *in, const code *c)
+/* Bit after bit: at each length the codes are [first, first + count). */
+unsigned lom_find_long_code(const code *c, uint64_t next)
 {
     int number = 0, first = 0, index = 0;
-    for (int bits = 1; bits <= MOST_BITS; bits++) {
-        number |= (int)(in->bits >> (bits - 1) & 1);
+    for (int bits = 1; bits <= INFLATE_MOST_BITS; bits++, next >>= 1) {
+        number |= (int)(next & 1);
         int count = c->count[bits];
-        if (number - first < count) {
-            take(in, bits);
-            return c->symbol[index + number - first];
-        }
+        if (number - first < count)
+            return (unsigned)c->symbol[index + number - first] * 16 + (unsigned)bits;
         index += count;
         first = (first + count) << 1;
         number <<= 1;
     }
-    return -1;
+    return 0;
 }
 
 /* The next symbol, -1 when no code fits. in->count below 0 afterwards means that the data ended. */
 static inline int decode(reader *in, const code *c)
 {
-    uint16_t entry = c->fast[in->bits & ((1 << FAST_BITS) - 1)];
-    if (entry != 0) {
-        take(in, entry & 15);
-        return entry >> 4;
-    }
-    return decode_long(in, c);
+    unsigned entry = lom_find_code(c, in->bits);
+    take(in, (int)(entry & 15));
+    return entry != 0 ? (int)(entry >> 4) : -1;
 }
 
 /* ---- output ---- */
@@ -201,39 +178,43 @@ static bool inflate_stored(reader *in, lom_inflated *out)
     return true;
 }
 
-static const uint16_t length_base[29] = { 3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
-                                          31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258 };
-static const uint8_t length_extra[29] = { 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
-                                          2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0 };
-static const uint16_t distance_base[30] = { 1,    2,    3,    4,    5,    7,    9,    13,    17,    25,
-                                            33,   49,   65,   97,   129,  193,  257,  385,   513,   769,
-                                            1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577 };
-static const uint8_t distance_extra[30] = { 0, 0, 0, 0, 1, 1, 2, 2,  3,  3,  4,  4,  5,  5,  6,
-                                            6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13 };
+const uint16_t lom_inflate_length_base[INFLATE_LENGTHS] = { 3,  4,  5,  6,   7,   8,   9,   10,  11, 13,
+                                                            15, 17, 19, 23,  27,  31,  35,  43,  51, 59,
+                                                            67, 83, 99, 115, 131, 163, 195, 227, 258 };
+const uint8_t lom_inflate_length_extra[INFLATE_LENGTHS] = { 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
+                                                            2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0 };
+const uint16_t lom_inflate_distance_base[INFLATE_DISTANCES] = { 1,    2,    3,    4,     5,     7,    9,    13,
+                                                                17,   25,   33,   49,    65,    97,   129,  193,
+                                                                257,  385,  513,  769,   1025,  1537, 2049, 3073,
+                                                                4097, 6145, 8193, 12289, 16385, 24577 };
+const uint8_t lom_inflate_distance_extra[INFLATE_DISTANCES] = { 0, 0, 0, 0, 1, 1, 2, 2,  3,  3,  4,  4,  5,  5,  6,
+                                                                6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13 };
 
 static bool inflate_codes(reader *in, const code *literals, const code *distances, size_t start, lom_inflated *out)
 {
     for (;;) {
+        if (!out->plain)
+            lom_inflate_fast(in, literals, distances, start, out);
         refill(in);
         int symbol = decode(in, literals);
         if (in->count < 0)
             return fail_end(in);
-        if (symbol >= 0 && symbol < END_OF_BLOCK) {
+        if (symbol >= 0 && symbol < INFLATE_END) {
             if (out->size == out->capacity && !make_room(in, out, 1))
                 return false;
             out->data[out->size++] = (uint8_t)symbol;
             continue;
         }
-        if (symbol == END_OF_BLOCK)
+        if (symbol == INFLATE_END)
             return true;
-        unsigned number = (unsigned)symbol - FIRST_LENGTH; /* -1, no code, is beyond every code */
-        if (number >= 29)
+        unsigned number = (unsigned)symbol - INFLATE_FIRST_LENGTH; /* -1, no code, is beyond every code */
+        if (number >= INFLATE_LENGTHS)
             return fail(in, "there is no such code for a literal or a length");
-        size_t length = length_base[number] + take(in, length_extra[number]);
+        size_t length = lom_inflate_length_base[number] + take(in, lom_inflate_length_extra[number]);
         symbol = decode(in, distances);
-        if (symbol < 0 || symbol >= DISTANCES)
+        if (symbol < 0 || symbol >= INFLATE_DISTANCES)
             return in->count < 0 ? fail_end(in) : fail(in, "there is no such code for a distance");
-        size_t distance = distance_base[symbol] + take(in, distance_extra[symbol]);
+        size_t distance = lom_inflate_distance_base[symbol] + take(in, lom_inflate_distance_extra[symbol]);
         if (in->count < 0)
             return fail_end(in);
         if (distance > out->size - start)
@@ -246,11 +227,11 @@ static bool inflate_codes(reader *in, const code *literals, const code *distance
 
 static bool inflate_fixed(reader *in, size_t start, lom_inflated *out)
 {
-    uint8_t lengths[LITERALS];
+    uint8_t lengths[INFLATE_LITERALS];
     code literals, distances;
-    for (int i = 0; i < LITERALS; i++)
+    for (int i = 0; i < INFLATE_LITERALS; i++)
         lengths[i] = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
-    build(&literals, lengths, LITERALS, false);
+    build(&literals, lengths, INFLATE_LITERALS, false);
     memset(lengths, 5, 32);
     build(&distances, lengths, 32, false);
     return inflate_codes(in, &literals, &distances, start, out);
@@ -287,7 +268,7 @@ static bool read_lengths(reader *in, const code *c, uint8_t *lengths, int total)
 static bool inflate_dynamic(reader *in, size_t start, lom_inflated *out)
 {
     static const uint8_t order[19] = { 16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15 };
-    uint8_t lengths[LITERALS + 32] = { 0 };
+    uint8_t lengths[INFLATE_LITERALS + 32] = { 0 };
     code literals, distances;
     int literal_count = 257 + (int)take(in, 5);
     int distance_count = 1 + (int)take(in, 5);
@@ -298,14 +279,14 @@ static bool inflate_dynamic(reader *in, size_t start, lom_inflated *out)
     }
     if (in->count < 0)
         return fail_end(in);
-    if (literal_count > 286 || distance_count > DISTANCES)
+    if (literal_count > 286 || distance_count > INFLATE_DISTANCES)
         return fail(in, "a block declares more codes than there are symbols");
     if (!build(&literals, lengths, 19, false))
         return fail(in, "the code of the code lengths is not complete");
     memset(lengths, 0, sizeof lengths);
     if (!read_lengths(in, &literals, lengths, literal_count + distance_count))
         return false;
-    if (lengths[END_OF_BLOCK] == 0)
+    if (lengths[INFLATE_END] == 0)
         return fail(in, "a block has no code for its end");
     if (!build(&distances, lengths + literal_count, distance_count, true) ||
         !build(&literals, lengths, literal_count, true))

@@ -2,6 +2,8 @@
 #ifndef LOM_IMAGE_PNG_H
 #define LOM_IMAGE_PNG_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { PNG_SIGNATURE = 8, PNG_CHUNK = 12 /* bytes of a chunk besides its data: length, type, CRC */ };
@@ -18,5 +20,9 @@ static inline int png_paeth(int left, int above, int corner)
     int other = to_above <= to_corner ? above : corner;
     return to_left <= to_above && to_left <= to_corner ? left : other;
 }
+
+/* Undoes the filter of a row in place; above: the row before it, unfiltered, or zeros; step: bytes of a pixel, at least
+ * 1. False when there is no such filter. */
+bool lom_png_unfilter(uint8_t *row, const uint8_t *above, size_t size, size_t step, int filter);
 
 #endif

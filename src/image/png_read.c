@@ -195,40 +195,6 @@ static size_t filtered_size(const png *p)
     return total;
 }
 
-static void unfilter_paeth(uint8_t *row, const uint8_t *above, size_t size, size_t step)
-{
-    for (size_t i = 0; i < step; i++)
-        row[i] = (uint8_t)(row[i] + above[i]);
-    for (size_t i = step; i < size; i++)
-        row[i] = (uint8_t)(row[i] + png_paeth(row[i - step], above[i], above[i - step]));
-}
-
-/* Undoes the filter of a row in place (section 9.2); step: bytes of a pixel, at least 1. */
-static bool unfilter(uint8_t *row, const uint8_t *above, size_t size, size_t step, int filter)
-{
-    switch (filter) {
-    case PNG_NONE:
-        return true;
-    case PNG_SUB:
-        for (size_t i = step; i < size; i++)
-            row[i] = (uint8_t)(row[i] + row[i - step]);
-        return true;
-    case PNG_UP:
-        for (size_t i = 0; i < size; i++)
-            row[i] = (uint8_t)(row[i] + above[i]);
-        return true;
-    case PNG_AVERAGE:
-        for (size_t i = 0; i < size; i++)
-            row[i] = (uint8_t)(row[i] + ((i < step ? 0 : row[i - step]) + above[i]) / 2);
-        return true;
-    case PNG_PAETH:
-        unfilter_paeth(row, above, size, step);
-        return true;
-    default:
-        return false;
-    }
-}
-
 /* ---- samples ---- */
 
 /* Sample i of a row, in 0 .. 2^depth - 1. */
@@ -290,7 +256,7 @@ static bool read_pass(const png *p, const struct pass *pass, uint8_t **rows, con
     const uint8_t *above = zeros;
     for (uint32_t y = 0; y < height && width != 0; y++) {
         uint8_t *row = *rows + 1;
-        if (!unfilter(row, above, size, step, row[-1]))
+        if (!lom_png_unfilter(row, above, size, step, row[-1]))
             return lom_fail(p->error, LOM_ERROR_INPUT, "%s: row %u has an unknown filter.", p->name, y);
         uint8_t *to = lom_image_pixel(image, pass->x, (int)(pass->y + y * pass->dy), 0);
         bool plain = p->depth == 8 && pass->dx == 1 && (size_t)p->samples == pixel && p->type != PNG_PALETTE;

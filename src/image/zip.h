@@ -13,6 +13,7 @@ enum { LOM_INFLATE_RATIO = 1032 };
 typedef struct lom_inflated {
     uint8_t *data;
     size_t size, capacity, limit;
+    bool plain; /* symbol after symbol, never by the fast loop: the same bytes, for tests */
 } lom_inflated;
 
 /* Decompresses one DEFLATE stream at data[*at], moves *at behind it and appends to out. Matches reach back to

@@ -34,8 +34,12 @@ thresholds() {
 0|--max-flip 0.5
 1|--max-flip 0.000001
 1|--max-flip 0
+0|--min-ssim 0.9
+1|--min-ssim 1
+1|--min-ssim 1 --quiet
 0|--max-delta 3 --max-diff-pixels 1 --min-psnr 50 --max-flip 0.5
-1|--max-delta 2 --max-diff-pixels 1 --min-psnr 50 --max-flip 0.5
+1|--max-delta 2 --max-diff-pixels 0 --min-psnr 50 --max-flip 0.5
+0|--max-delta 2 --max-diff-pixels 1 --min-psnr 50 --max-flip 0.5
 1|--max-delta 3 --max-diff-pixels 1 --min-psnr 53 --max-flip 0.5
 0|--max-delta 3 --quiet
 1|--max-flip 0 --quiet
@@ -44,12 +48,44 @@ LINES
         exits 1 "$lom" compare a.ppm n.ppm --max-flip 0.1 && exits 1 "$lom" compare a.ppm c.ppm --max-diff-pixels 999
 }
 
+# At most N pixels differ by more than D. Against 100 everywhere, of the pixels 100, 101 .. 107 there are 7 - D that differ
+# by more than D; each line: D, N, status. Alpha counts, and so does the largest of a pixel's samples.
+pixels_above_a_delta() {
+    printf 'P2 8 1 255\n 100 100 100 100 100 100 100 100\n' >flat.pgm
+    printf 'P2 8 1 255\n 100 101 102 103 104 105 106 107\n' >ramp.pgm
+    while read -r delta pixels status; do
+        exits "$status" "$lom" compare flat.pgm ramp.pgm --max-delta "$delta" --max-diff-pixels "$pixels" || return 1
+    done <<LINES
+0 7 0
+0 6 1
+3 4 0
+3 3 1
+3.5 4 0
+6 1 0
+6 0 1
+7 0 0
+LINES
+    exits 1 "$lom" compare flat.pgm ramp.pgm --max-delta 3 --json && says '"pixels": 7, "pixels_above": 4' &&
+        exits 1 "$lom" compare flat.pgm ramp.pgm --max-delta 3 && says "above 3          4" &&
+        exits 1 "$lom" compare flat.pgm ramp.pgm --json && says '"pixels": 7, "pixels_above": 7'
+}
+
+# SSIM and FLIP cost more than all else: they are found when asked for, or limited, and not otherwise.
+metrics() {
+    exits 1 "$lom" compare a.ppm b.ppm && ! grep -q -e SSIM -e FLIP out &&
+        exits 1 "$lom" compare a.ppm b.ppm --json && says '"ssim": null, "flip": null' &&
+        exits 1 "$lom" compare a.ppm b.ppm --metrics && says SSIM && says FLIP &&
+        exits 0 "$lom" compare a.ppm b.ppm --max-flip 0.5 && says FLIP && ! grep -q SSIM out &&
+        exits 0 "$lom" compare a.ppm b.ppm --min-ssim 0.5 --json && says '"ssim": 0.9' && says '"flip": null' &&
+        exits 1 "$lom" compare a.ppm b.ppm --metrics -q && [ ! -s out ]
+}
+
 # Python checks the line as JSON and the values by hand-made numbers.
 json() {
     for pair in "a.ppm a.ppm 0" "a.ppm b.ppm 1" "a.ppm c.ppm 1"; do
         # shellcheck disable=SC2086
         set -- $pair
-        exits "$3" "$lom" compare "$1" "$2" --json && [ "$(wc -l <out)" -eq 1 ] && cp out "$1.$2.json" || return 1
+        exits "$3" "$lom" compare "$1" "$2" --json --metrics && [ "$(wc -l <out)" -eq 1 ] && cp out "$1.$2.json" || return 1
     done
     python3 - <<'CODE'
 import json, math
@@ -63,6 +99,7 @@ rmse = math.sqrt(9 / 24)
 assert abs(differ["rmse"] - rmse) < 1e-12 and abs(differ["psnr"] - 20 * math.log10(255 / rmse)) < 1e-9
 assert 0.9 < differ["ssim"] < 1 and 0 < differ["flip"] < 0.2
 assert sizes["identical"] is False and sizes["same_size"] is False and sizes["pixels"] is None
+assert sizes["ssim"] is None and sizes["size_a"] == [4, 2, 1] and sizes["size_b"] == [2, 4, 1]
 CODE
 }
 
@@ -82,12 +119,25 @@ picture() {
         exits 2 "$lom" compare a.ppm b.ppm --diff no/such/folder.png && complains "folder.png"
 }
 
+# 4 x 2 and 2 x 4 laid upon one another: the 2 x 2 in common differ in red of one pixel (1 against 70), what only one has
+# is 32, and so is the corner that none has.
+picture_of_sizes() {
+    printf 'P3 4 2 255\n 10 20 30  40 50 60  70 80 90  0 0 0   1 80 90  0 0 0  7 8 9  255 255 255\n' >left.ppm
+    exits 1 "$lom" compare left.ppm c.ppm --diff d.ppm --json && says '"same_size": false' && complains "always differ" &&
+        printf 'P3 4 4 255\n 0 0 0  0 0 0  32 32 32  32 32 32   163 0 0  0 0 0  32 32 32  32 32 32
+            32 32 32  32 32 32  32 32 32  32 32 32   32 32 32  32 32 32  32 32 32  32 32 32\n' >expected.ppm &&
+        exits 0 "$lom" compare d.ppm expected.ppm && exits 1 "$lom" compare left.ppm c.ppm --diff d.ppm -q &&
+        [ ! -s out ] && [ ! -s err ]
+}
+
 standard_input() {
-    "$lom" compare - a.ppm <a.ppm
+    "$lom" compare - a.ppm <a.ppm && "$lom" compare a.ppm - <a.ppm && exits 2 "$lom" compare - - && complains "only one"
 }
 
 check compare_exit_statuses statuses
 check compare_thresholds thresholds
+check compare_pixels_above_a_delta pixels_above_a_delta
+check compare_metrics_when_asked_for metrics
 if command -v python3 >/dev/null; then
     check compare_json json
     check compare_json_of_strange_names strange_names
@@ -95,5 +145,6 @@ else
     echo "SKIP compare_json: there is no python3"
 fi
 check compare_picture_of_differences picture
+check compare_picture_of_different_sizes picture_of_sizes
 check compare_reads_standard_input standard_input
 exit $failures

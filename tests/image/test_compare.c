@@ -4,6 +4,8 @@
 
 #include <lom/image.h>
 
+#include "image/compare.h"
+
 #include <math.h>
 
 /* ---- pictures ---- */
@@ -178,7 +180,124 @@ static void sizes_that_differ(void)
     double value;
     lom_error error = { 0 };
     CHECK(!lom_compare_ssim(a, b, &value, &error) && strstr(error.text, "4 x 5") != NULL, "%s", error.text);
-    CHECK(!lom_compare_flip(a, b, &value, NULL) && lom_compare_picture(a, b, NULL) == NULL);
+    size_t pixels;
+    CHECK(!lom_compare_flip(a, b, &value, NULL) && !lom_count_differing_pixels(a, b, 0, &pixels, NULL));
+    free_both(a, b);
+}
+
+/* Laid upon one another at the top left: 4 x 5 x 1 and 5 x 4 x 2 have 4 x 4 x 1 in common. */
+static void picture_of_different_sizes(void)
+{
+    lom_image *a = fill(4, 5, LOM_FORMAT_R8, 9), *b = lom_create_image(5, 4, 2, LOM_FORMAT_RGB8, NULL);
+    memset(b->pixels, 9, lom_image_size(b));
+    ((uint8_t *)lom_image_pixel(b, 3, 2, 0))[1] = 200;
+    lom_image *picture = lom_compare_picture(a, b, NULL);
+    CHECK(picture != NULL && picture->width == 5 && picture->height == 5 && picture->depth == 2);
+    for (int z = 0; z < 2; z++)
+        for (int y = 0; y < 5; y++)
+            for (int x = 0; x < 5; x++) {
+                bool common = x < 4 && y < 4 && z < 1, differs = x == 3 && y == 2;
+                for (int c = 0; c < 3; c++) {
+                    int expected = !common ? 32 : differs && c == 1 ? (int)(64 + 191 * sqrt(191 / 255.0) + 0.5) : 0;
+                    int got = ((const uint8_t *)lom_image_pixel(picture, x, y, z))[c];
+                    CHECK(got == expected, "%d,%d,%d channel %d: %d instead of %d", x, y, z, c, got, expected);
+                }
+            }
+    lom_free_image(picture);
+    free_both(a, b);
+}
+
+/* Every sample by hand, in numbers that are not those of the code under test. */
+static void counts_as_a_plain_loop_does(void)
+{
+    static const lom_format formats[] = { LOM_FORMAT_R8,  LOM_FORMAT_RG8,   LOM_FORMAT_RGB8,   LOM_FORMAT_RGBA8,
+                                          LOM_FORMAT_R16, LOM_FORMAT_RGB16, LOM_FORMAT_RGBA16, LOM_FORMAT_R32F };
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
+        lom_image *a = scatter(41, 37, formats[f], 5), *b = scatter(41, 37, formats[f], 5);
+        const lom_format_info *info = lom_describe_format(formats[f]);
+        for (size_t i = 0; i < lom_image_size(b); i += 97) /* no exponent of a float */
+            b->pixels[i - i % 4] ^= (uint8_t)(i % 251);
+        double tolerance = info->is_float ? 1e-3 : info->bits == 8 ? 64 : 200;
+        size_t pixels = 0, above = 0;
+        double largest = 0;
+        for (int y = 0; y < 37; y++)
+            for (int x = 0; x < 41; x++) {
+                double most = 0;
+                for (int c = 0; c < info->channels; c++) {
+                    const uint8_t *p = lom_image_pixel(a, x, y, 0), *q = lom_image_pixel(b, x, y, 0);
+                    float single[2];
+                    memcpy(&single[0], p, 4 * (size_t)info->is_float);
+                    memcpy(&single[1], q, 4 * (size_t)info->is_float);
+                    uint16_t wide[2];
+                    memcpy(&wide[0], p + 2 * c, 2 * (size_t)(info->bits == 16));
+                    memcpy(&wide[1], q + 2 * c, 2 * (size_t)(info->bits == 16));
+                    double d = info->is_float    ? fabs((double)single[0] - (double)single[1])
+                               : info->bits == 8 ? abs(p[c] - q[c])
+                                                 : abs(wide[0] - wide[1]);
+                    most = isfinite(d) ? fmax(most, d) : most; /* noise may be NaN, in both the same */
+                }
+                pixels += most > 0;
+                above += most > tolerance;
+                largest = fmax(largest, most);
+            }
+        lom_comparison c = compare(a, b);
+        size_t counted = 99999;
+        CHECK(lom_count_differing_pixels(a, b, tolerance, &counted, NULL) && counted == above, "format %d: %zu not %zu",
+              (int)formats[f], counted, above);
+        CHECK(c.pixels == pixels && c.max_delta == largest && pixels > 10, "format %d: %zu %zu, %g %g", (int)formats[f],
+              c.pixels, pixels, c.max_delta, largest);
+        CHECK(lom_count_differing_pixels(a, b, 0, &counted, NULL) && counted == pixels, "format %d", (int)formats[f]);
+        CHECK(lom_count_differing_pixels(a, b, largest, &counted, NULL) && counted == 0, "format %d", (int)formats[f]);
+        free_both(a, b);
+    }
+}
+
+/* Pictures of several bands and slices, of which many rows are equal: every number of workers, the same bits. */
+static void same_bits_on_any_threads(void)
+{
+    lom_image *a = lom_create_image(33, 150, 2, LOM_FORMAT_RGB8, NULL),
+              *b = lom_create_image(33, 150, 2, LOM_FORMAT_RGB8, NULL);
+    for (size_t i = 0; i < lom_image_size(a); i++) {
+        a->pixels[i] = (uint8_t)lom_random_bits(1, i);
+        int y = (int)(i / 99 % 150);
+        b->pixels[i] =
+            (uint8_t)(a->pixels[i] + (y == 40 || y == 61 || y == 100 || y > 130 ? lom_random_bits(2, i) % 9 : 0));
+    }
+    lom_comparison exact[5] = { { 0 } };
+    double values[5][2];
+    for (int i = 0; i < 5; i++) {
+        lom_pool *pool = lom_create_pool(1 + i * i, NULL);
+        CHECK(lom_compare_images_on(pool, a, b, &exact[i], NULL) &&
+              lom_compare_ssim_on(pool, a, b, &values[i][0], NULL) &&
+              lom_compare_flip_on(pool, a, b, &values[i][1], NULL));
+        CHECK(exact[i].pixels == exact[0].pixels && exact[i].rmse == exact[0].rmse && exact[i].psnr == exact[0].psnr &&
+                  memcmp(exact[i].box, exact[0].box, sizeof exact[i].box) == 0 &&
+                  memcmp(exact[i].max_at, exact[0].max_at, sizeof exact[i].max_at) == 0,
+              "%d workers", 1 + i * i);
+        CHECK(values[i][0] == values[0][0] && values[i][1] == values[0][1], "%d workers: %.17g %.17g, not %.17g %.17g",
+              1 + i * i, values[i][0], values[i][1], values[0][0], values[0][1]);
+        lom_free_pool(pool);
+    }
+    CHECK(exact[0].box[1] == 40 && exact[0].box[3] == 110, "%d %d", exact[0].box[1], exact[0].box[3]);
+    free_both(a, b);
+}
+
+/* FLIP does not look at rows that see equal rows alone: its mean is what it is for pictures that differ in form and not
+ * in light, where it looks at all. */
+static void skips_only_what_is_equal(void)
+{
+    lom_image *a = scatter(20, 90, LOM_FORMAT_RGB8, 3), *b = scatter(20, 90, LOM_FORMAT_RGB8, 3);
+    lom_image *wide = create(20, 90, LOM_FORMAT_RGB16);
+    for (int y = 30; y < 33; y++)
+        memset(lom_image_pixel(b, 0, y, 0), 200, 60);
+    memset(lom_image_pixel(b, 0, 89, 0), 10, 60);
+    for (size_t i = 0; i < lom_image_size(b); i++) {
+        uint16_t sample = (uint16_t)(257 * b->pixels[i]);
+        memcpy(wide->pixels + 2 * i, &sample, sizeof sample);
+    }
+    CHECK(compare(b, wide).identical && flip(a, b) > 0.001 && fabs(flip(a, b) - flip(a, wide)) < 1e-12, "%.17g %.17g",
+          flip(a, b), flip(a, wide));
+    lom_free_image(wide);
     free_both(a, b);
 }
 
@@ -489,6 +608,10 @@ int main(int argc, char **argv)
     RUN(meets_in_the_wider_format);
     RUN(special_floats);
     RUN(sizes_that_differ);
+    RUN(picture_of_different_sizes);
+    RUN(counts_as_a_plain_loop_does);
+    RUN(same_bits_on_any_threads);
+    RUN(skips_only_what_is_equal);
     RUN(psnr_of_offsets);
     RUN(ssim_of_constants);
     RUN(ssim_against_the_definition);

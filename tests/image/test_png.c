@@ -7,6 +7,7 @@
 #include <lom/image.h>
 
 #include "image/bytes.h"
+#include "image/png.h"
 #include "image/zip.h"
 
 #include <sys/resource.h>
@@ -221,6 +222,38 @@ static void every_small_size(void)
                 picture p = make_picture(kinds[i], width, height, false, (uint64_t)(width * 16 + height));
                 check_picture(&p, "size");
             }
+}
+
+/* Section 9.2, byte after byte, without the code under test: x is this byte, a to the left, b above, c above a. */
+static uint8_t plain_unfiltered(int filter, int x, int a, int b, int c)
+{
+    int p = a + b - c, pa = abs(p - a), pb = abs(p - b), pc = abs(p - c);
+    const int guesses[] = { 0, a, b, (a + b) / 2, pa <= pb && pa <= pc ? a : pb <= pc ? b : c };
+    return (uint8_t)(x + guesses[filter]);
+}
+
+/* Every filter, size of a pixel and length of a row, on noise and on the extremes 0 and 255. */
+static void unfilters_as_defined(void)
+{
+    enum { MOST_BYTES = 67 };
+    for (int filter = 0; filter < 5; filter++)
+        for (size_t step = 1; step <= 8; step++)
+            for (size_t size = step; size <= MOST_BYTES; size += step)
+                for (uint64_t round = 0; round < 20; round++) {
+                    uint8_t row[MOST_BYTES + 1], above[MOST_BYTES], expected[MOST_BYTES];
+                    for (size_t i = 0; i < size; i++) {
+                        uint64_t bits = lom_random_bits(round, i);
+                        row[i] = (uint8_t)(round % 2 ? bits : 0 - (bits & 1));
+                        above[i] = (uint8_t)(round % 2 ? bits >> 8 : 0 - (bits >> 1 & 1));
+                        expected[i] = plain_unfiltered(filter, row[i], i < step ? 0 : expected[i - step], above[i],
+                                                       i < step ? 0 : above[i - step]);
+                    }
+                    row[size] = 77; /* behind the row */
+                    CHECK(lom_png_unfilter(row, above, size, step, filter), "filter %d", filter);
+                    CHECK(memcmp(row, expected, size) == 0 && row[size] == 77, "filter %d, %zu bytes by %zu", filter,
+                          size, step);
+                }
+    CHECK(!lom_png_unfilter((uint8_t[8]){ 0 }, (uint8_t[8]){ 0 }, 8, 4, 5), "there is no filter 5");
 }
 
 static void short_palettes(void)
@@ -509,6 +542,7 @@ int main(int argc, char **argv)
 {
     RUN(every_kind);
     RUN(every_small_size);
+    RUN(unfilters_as_defined);
     RUN(short_palettes);
     RUN(write_and_read);
     RUN(same_bytes_every_time);

@@ -120,6 +120,54 @@ static void round_trips(void)
     }
 }
 
+/* One stream through both loops: everything that comes out must be the same. */
+static void check_loops(const uint8_t *data, size_t size, size_t room, size_t limit, const char *what, uint64_t place)
+{
+    lom_inflated out[2] = { { .limit = limit }, { .limit = limit, .plain = true } };
+    lom_error error[2] = { { 0 }, { 0 } };
+    size_t at[2] = { 0, 0 };
+    bool good[2];
+    for (int i = 0; i < 2; i++) {
+        out[i].data = lom_allocate(room, 1, NULL);
+        out[i].capacity = room;
+        good[i] = lom_inflate("t", data, size, &at[i], 0, &out[i], &error[i]);
+    }
+    CHECK(good[0] == good[1] && at[0] == at[1] && strcmp(error[0].text, error[1].text) == 0, "%s %llu: \"%s\", \"%s\"",
+          what, (unsigned long long)place, error[0].text, error[1].text);
+    CHECK(out[0].size == out[1].size && memcmp(out[0].data, out[1].data, out[0].size) == 0, "%s %llu", what,
+          (unsigned long long)place);
+    lom_release(out[0].data);
+    lom_release(out[1].data);
+}
+
+/* The fast loop against the plain one: whole streams with exact and with growing room, streams cut anywhere, limits
+ * within them, and flipped bits. */
+static void fast_is_plain(void)
+{
+    enum { MOST = 120000, PART = 4000 };
+    static uint8_t data[MOST];
+    for (int kind = 0; kind < 9; kind++) {
+        make_data(kind, data, MOST);
+        lom_bytes large = lom_deflate_zlib(data, MOST, 64, NULL), part = lom_deflate_zlib(data, PART, EFFORT, NULL);
+        const uint8_t *stream = part.data + 2; /* behind zlib's header */
+        check_loops(large.data + 2, large.size - 2, MOST, MOST, "whole", (uint64_t)kind);
+        check_loops(large.data + 2, large.size - 2, 1, 2 * MOST, "growing", (uint64_t)kind);
+        check_loops(large.data + 2, large.size - 2, 1, MOST - 1, "limited", (uint64_t)kind);
+        for (size_t size = 0; size < part.size - 2; size += 1 + size / 300)
+            check_loops(stream, size, PART, PART, "cut", size);
+        for (size_t room = 1; room <= PART; room += 1 + room / 7)
+            check_loops(stream, part.size - 2, room, room, "room", room);
+        for (uint64_t i = 0; i < 500; i++) {
+            size_t bit = (size_t)(lom_random_bits(123, i) % ((part.size - 2) * 8));
+            part.data[2 + bit / 8] ^= (uint8_t)(1 << bit % 8);
+            check_loops(stream, part.size - 2, PART, PART, "bit", bit);
+            part.data[2 + bit / 8] ^= (uint8_t)(1 << bit % 8);
+        }
+        lom_release(part.data);
+        lom_release(large.data);
+    }
+}
+
 static void every_small_input(void)
 {
     uint8_t data[12], back[12];
@@ -333,6 +381,7 @@ int main(int argc, char **argv)
     RUN(checksums);
     RUN(known_streams);
     RUN(round_trips);
+    RUN(fast_is_plain);
     RUN(every_small_input);
     RUN(huffman_codes);
     RUN(truncations);
