@@ -3,7 +3,10 @@
 for target in tests/fuzz/fuzz_*.c; do
     name=$(basename "$target" .c)
     corpus=tests/fuzz/corpus/$name
-    [ -d "$corpus" ] || continue
+    if [ ! -d "$corpus" ]; then
+        echo "FAIL corpus_$name: there is no $corpus"
+        continue
+    fi
     if "$BUILD/tests/fuzz/run_$name" "$corpus" >/dev/null 2>&1; then
         echo "PASS corpus_$name"
     else
