@@ -180,14 +180,6 @@ typedef struct lom_entity_place {
 
 /* ---- [quality]: the dials ---- */
 
-typedef enum lom_water_model {                       /* from cheap to exact, but for the default, which comes first */
-                               LOM_WATER_PLANAR,     /* a quad with pictures of the scene above and below */
-                               LOM_WATER_TINTED,     /* a quad of one colour */
-                               LOM_WATER_NORMAL_MAP, /* waves as normals on two triangles */
-                               LOM_WATER_DISPLACED,  /* waves as a mesh, light bent by Snell's law */
-                               LOM_WATER_MARCHED,    /* waves met by a ray for each pixel */
-                               LOM_WATER_REFERENCE   /* rays in double precision through the whole frame */
-} lom_water_model;
 typedef enum lom_shading { LOM_SHADING_PHONG, LOM_SHADING_GOURAUD, LOM_SHADING_FLAT } lom_shading;
 typedef enum lom_texture_filter {
     LOM_TEXTURE_TRILINEAR,

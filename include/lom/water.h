@@ -45,6 +45,16 @@ typedef struct lom_water_optics {
     double opacity;       /* of the tinted quad */
 } lom_water_optics;
 
+/* How water is drawn: quality.water. */
+typedef enum lom_water_model {                       /* from cheap to exact, but for the default, which comes first */
+                               LOM_WATER_PLANAR,     /* a quad with pictures of the scene above and below */
+                               LOM_WATER_TINTED,     /* a quad of one colour */
+                               LOM_WATER_NORMAL_MAP, /* waves as normals on two triangles */
+                               LOM_WATER_DISPLACED,  /* waves as a mesh, light bent by Snell's law */
+                               LOM_WATER_MARCHED,    /* waves met by a ray for each pixel */
+                               LOM_WATER_REFERENCE   /* rays in double precision through the whole frame */
+} lom_water_model;
+
 /* The planar lake. Its nine steps can be switched one by one (spec: reflection, refraction, projection, flow, normals,
  * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */

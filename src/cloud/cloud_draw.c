@@ -1,25 +1,9 @@
 /* Clouds as draws. In: a set whose light is made, and how a pass looks at it. Out: for each cloud in view the back
  * faces of its box, the farthest cloud first. Invariant: the order is a function of the places alone; ties keep the
  * file's order reversed, so that the first in the file is drawn last. */
+#include "shading/square.h"
 #include "cloud/cloud_draw.h"
 #include "cloud/cloud_uniforms.h"
-
-const lom_blend lom_blend_over = { .enabled = true,
-                                   .source_color = LOM_FACTOR_ONE,
-                                   .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
-                                   .source_alpha = LOM_FACTOR_ONE,
-                                   .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA };
-
-void lom_draw_square(lom_device *device, const lom_shader *shader, const void *uniforms, const lom_blend *blend)
-{
-    lom_draw(device, &(lom_draw_desc){ .shader = shader,
-                                       .uniforms = uniforms,
-                                       .count = 4,
-                                       .vertex_count = 4,
-                                       .topology = LOM_TRIANGLE_STRIP,
-                                       .depth_test_off = true,
-                                       .blend = { *blend } });
-}
 
 /* Radiance of a place that sees all of the sun, in parts of the sun's colour. A surface lit straight on sends its
  * colour, so the sun's irradiance is pi times it and isotropic scattering would send 1/4; light that was scattered more
@@ -159,9 +143,7 @@ void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_c
                                  placed->middle.z - view->eye.z };
     lom_mat4 move = lom_translation(view->eye), clip = lom_multiply(&view->projection, &view->view);
     clip = lom_multiply(&clip, &move);
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            u->clip_from_offset.m[row][column] = (float)clip.m[row][column];
+    u->clip_from_offset = lom_round_matrix(&clip);
     lom_vec3 corner[8];
     lom_cloud_corners(placed, corner);
     for (int c = 0; c < 8; c++) {

@@ -3,7 +3,7 @@
 #define LOM_CLOUD_CLOUD_DRAW_H
 
 #include "cloud/detail_noise.h"
-#include "shading/uniforms.h"
+#include "shading/light.h"
 
 #include <lom/cloud.h>
 

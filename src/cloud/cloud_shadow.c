@@ -1,6 +1,7 @@
 /* Shadows of clouds on a plane. In: a cloud and the way to the light. Out: a draw that multiplies what the cloud lets
  * through into a map. Invariant: a texel holds the product over all clouds, in whatever order they are drawn up to
  * rounding, and they are drawn in the order of the file. */
+#include "shading/square.h"
 #include "cloud/cloud_draw.h"
 #include "cloud/cloud_uniforms.h"
 

@@ -2,7 +2,7 @@
 #ifndef LOM_CLOUD_CLOUD_UNIFORMS_H
 #define LOM_CLOUD_CLOUD_UNIFORMS_H
 
-#include "shading/uniforms.h"
+#include "shading/light.h"
 
 #include <lom/cloud.h>
 
@@ -53,10 +53,6 @@ struct lom_cloud_shadow_uniforms {
 
 struct lom_placed_cloud;
 struct lom_cloud_view;
-/* Light over what is there already, its colour multiplied by its alpha. */
-extern const lom_blend lom_blend_over;
-/* Draws the four vertices that a shader makes of their numbers, as a strip without a depth test. */
-void lom_draw_square(lom_device *device, const lom_shader *shader, const void *uniforms, const lom_blend *blend);
 /* cloud_draw.c: where the cloud is, how it is looked at, and what hides it. */
 void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
                          const struct lom_cloud_view *view);

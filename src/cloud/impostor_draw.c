@@ -1,6 +1,7 @@
 /* Plates as draws. In: a cloud, a plate, textures. Out: the plate's picture; the plate in a frame. Invariant: a plate's
  * picture is a function of the plate and the cloud, whatever frame it is made in; where it is empty it changes nothing.
  */
+#include "shading/square.h"
 #include "cloud/impostor_draw.h"
 #include "cloud/cloud_uniforms.h"
 

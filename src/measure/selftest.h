@@ -2,7 +2,7 @@
 #ifndef LOM_MEASURE_SELFTEST_H
 #define LOM_MEASURE_SELFTEST_H
 
-#include "shading/uniforms.h"
+#include "shading/light.h"
 
 #include "measure/measure.h"
 

@@ -99,13 +99,6 @@ static lom_texture *make_pattern(lom_device *device, lom_texture_desc desc)
     return texture;
 }
 
-static void set_matrix(struct lom_matrix_uniform *uniform, const lom_mat4 *m)
-{
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            uniform->m[row][column] = (float)m->m[row][column];
-}
-
 /* The eye stands close to a torus, so that its front is cut by the near plane. */
 static struct lom_selftest_uniforms make_uniforms(lom_device *device)
 {
@@ -115,7 +108,7 @@ static struct lom_selftest_uniforms make_uniforms(lom_device *device)
     struct lom_selftest_uniforms u = { .light = { .to_light = { 0.6f, 0.64f, 0.48f }, .color = { 1, 1, 1 } },
                                        .plane = { { 0.3f, 1, 0.2f, 0.25f }, { -1, 0.1f, 0.5f, 0.8f } },
                                        .depth = 0.375f };
-    set_matrix(&u.clip_from_world, &clip_from_world);
+    u.clip_from_world = lom_round_matrix(&clip_from_world);
     u.texture = make_pattern(device, (lom_texture_desc){ .width = 37,
                                                          .height = 50,
                                                          .format = LOM_FORMAT_RGBA8_SRGB,

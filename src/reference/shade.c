@@ -241,7 +241,7 @@ lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, co
     return reflect_light(&in, m, s.normal, to_eye, albedo);
 }
 
-/* pipeline/sky_gradient.h in double; d of unit length. */
+/* shading/gradient.h in double; d of unit length. */
 static lom_vec3 gradient_light(const lom_sky_params *sky, lom_vec3 to_light, lom_vec3 d)
 {
     double y = d.y > 0 ? d.y : 0, up = 1 - (1 - y) * (1 - y) * (1 - y);

@@ -16,7 +16,7 @@ struct lom_light_uniform lom_scene_light(const lom_scene *scene)
     return u;
 }
 
-/* The antiderivative of the haze's profile (pipeline/haze.h). */
+/* The antiderivative of the haze's profile (shading/haze.h). */
 static double haze_integral(const lom_haze *haze, double y)
 {
     double above = y > haze->base ? y - haze->base : 0;
@@ -63,15 +63,6 @@ struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer)
     return u;
 }
 
-static struct lom_matrix_uniform to_uniform(const lom_mat4 *m)
-{
-    struct lom_matrix_uniform u;
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            u.m[row][column] = (float)m->m[row][column];
-    return u;
-}
-
 /* The highest value of the clip plane over the box; a margin covers rounding in float. */
 static bool is_behind_plane(const double plane[4], const lom_box *box)
 {
@@ -112,8 +103,8 @@ static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *
                         const struct lom_view_uniform *view, bool mirrored)
 {
     struct lom_entity_uniforms uniforms = { .view = *view,
-                                            .world_from_model = to_uniform(&entity->world_from_model),
-                                            .normal_from_model = to_uniform(&entity->normal_from_model) };
+                                            .world_from_model = lom_round_matrix(&entity->world_from_model),
+                                            .normal_from_model = lom_round_matrix(&entity->normal_from_model) };
     lom_draw_desc draw = { .shader = lom_entity_shader(renderer->scene->quality.shading),
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
@@ -129,7 +120,8 @@ static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *
 
 void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world)
 {
-    struct lom_caster_uniforms uniforms = { to_uniform(clip_from_world), to_uniform(&entity->world_from_model) };
+    struct lom_caster_uniforms uniforms = { lom_round_matrix(clip_from_world),
+                                            lom_round_matrix(&entity->world_from_model) };
     lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .count = entity->drawn->index_count };
     set_attributes(&draw, entity->drawn);
     lom_draw(renderer->device, &draw);
@@ -139,7 +131,7 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
     const lom_scene *scene = renderer->scene;
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
-    struct lom_view_uniform uniform = { .clip_from_world = to_uniform(&clip_from_world),
+    struct lom_view_uniform uniform = { .clip_from_world = lom_round_matrix(&clip_from_world),
                                         .light = lom_renderer_light(renderer),
                                         .haze = lom_scene_haze(scene, view->eye.y, view->mirrored),
                                         .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },

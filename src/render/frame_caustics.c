@@ -118,7 +118,8 @@ bool lom_draw_caustics(struct frame *f, lom_error *error)
 bool lom_load_bed(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP || !(scene->water.optics.caustics > 0))
+    if (scene->water.given == 0 || !lom_water_models[scene->quality.water].has_waves ||
+        !(scene->water.optics.caustics > 0))
         return true;
     renderer->bed = lom_make_texture(
         renderer->device, &(lom_texture_desc){ .width = renderer->ground.columns + 1,

@@ -95,6 +95,15 @@ static bool draw_refraction(struct frame *f)
     return draw_picture(f, step, f->renderer->refraction, f->renderer->refraction_depth, &view);
 }
 
+/* The surface by the shader of its model. */
+static bool draw_quad(struct frame *f, const lom_lake_view *view)
+{
+    const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
+    lom_begin_water(f, model->text);
+    lom_draw_lake(f->renderer->device, model->shader, &f->scene->water, view);
+    return lom_end_pass(f->renderer->device);
+}
+
 static bool draw_surface(struct frame *f)
 {
     lom_renderer *r = f->renderer;
@@ -104,35 +113,31 @@ static bool draw_surface(struct frame *f)
     view.reflection = water->reflection ? r->reflection : NULL;
     view.refraction = below ? r->refraction : NULL;
     view.refraction_depth = below ? r->refraction_depth : NULL;
-    lom_begin_water(f, "the surface over the scene, from the pictures above and below it");
-    lom_draw_lake(r->device, &lom_lake_shader, water, &view);
-    return lom_end_pass(r->device);
+    return draw_quad(f, &view);
 }
 
 /* The cheapest model: a blended quad of one colour. */
 static bool draw_tinted(struct frame *f)
 {
-    lom_renderer *r = f->renderer;
     lom_lake_view view = lake_view(f);
     lom_add_step(f, "reflection", false, "tinted water reflects nothing");
     lom_add_step(f, "refraction", false, "tinted water is blended over the scene");
-    lom_begin_water(f, "a quad of one colour, blended over the scene");
-    lom_draw_lake(r->device, &lom_lake_tinted_shader, &f->scene->water, &view);
-    return lom_end_pass(r->device);
+    return draw_quad(f, &view);
 }
 
 bool lom_draw_lake_stage(struct frame *f, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
+    const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
     if (water->given == 0)
         return lom_skip_water(f, "the scene has no water");
     if (!water->enabled)
         return lom_skip_water(f, "water.enabled is false");
-    if (f->scene->quality.water >= LOM_WATER_NORMAL_MAP)
+    if (model->has_waves)
         return true;
     if (!is_in_view(f))
         return lom_skip_water(f, "the water's quad is outside the view");
-    if (f->scene->quality.water == LOM_WATER_TINTED)
+    if (!model->is_looked_up)
         return draw_tinted(f);
     if (!draw_visibility(f, error))
         return false;

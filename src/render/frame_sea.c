@@ -13,13 +13,6 @@ struct sea {
     lom_mat4 clip_from_world;
 };
 
-static void set_matrix(struct lom_matrix_uniform *out, const lom_mat4 *m)
-{
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            out->m[row][column] = (float)m->m[row][column];
-}
-
 /* World directions of (ndc x, ndc y, 1): the view's rotation of (x / p00, y / p11, -1). */
 static void set_rays(float out[3][3], const struct lom_scene_view *view)
 {
@@ -78,8 +71,8 @@ static void set_optics(struct lom_surface_uniforms *u, const lom_scene *scene)
     u->fresnel = optics->fresnel;
     u->steps = optics->steps;
     u->surface_steps = 96;
-    u->bent = scene->quality.water != LOM_WATER_NORMAL_MAP;
-    u->marched = scene->quality.water == LOM_WATER_MARCHED;
+    u->bent = lom_water_models[scene->quality.water].bends;
+    u->marched = lom_water_models[scene->quality.water].form == LOM_SURFACE_RAYS;
     set_medium(&u->medium, scene);
 }
 
@@ -88,7 +81,7 @@ static void look_at_sea(struct sea *sea, struct frame *f)
     struct lom_surface_uniforms *u = &sea->uniforms;
     const lom_water_params *water = &f->scene->water;
     sea->clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
-    set_matrix(&u->clip_from_world, &sea->clip_from_world);
+    u->clip_from_world = lom_round_matrix(&sea->clip_from_world);
     set_optics(u, f->scene);
     u->light = lom_renderer_light(f->renderer);
     set_sky(&u->sky, f->renderer);
@@ -186,7 +179,7 @@ static void set_picture(struct lom_picture_uniform *out, const struct frame *f, 
                         const lom_mat4 *clip_from_world, lom_texture *color, lom_texture *depth)
 {
     double width = window->high[0] - window->low[0], height = window->high[1] - window->low[1];
-    set_matrix(&out->clip_from_world, clip_from_world);
+    out->clip_from_world = lom_round_matrix(clip_from_world);
     out->color = color;
     out->depth = depth;
     out->scale[0] = (float)(2 / (width * f->width));
@@ -329,26 +322,26 @@ static bool fill_mesh(struct sea *sea, struct frame *f, lom_error *error)
 
 static bool draw_surface(struct sea *sea, struct frame *f, lom_error *error)
 {
-    static const char *const texts[] = {
-        [LOM_WATER_NORMAL_MAP] = "waves as normals on two triangles, opaque: what is seen through them is part of it",
-        [LOM_WATER_DISPLACED] = "waves as a mesh, opaque: what is seen through them is part of it",
-        [LOM_WATER_MARCHED] = "waves met by a ray for each pixel, opaque: what is seen through them is part of it"
-    };
     lom_renderer *r = f->renderer;
-    int model = f->scene->quality.water;
-    lom_draw_desc draw = { .shader = &lom_surface_flat_shader, .count = 4, .topology = LOM_TRIANGLE_STRIP };
-    if (model == LOM_WATER_DISPLACED) {
+    const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
+    lom_draw_desc draw = { .shader = model->shader, .uniforms = &sea->uniforms };
+    switch (model->form) {
+    case LOM_SURFACE_QUAD:
+        draw.count = 4;
+        draw.topology = LOM_TRIANGLE_STRIP;
+        break;
+    case LOM_SURFACE_MESH:
         if (!fill_mesh(sea, f, error))
             return false;
-        draw = (lom_draw_desc){ .shader = &lom_surface_displaced_shader,
-                                .indices = r->polar.indices,
-                                .count = r->polar.index_count,
-                                .vertex_count = (size_t)r->polar.rings * (size_t)r->polar.columns };
+        draw.indices = r->polar.indices;
+        draw.count = r->polar.index_count;
+        draw.vertex_count = (size_t)r->polar.rings * (size_t)r->polar.columns;
+        break;
+    case LOM_SURFACE_RAYS:
+        draw.count = 3;
+        break;
     }
-    if (model == LOM_WATER_MARCHED)
-        draw = (lom_draw_desc){ .shader = &lom_surface_marched_shader, .count = 3 };
-    draw.uniforms = &sea->uniforms;
-    lom_begin_water(f, texts[model]);
+    lom_begin_water(f, model->text);
     lom_draw(r->device, &draw);
     return lom_end_pass(r->device);
 }
@@ -390,7 +383,7 @@ static bool draw_underwater(const struct sea *sea, struct frame *f)
 /* Where the water may be seen, f->water; why not, when it is nowhere. */
 static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_error *error)
 {
-    bool flat = f->scene->quality.water == LOM_WATER_NORMAL_MAP;
+    bool flat = lom_water_models[f->scene->quality.water].form == LOM_SURFACE_QUAD;
     lom_box box = slab(&sea->uniforms, flat);
     lom_frustum frustum = lom_view_frustum(&sea->clip_from_world, false);
     f->water = (lom_rect){ 0, 0, 0, 0 };

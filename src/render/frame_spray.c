@@ -2,6 +2,7 @@
  * one order, the farthest first. Drops are laid over one another in floats, in a picture of their own that then is laid
  * over the frame: thousands of faint ones would vanish in the rounding of 8 bits. Invariant: a drop that is out of
  * view, hidden or clear changes no byte. */
+#include "shading/square.h"
 #include "render/frame.h"
 
 #include "cloud/cloud_uniforms.h"
@@ -108,9 +109,7 @@ static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct
                                     .sprites = r->spray.sprites[0].middle };
     lom_mat4 move = lom_translation(view->eye), clip = lom_multiply(&view->projection, &view->view);
     clip = lom_multiply(&clip, &move);
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            u.clip_from_offset.m[row][column] = (float)clip.m[row][column];
+    u.clip_from_offset = lom_round_matrix(&clip);
     return u;
 }
 

@@ -5,7 +5,7 @@
 bool lom_has_waves(const struct frame *f)
 {
     const lom_water_params *water = &f->scene->water;
-    return water->given != 0 && water->enabled && f->scene->quality.water >= LOM_WATER_NORMAL_MAP;
+    return water->given != 0 && water->enabled && lom_water_models[f->scene->quality.water].has_waves;
 }
 
 /* Whether the eye is below the surface, where it is over or under the quad; a sea that has no places may be anywhere
@@ -17,7 +17,7 @@ static bool is_below(const struct frame *f)
     double x = eye->x - water->position[0], z = eye->z - water->position[1], level = water->level;
     if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
         return false;
-    if (f->scene->quality.water != LOM_WATER_NORMAL_MAP)
+    if (lom_water_models[f->scene->quality.water].form != LOM_SURFACE_QUAD)
         level += f->known != LOM_WAVES_BOUNDED ? lom_wave_height(f->renderer->waves, &f->waves, eye->x, eye->z)
                                                : (double)f->waves.highest;
     return eye->y < level;

@@ -107,7 +107,7 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     const struct lom_ground *ground = &renderer->ground;
-    if (scene->water.given == 0 || scene->quality.water < LOM_WATER_NORMAL_MAP)
+    if (scene->water.given == 0 || !lom_water_models[scene->quality.water].has_waves)
         return true;
     renderer->wave_site = lom_scene_wave_site(
         scene,

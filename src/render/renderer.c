@@ -22,7 +22,7 @@ static bool load_sun(lom_renderer *renderer, lom_error *error)
 static bool load(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    if (scene->quality.water == LOM_WATER_REFERENCE || scene->quality.clouds == LOM_CLOUDS_REFERENCE) {
+    if (lom_water_models[scene->quality.water].is_traced || scene->quality.clouds == LOM_CLOUDS_REFERENCE) {
         renderer->reference = lom_create_reference(scene, error);
         if (renderer->reference != NULL)
             lom_add_warnings(&renderer->warnings, lom_reference_warnings(renderer->reference));

@@ -8,6 +8,7 @@
 #include "scene/scene_water.h"
 #include "spray/spray.h"
 #include "water/surface.h"
+#include "water/water_models.h"
 #include "waves/wave_field.h"
 
 #include <lom/reference.h>

@@ -50,7 +50,7 @@ static void make_water_targets(lom_renderer *r, int width, int height)
     int refraction_width = scaled(width, scene->quality.refraction_scale),
         refraction_height = scaled(height, scene->quality.refraction_scale);
     /* Rough water mirrors a blurred picture. */
-    lom_mips levels = scene->quality.water >= LOM_WATER_NORMAL_MAP ? LOM_MIPS_ALL : LOM_MIPS_NONE;
+    lom_mips levels = lom_water_models[scene->quality.water].has_waves ? LOM_MIPS_ALL : LOM_MIPS_NONE;
     r->reflection = make_target(r, reflection_width, reflection_height, color_format(scene), levels);
     r->refraction = make_target(r, refraction_width, refraction_height, color_format(scene), LOM_MIPS_NONE);
     r->refraction_depth = make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
@@ -59,7 +59,7 @@ static void make_water_targets(lom_renderer *r, int width, int height)
                 color_format(scene) != LOM_FORMAT_RGBA32F;
     r->mask = same ? r->refraction : make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8, LOM_MIPS_NONE);
     /* The planar lake never looks up how far away what it mirrors is, and draws that picture first. */
-    bool shared = scene->quality.water < LOM_WATER_NORMAL_MAP && reflection_width == refraction_width &&
+    bool shared = !lom_water_models[scene->quality.water].has_waves && reflection_width == refraction_width &&
                   reflection_height == refraction_height;
     r->reflection_depth = shared
                               ? r->refraction_depth

@@ -6,7 +6,7 @@
 #ifndef LOM_SHADING_GRADIENT_H
 #define LOM_SHADING_GRADIENT_H
 
-#include "shading/uniforms.h"
+#include "shading/light.h"
 
 struct lom_gradient_uniform {
     bool on;

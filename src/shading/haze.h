@@ -8,7 +8,7 @@
 #ifndef LOM_SHADING_HAZE_H
 #define LOM_SHADING_HAZE_H
 
-#include "shading/uniforms.h"
+#include "shading/light.h"
 
 struct lom_haze_uniform {
     float density[3];     /* extinction a metre, red, green, blue; all 0: no haze */

@@ -111,9 +111,7 @@ void lom_draw_sun(lom_device *device, const lom_sky_params *sky, const lom_textu
     lom_vec3 to = { (double)light->to_light[0], (double)light->to_light[1], (double)light->to_light[2] };
     lom_mat4 look = lom_look_at((lom_vec3){ 0, 0, 0 }, to, (lom_vec3){ 0, 1, 0 });
     double half = lom_double_sin(sky->sun_size / 2) / lom_double_cos(sky->sun_size / 2);
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            u.clip_from_direction.m[row][column] = (float)clip.m[row][column];
+    u.clip_from_direction = lom_round_matrix(&clip);
     for (int c = 0; c < 4; c++)
         for (int k = 0; k < 3; k++)
             u.corner[c][k] =

@@ -45,9 +45,7 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
                                    .has_specular = water->specular,
                                    .has_tint = water->tint,
                                    .has_soft_shore = water->soft_shore && view->refraction_depth != NULL };
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            u.clip_from_world.m[row][column] = (float)view->clip_from_world.m[row][column];
+    u.clip_from_world = lom_round_matrix(&view->clip_from_world);
     set_vector(u.color, water->color);
     set_vector(u.tint_color, water->tint_color);
     return u;

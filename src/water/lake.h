@@ -2,7 +2,7 @@
 #ifndef LOM_WATER_LAKE_H
 #define LOM_WATER_LAKE_H
 
-#include "shading/uniforms.h"
+#include "shading/light.h"
 
 #include <lom/geometry.h>
 #include <lom/water.h>

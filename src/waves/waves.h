@@ -11,7 +11,7 @@
 #ifndef LOM_WAVES_WAVES_H
 #define LOM_WAVES_WAVES_H
 
-#include "shading/uniforms.h"
+#include "shading/matrix.h"
 
 #include <lom/waves.h>
 

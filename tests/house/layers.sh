@@ -8,7 +8,7 @@ below() {
     image) echo image "$(below lanes)" ;;
     geometry) echo geometry "$(below image)" ;;
     pipeline) echo pipeline "$(below image)" ;;
-    shading) echo shading "$(below pipeline)" ;;
+    shading) echo shading geometry "$(below pipeline)" ;;
     march) echo march "$(below image)" ;;
     waves) echo waves geometry "$(below shading)" ;;
     water | spray | cloud | sky) echo "$1 march $(below waves)" ;;

@@ -1,13 +1,9 @@
-/* What the shaders of every model layer share: matrices and vectors as floats, transformations and light over lanes. */
-#ifndef LOM_SHADING_UNIFORMS_H
-#define LOM_SHADING_UNIFORMS_H
+/* Light for the shaders of every model layer: what a directional light is, how much of it reaches a place, and what a
+ * surface sends back of it (Phong 1975). */
+#ifndef LOM_SHADING_LIGHT_H
+#define LOM_SHADING_LIGHT_H
 
-#include <lom/lanes_mathematics.h>
-#include <lom/pipeline.h>
-
-struct lom_matrix_uniform {
-    float m[4][4]; /* m[row][column], rounded once from double */
-};
+#include "shading/matrix.h"
 
 /* One directional light, Phong. */
 struct lom_light_uniform {
@@ -23,23 +19,6 @@ struct lom_light_uniform {
     const lom_texture *ground_shadow;
     float ground_scale[2]; /* its coordinates are 0.5 + (x, z) ground_scale */
 };
-
-LOM_INLINE lom_float3 lom_uniform3(const float v[3])
-{
-    return lom_splat3(v[0], v[1], v[2]);
-}
-
-LOM_INLINE lom_float lom_transform_row(const float row[4], lom_float3 p)
-{
-    return p.x * row[0] + p.y * row[1] + p.z * row[2] + row[3];
-}
-
-/* m (p, 1) */
-LOM_INLINE lom_float4 lom_transform4(const struct lom_matrix_uniform *m, lom_float3 p)
-{
-    return (lom_float4){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p),
-                         lom_transform_row(m->m[3], p) };
-}
 
 /* The share of the light that passes terrain: from none half a metre below the shadow's height to all above it. */
 LOM_INLINE lom_float lom_ground_light(const struct lom_light_uniform *light, lom_float3 world)
@@ -62,20 +41,6 @@ LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_
                                    lom_transform_row(light->shadow_t, world), (lom_float){ 0 })
                             .x;
     return share * (1.0f - light->shadow_strength * (1.0f - through));
-}
-
-/* The upper three rows of m (p, 1). */
-LOM_INLINE lom_float3 lom_transform3(const struct lom_matrix_uniform *m, lom_float3 p)
-{
-    return (lom_float3){ lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p) };
-}
-
-/* The upper 3x3 of m times v. */
-LOM_INLINE lom_float3 lom_rotate3(const struct lom_matrix_uniform *m, lom_float3 v)
-{
-    return (lom_float3){ v.x * m->m[0][0] + v.y * m->m[0][1] + v.z * m->m[0][2],
-                         v.x * m->m[1][0] + v.y * m->m[1][1] + v.z * m->m[1][2],
-                         v.x * m->m[2][0] + v.y * m->m[2][1] + v.z * m->m[2][2] };
 }
 
 /* Phong's specular term max(R.E, 0)^shininess of the light, R its reflection; 0 where the light is behind the surface
