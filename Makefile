@@ -144,12 +144,12 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
-# The calls that tests/faults lets fail in turn.
 # The tests of what the program measures with.
 $(BUILD)/tests/measure/%: LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
 $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
 
-FAULTS = aligned_alloc lom_release pthread_create read write open fsync close rename
+# The calls that tests/faults lets fail in turn.
+FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 
 # A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.

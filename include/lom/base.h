@@ -1,4 +1,4 @@
-/* lom/base.h - what every layer stands on: errors as values, checked memory, whole files, numbers as text, hashes,
+/* lom/base.h - what every layer stands on: errors as values, checked memory, files, numbers as text, hashes,
  * the float state, and mathematics in double that gives the same bits on every machine.
  *
  * Conventions of the whole library:
@@ -80,10 +80,38 @@ typedef struct lom_bytes {
  * counted. On failure data is NULL and error names the path. */
 lom_bytes lom_read_file(const char *path, size_t limit, lom_error *error);
 
-/* Writes a file so that path holds either its old content or all of the new: a temporary file in the same folder,
- * flushed to disk, then renamed; removed again on failure. "-" is standard output; a path that is not a regular file
- * (/dev/full, a pipe) is written directly. */
+/* Writes a file so that path holds either its old content or all of the new: lom_open_writer, one lom_append and
+ * lom_close_writer. */
 bool lom_write_file(const char *path, const void *data, size_t size, lom_error *error);
+
+/* ---- files written piece by piece: the one road of everything that is written ---- */
+
+/* A file being written. Until it is closed path holds what it held before, and any number of writers of one path are
+ * each whole: the last one to close stays. What is written meanwhile lies in the same folder, without a name where the
+ * system has such files (O_TMPFILE), else as ".lom-" and 16 random digits, and is removed by a failure.
+ *   - A link stays a link, also one to a file that is not there yet; a file's mode stays, and its owner where the
+ * system lets it; a file that may not be written to is an error.
+ *   - What is no regular file (a device, a FIFO) is written to directly. So are "-", standard output, and the names of
+ *     open descriptors (/dev/stdout, /dev/fd/N), where they stand.
+ *   - A file whose folder takes no new file, and one that another is mounted upon, is written in place: then a failure
+ *     leaves it cut short. */
+typedef struct lom_writer lom_writer;
+
+/* NULL on failure. Ended by lom_close_writer or lom_abandon_writer. */
+lom_writer *lom_open_writer(const char *path, lom_error *error);
+/* All of the bytes, after those before them; standard output after what stdio holds for it. False (and with the reason
+ * of the system in error) when they could not be written: then the writer can only be abandoned, and closing it fails.
+ */
+bool lom_append(lom_writer *writer, const void *data, size_t size, lom_error *error);
+/* Makes path hold what was appended, on the disk; frees writer, also on failure. */
+bool lom_close_writer(lom_writer *writer, lom_error *error);
+/* Leaves path as it was and frees writer; NULL is allowed. */
+void lom_abandon_writer(lom_writer *writer);
+
+/* Removes the temporary files of all writers of this process that have a name: for a handler of a signal that is about
+ * to end the process (it is async-signal-safe; the library installs no handler). Afterwards no writer can be opened or
+ * closed. */
+void lom_remove_temporaries(void);
 
 /* ---- numbers as text: independent of the locale, correctly rounded (round to nearest even) ---- */
 

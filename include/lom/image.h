@@ -63,9 +63,10 @@ typedef struct lom_image {
 } lom_image;
 
 enum { LOM_MAX_SIZE = 32768 }; /* the largest width, height or depth of an image */
+#define LOM_MAX_IMAGE_BYTES (UINT64_C(1) << 31)
 
-/* A black (all bytes 0) image; sizes 1..LOM_MAX_SIZE, at most 2^31 bytes. NULL on failure. Freed with lom_free_image.
- */
+/* A black (all bytes 0) image; sizes 1..LOM_MAX_SIZE, at most LOM_MAX_IMAGE_BYTES. NULL on failure. Freed with
+ * lom_free_image. */
 lom_image *lom_create_image(int width, int height, int depth, lom_format format, lom_error *error);
 void lom_free_image(lom_image *image);
 /* Bytes of all pixels. */

@@ -24,6 +24,7 @@ typedef struct lom_frame_desc {
     int width, height;            /* of the whole frame; 0: the scene's */
     int frame;                    /* its time is frame / fps seconds */
     lom_rect crop;                /* the part that is drawn and returned; width 0: all of it */
+    double memory;                /* GiB that its targets may take; 0: what the machine has */
     lom_frame_progress *progress; /* NULL: nobody looks */
     void *progress_context;
 } lom_frame_desc;
@@ -80,6 +81,10 @@ typedef struct lom_frame {
     uint64_t shallow_steps;               /* of shallow water, run for this frame */
     lom_stage_time stage[LOM_MAX_STAGES]; /* in their order; name NULL behind the last */
 } lom_frame;
+
+/* Whether a frame of the scene lies within the limits (docs/limits.md); false with the reason. lom_render_frame asks
+ * the same before it draws; a program can ask before it loads. */
+bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_error *error);
 
 /* Draws one frame; any frame alone gives the bytes that it has in a run, unless quality.impostors is on: then a plate
  * depends on the frames of the run before. A run goes on when the frame is the one after the last frame that this

@@ -1,6 +1,9 @@
-/* The machine. In: nothing but the system. Out: which vector extensions may be used and how many threads are worth
- * starting. Invariant: the answers choose speed only; no pixel depends on them. */
+/* The machine. In: nothing but the system. Out: which vector extensions may be used, how many threads are worth
+ * starting, how much memory there is. Invariant: the answers choose speed, and what is refused; no pixel depends on
+ * them. */
 #include "cpu.h"
+
+#include "base/system.h"
 
 #include <fcntl.h>
 #include <sched.h>
@@ -26,30 +29,34 @@ lom_cpu lom_detect_cpu(void)
 /* The first size - 1 bytes of a small file as text; false when it cannot be read. */
 static bool read_text(const char *path, char *text, size_t size)
 {
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = lom_open_again(AT_FDCWD, path, O_RDONLY | O_CLOEXEC);
     if (file < 0)
         return false;
     size_t used = 0;
     ssize_t got = 1;
-    while (used + 1 < size && (got = read(file, text + used, size - 1 - used)) > 0)
-        used += (size_t)got;
+    while (used + 1 < size && got != 0) {
+        got = read(file, text + used, size - 1 - used);
+        if (got < 0 && !lom_call_again(file, POLLIN))
+            break;
+        used += got > 0 ? (size_t)got : 0;
+    }
     close(file);
     text[used] = 0;
     return got >= 0;
 }
 
 /* Quota over period in CPUs, rounded up; 0 when there is no quota ("max", -1) or no sense in it. */
-static int quota_cpus(const char *quota, const char *period)
+static int64_t quota_cpus(const char *quota, const char *period)
 {
     long long q = strtoll(quota, NULL, 10), p = strtoll(period, NULL, 10);
     if (q <= 0 || p <= 0)
         return 0;
     long long cpus = q / p + (q % p != 0);
-    return cpus < 1 << 20 ? (int)cpus : 0;
+    return cpus < 1 << 20 ? cpus : 0;
 }
 
 /* One control group: cpu.max of version 2 ("max 100000", "150000 100000"), cpu.cfs_* of version 1. */
-static int group_cpus(const char *folder, bool version2)
+static int64_t group_cpus(const char *folder, bool version2)
 {
     char path[4352], quota[64], period[64];
     snprintf(path, sizeof path, "%s/%s", folder, version2 ? "cpu.max" : "cpu.cfs_quota_us");
@@ -63,36 +70,53 @@ static int group_cpus(const char *folder, bool version2)
     return read_text(path, period, sizeof period) ? quota_cpus(quota, period) : 0;
 }
 
-/* The least quota of a group and of all above it, up to the root of its hierarchy: each level limits those below.
+/* The same of memory, in bytes: memory.max ("max", "1073741824"), memory.limit_in_bytes, which is near 2^63 for none.
+ */
+static int64_t group_memory(const char *folder, bool version2)
+{
+    char path[4352], limit[64];
+    snprintf(path, sizeof path, "%s/%s", folder, version2 ? "memory.max" : "memory.limit_in_bytes");
+    long long bytes = read_text(path, limit, sizeof limit) ? strtoll(limit, NULL, 10) : 0;
+    return bytes > 0 && bytes < INT64_C(1) << 60 ? bytes : 0;
+}
+
+/* What a control group limits. */
+struct controller {
+    const char *name;
+    int64_t (*limit)(const char *folder, bool version2); /* of one group; 0: none */
+};
+static const struct controller cpu_controller = { "cpu", group_cpus }, memory_controller = { "memory", group_memory };
+
+/* The least limit of a group and of all above it, up to the root of its hierarchy: each level limits those below.
  * Levels that are not visible (a container sees its own subtree as the root) have no files and count as unlimited. */
-static int hierarchy_cpus(const char *mount, const char *group, bool version2)
+static int64_t hierarchy_limit(const struct controller *controller, const char *mount, const char *group, bool version2)
 {
     char path[4224];
     int length = snprintf(path, sizeof path, "%s%s", mount, group);
     if (length < 0 || (size_t)length >= sizeof path)
         return 0;
-    int least = 0;
+    int64_t least = 0;
     for (size_t end = (size_t)length, top = strlen(mount); end >= top; end--) {
         if (path[end] != '/' && path[end] != 0)
             continue;
         path[end] = 0;
-        int cpus = group_cpus(path, version2);
-        if (cpus > 0 && (least == 0 || cpus < least))
-            least = cpus;
+        int64_t limit = controller->limit(path, version2);
+        if (limit > 0 && (least == 0 || limit < least))
+            least = limit;
         if (end == 0)
             break;
     }
     return least;
 }
 
-/* Whether the comma separated list names the "cpu" controller. */
-static bool names_cpu(const char *list, size_t length)
+/* Whether the comma separated list has the name. */
+static bool has_name(const char *list, size_t length, const char *name)
 {
     for (size_t start = 0; start < length;) {
         size_t end = start;
         while (end < length && list[end] != ',')
             end++;
-        if (end - start == 3 && memcmp(list + start, "cpu", 3) == 0)
+        if (end - start == strlen(name) && memcmp(list + start, name, end - start) == 0)
             return true;
         start = end + 1;
     }
@@ -100,9 +124,9 @@ static bool names_cpu(const char *list, size_t length)
 }
 
 /* Lines are "ID:CONTROLLERS:/GROUP"; version 2 is the line with ID 0 and no controllers (cgroups(7)). */
-int lom_cgroup_cpus(const char *membership, const char *root)
+static int64_t least_limit(const struct controller *controller, const char *membership, const char *root)
 {
-    int least = 0;
+    int64_t least = 0;
     for (const char *line = membership; *line != 0;) {
         size_t length = strcspn(line, "\n");
         const char *list = memchr(line, ':', length);
@@ -111,15 +135,26 @@ int lom_cgroup_cpus(const char *membership, const char *root)
             size_t list_length = (size_t)(group - list - 1);
             bool version2 = list_length == 0;
             char mount[256], name[4096];
-            snprintf(mount, sizeof mount, "%s%s", root, version2 ? "" : "/cpu");
+            snprintf(mount, sizeof mount, "%s%s%s", root, version2 ? "" : "/", version2 ? "" : controller->name);
             snprintf(name, sizeof name, "%.*s", (int)(length - (size_t)(group + 1 - line)), group + 1);
-            int cpus = version2 || names_cpu(list + 1, list_length) ? hierarchy_cpus(mount, name, version2) : 0;
-            if (cpus > 0 && (least == 0 || cpus < least))
-                least = cpus;
+            bool holds = version2 || has_name(list + 1, list_length, controller->name);
+            int64_t limit = holds ? hierarchy_limit(controller, mount, name, version2) : 0;
+            if (limit > 0 && (least == 0 || limit < least))
+                least = limit;
         }
         line += length + (line[length] == '\n');
     }
     return least;
+}
+
+int lom_cgroup_cpus(const char *membership, const char *root)
+{
+    return (int)least_limit(&cpu_controller, membership, root); /* below 2^20 */
+}
+
+uint64_t lom_cgroup_memory(const char *membership, const char *root)
+{
+    return (uint64_t)least_limit(&memory_controller, membership, root);
 }
 
 /* CPUs the scheduler may run this thread on. The set grows until the kernel's fits in it. */
@@ -149,4 +184,15 @@ int lom_default_threads(void)
                     ? lom_cgroup_cpus(membership, "/sys/fs/cgroup")
                     : 0;
     return quota > 0 && quota < threads ? quota : threads;
+}
+
+uint64_t lom_machine_memory(void)
+{
+    char membership[16384];
+    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    uint64_t memory = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : 0;
+    uint64_t limit = read_text("/proc/self/cgroup", membership, sizeof membership)
+                         ? lom_cgroup_memory(membership, "/sys/fs/cgroup")
+                         : 0;
+    return limit > 0 && (memory == 0 || limit < memory) ? limit : memory;
 }

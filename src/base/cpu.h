@@ -8,4 +8,11 @@
  * text of /proc/self/cgroup, root the folder where the hierarchies are mounted (/sys/fs/cgroup). */
 int lom_cgroup_cpus(const char *membership, const char *root);
 
+/* The same of memory, in bytes; 0 when nothing limits it. */
+uint64_t lom_cgroup_memory(const char *membership, const char *root);
+
+/* The memory that this process may use, in bytes: the machine's, or less where a control group says so; 0 when the
+ * system does not tell. */
+uint64_t lom_machine_memory(void);
+
 #endif

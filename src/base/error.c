@@ -1,19 +1,50 @@
 /* Errors and warnings as values. In: a code and a sentence. Out: a lom_error that keeps the first failure; warnings
- * that keep the first sentences and count them all. */
+ * that keep the first sentences and count them all. Invariant: of a sentence that is too long (paths have up to 4095
+ * bytes) the beginning and the end stay, which name the file and the reason. */
 #include <lom/base.h>
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+enum { LONGEST = 8192 };
+
+/* Whether byte is one within a UTF-8 sequence, where no text may be cut. */
+static bool is_inside(char byte)
+{
+    return ((unsigned char)byte & 0xc0) == 0x80;
+}
+
+/* Copies text, without its middle when it is longer than room - 1 bytes. */
+static void shorten(char *to, size_t room, const char *text)
+{
+    static const char gap[] = " ... ";
+    size_t length = strlen(text), half = (room - sizeof gap) / 2;
+    if (length < room) {
+        memcpy(to, text, length + 1);
+        return;
+    }
+    size_t head = half;
+    const char *tail = text + length - half;
+    while (head > 0 && is_inside(text[head]))
+        head--;
+    while (is_inside(*tail))
+        tail++;
+    memcpy(to, text, head);
+    memcpy(to + head, gap, sizeof gap - 1);
+    memcpy(to + head + sizeof gap - 1, tail, strlen(tail) + 1);
+}
+
 bool lom_fail(lom_error *error, lom_code code, const char *format, ...)
 {
     if (error == NULL || error->code != LOM_OK)
         return false;
+    char text[LONGEST];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error->text, sizeof error->text, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    shorten(error->text, sizeof error->text, text);
     error->code = code;
     return false;
 }
@@ -30,13 +61,14 @@ static void put_sentence(lom_warnings *warnings, const char *sentence, size_t le
 
 void lom_warn(lom_warnings *warnings, const char *format, ...)
 {
-    char sentence[500];
+    char text[LONGEST], sentence[500];
     va_list arguments;
     if (warnings == NULL)
         return;
     va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    shorten(sentence, sizeof sentence, text);
     for (char *p = sentence; *p != 0; p++)
         if ((unsigned char)*p < ' ' || *p == 127)
             *p = '?';

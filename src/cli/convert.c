@@ -7,6 +7,7 @@
 #include <lom/geometry.h>
 
 #include <string.h>
+#include <sys/stat.h>
 
 struct values {
     const char *format, *bits;
@@ -188,38 +189,65 @@ static bool convert_image(const char *in, const char *out, const struct values *
     return done;
 }
 
-/* Writes the materials beside OUT; *name is what OUT's mtllib line says, "" when there are none. */
-static bool write_materials(const lom_mesh *mesh, const char *out, char *name, size_t size, lom_error *error)
+/* The path of OUT's material file: its extension is mtl. */
+static char *name_materials(const char *out, lom_error *error)
 {
-    char path[4096];
-    name[0] = 0;
-    if (mesh->material_count == 0 || strcmp(out, "-") == 0)
-        return true;
     const char *extension = lom_path_extension(out);
     size_t stem = strlen(out) - (*extension != 0 ? strlen(extension) + 1 : 0);
-    int length = snprintf(path, sizeof path, "%.*s.mtl", (int)stem, out);
-    if (length < 0 || (size_t)length >= sizeof path || strlen(lom_path_file(path)) >= size)
-        return lom_fail(error, LOM_ERROR_LIMIT, "%s: the path of its material file is too long.", out);
-    memcpy(name, lom_path_file(path), strlen(lom_path_file(path)) + 1);
-    lom_bytes text = lom_encode_mtl(mesh, error);
-    bool done = text.data != NULL && lom_write_file(path, text.data, text.size, error);
+    char *path = lom_allocate(stem + sizeof ".mtl", 1, error);
+    if (path == NULL)
+        return NULL;
+    memcpy(path, out, stem);
+    memcpy(path + stem, ".mtl", sizeof ".mtl");
+    return path;
+}
+
+static lom_writer *write_text(const char *path, lom_bytes text, lom_error *error)
+{
+    lom_writer *writer = text.data != NULL ? lom_open_writer(path, error) : NULL;
+    if (writer != NULL && !lom_append(writer, text.data, text.size, error)) {
+        lom_abandon_writer(writer);
+        writer = NULL;
+    }
     lom_release(text.data);
-    return done;
+    return writer;
+}
+
+/* The mesh and its materials (path NULL: without): both files are written before either takes its place. */
+static bool write_mesh(const lom_mesh *mesh, const char *out, const char *path, lom_error *error)
+{
+    lom_writer *materials = path != NULL ? write_text(path, lom_encode_mtl(mesh, error), error) : NULL;
+    if (path != NULL && materials == NULL)
+        return false;
+    const char *name = path != NULL ? lom_path_file(path) : NULL;
+    lom_writer *writer = write_text(out, lom_encode_obj(mesh, name, error), error);
+    if (writer == NULL) {
+        lom_abandon_writer(materials);
+        return false;
+    }
+    bool done = materials == NULL || lom_close_writer(materials, error);
+    if (done)
+        return lom_close_writer(writer, error);
+    lom_abandon_writer(writer);
+    return false;
 }
 
 static bool convert_mesh(const char *in, const char *out, lom_error *error)
 {
+    if (lom_path_is(out, "mtl"))
+        return lom_fail(
+            error, LOM_ERROR_USAGE,
+            "%s: an obj's materials go to its name with the extension mtl, which this is: give OUT another.", out);
     lom_mesh *mesh = lom_read_obj(in, error);
     if (mesh == NULL)
         return false;
     lom_tell_warnings(mesh->warnings.text, mesh->warnings.count);
-    char material_file[256];
-    bool done = write_materials(mesh, out, material_file, sizeof material_file, error);
-    if (done) {
-        lom_bytes text = lom_encode_obj(mesh, material_file[0] != 0 ? material_file : NULL, error);
-        done = text.data != NULL && lom_write_file(out, text.data, text.size, error);
-        lom_release(text.data);
-    }
+    struct stat status; /* a device has no place beside it */
+    bool special = strcmp(out, "-") == 0 || (stat(out, &status) == 0 && !S_ISREG(status.st_mode));
+    bool alone = special || mesh->material_count == 0;
+    char *path = alone ? NULL : name_materials(out, error);
+    bool done = (alone || path != NULL) && write_mesh(mesh, out, path, error);
+    lom_release(path);
     lom_free_mesh(mesh);
     return done;
 }

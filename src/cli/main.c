@@ -2,10 +2,10 @@
  * not take all that was printed. Invariant: status 0 means that everything asked for has been delivered. */
 #include "commands.h"
 #include "options.h"
+#include "signals.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -100,9 +100,10 @@ static void occupy_standard_streams(void)
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
-    signal(SIGPIPE, SIG_IGN); /* a reader that went away is an error of writing, which is reported */
+    lom_handle_signals();
     int status = run(argc, argv);
+    errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout) || close(STDOUT_FILENO) != 0)
-        status = lom_complain("standard output: %s.", strerror(errno));
+        status = lom_complain("standard output: %s.", errno != 0 ? strerror(errno) : "not everything was taken");
     return status;
 }

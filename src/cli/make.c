@@ -3,6 +3,8 @@
  * committed files again byte for byte. */
 #include "commands.h"
 #include "options.h"
+#include "paths.h"
+#include "sky/face_mark.h"
 
 #include <lom/cloud.h>
 #include <lom/lom.h>
@@ -78,29 +80,16 @@ static bool make_albedo(const recipe *r, const parameters *p, const char *path, 
     return write_and_free(path, lom_make_albedo(&(lom_albedo_desc){ r->name, p->size, p->seed }, error), error);
 }
 
-/* path with `word` in the place of its %s; false when it has none, more than one, or is too long. */
-static bool fill_pattern(char *filled, size_t room, const char *path, const char *word, lom_error *error)
-{
-    const char *mark = strstr(path, "%s");
-    if (mark == NULL || strstr(mark + 2, "%s") != NULL)
-        return lom_fail(error, LOM_ERROR_USAGE,
-                        "%s: a sky box is six files, so its name needs one %%s for right, left, top, bottom, front and "
-                        "back.",
-                        path);
-    int length = snprintf(filled, room, "%.*s%s%s", (int)(mark - path), path, word, mark + 2);
-    if (length < 0 || (size_t)length >= room)
-        return lom_fail(error, LOM_ERROR_USAGE, "%.200s...: the path is too long.", path);
-    return true;
-}
-
 static bool make_sky_box(const recipe *r, const parameters *p, const char *path, lom_error *error)
 {
     static const char *const faces[6] = { "right", "left", "top", "bottom", "front", "back" };
     (void)r;
-    char names[6][1024];
-    for (int i = 0; i < 6; i++)
-        if (!fill_pattern(names[i], sizeof names[i], path, faces[i], error))
-            return false;
+    const char *mark = lom_face_mark(path);
+    if (mark == NULL)
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "%s: a sky box is six files, so its name needs one %%s for right, left, top, bottom, front and "
+                        "back.",
+                        path);
     lom_sky_box_desc desc = { .size = p->size,
                               .sun_azimuth = p->azimuth * degree,
                               .sun_elevation = p->elevation * degree,
@@ -110,35 +99,26 @@ static bool make_sky_box(const recipe *r, const parameters *p, const char *path,
     lom_image *pictures[6];
     bool done = lom_make_sky_box(&desc, pictures, error);
     for (int i = 0; i < 6; i++) {
-        done = done && lom_write_image(names[i], NULL, pictures[i], error);
+        char *name = lom_path_print(error, "%.*s%s%s", (int)(mark - path), path, faces[i], mark + 2);
+        done = done && name != NULL && lom_write_image(name, NULL, pictures[i], error);
         lom_free_image(pictures[i]);
+        lom_release(name);
     }
     return done;
 }
 
-/* The folder that path lies in, with its slash; empty for none. */
-static bool folder_of(char *folder, size_t room, const char *path, lom_error *error)
+/* The textures that the mesh names, in the folder that is the first characters of path; all of them belong to the seed
+ * of the table. */
+static bool write_textures(const lom_mesh *mesh, const char *path, int folder, lom_error *error)
 {
-    const char *slash = strrchr(path, '/');
-    size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0;
-    if (length >= room)
-        return lom_fail(error, LOM_ERROR_USAGE, "%.200s...: the path is too long.", path);
-    memcpy(folder, path, length);
-    folder[length] = '\0';
-    return true;
-}
-
-/* The textures that the mesh names, beside it; all of them belong to the seed of the table. */
-static bool write_textures(const lom_mesh *mesh, const char *folder, lom_error *error)
-{
-    for (size_t i = 0; i < mesh->material_count; i++) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s%s", folder, mesh->materials[i].diffuse_map);
+    bool done = true;
+    for (size_t i = 0; done && i < mesh->material_count; i++) {
+        char *name = lom_path_print(error, "%.*s%s", folder, path, mesh->materials[i].diffuse_map);
         lom_albedo_desc desc = { .name = mesh->materials[i].name, .seed = 1 };
-        if (!write_and_free(path, lom_make_albedo(&desc, error), error))
-            return false;
+        done = name != NULL && write_and_free(name, lom_make_albedo(&desc, error), error);
+        lom_release(name);
     }
-    return true;
+    return done;
 }
 
 static bool write_bytes(const char *path, lom_bytes bytes, lom_error *error)
@@ -151,21 +131,16 @@ static bool write_bytes(const char *path, lom_bytes bytes, lom_error *error)
 /* NAME.obj, NAME.mtl and the pictures. */
 static bool make_entity(const recipe *r, const parameters *p, const char *path, lom_error *error)
 {
-    char folder[700], material[800], name[64];
-    size_t length = strlen(path);
-    if (length < 5 || strcmp(path + length - 4, ".obj") != 0)
+    if (!lom_path_is(path, "obj"))
         return lom_fail(error, LOM_ERROR_USAGE, "%s: an entity is written to a file that ends in .obj.", path);
-    if (!folder_of(folder, sizeof folder, path, error))
-        return false;
-    int used = snprintf(name, sizeof name, "%.*s.mtl", (int)(length - 4 - strlen(folder)), path + strlen(folder));
-    if (used < 0 || (size_t)used >= sizeof name)
-        return lom_fail(error, LOM_ERROR_USAGE, "%s: the name is too long.", path);
-    snprintf(material, sizeof material, "%s%s", folder, name);
-    lom_mesh *mesh = lom_make_entity(r->name, p->seed, error);
-    bool done = mesh != NULL && write_textures(mesh, folder, error) &&
+    int folder = (int)(lom_path_file(path) - path), stem = (int)(lom_path_extension(path) - path);
+    char *material = lom_path_print(error, "%.*smtl", stem, path);
+    lom_mesh *mesh = material != NULL ? lom_make_entity(r->name, p->seed, error) : NULL;
+    bool done = mesh != NULL && write_textures(mesh, path, folder, error) &&
                 write_bytes(material, lom_encode_mtl(mesh, error), error) &&
-                write_bytes(path, lom_encode_obj(mesh, name, error), error);
+                write_bytes(path, lom_encode_obj(mesh, lom_path_file(material), error), error);
     lom_free_mesh(mesh);
+    lom_release(material);
     return done;
 }
 
@@ -338,24 +313,20 @@ static bool make_folders(char *path, size_t root, lom_error *error)
 
 static bool make_all(const struct values *v, lom_error *error)
 {
-    for (size_t i = 0; i < RECIPE_COUNT; i++) {
-        char path[900];
-        int length = snprintf(path, sizeof path, "%s/%s", v->output, recipes[i].path);
-        if (length < 0 || (size_t)length >= sizeof path)
-            return lom_fail(error, LOM_ERROR_USAGE, "%.200s...: the path is too long.", v->output);
+    bool done = true;
+    for (size_t i = 0; done && i < RECIPE_COUNT; i++) {
+        char *path = lom_path_print(error, "%s/%s", v->output, recipes[i].path);
         parameters p = merge(&recipes[i], &(struct values){ 0 });
-        if (!make_folders(path, strlen(v->output), error) || !recipes[i].make(&recipes[i], &p, path, error))
-            return false;
+        done = path != NULL && make_folders(path, strlen(v->output), error) &&
+               recipes[i].make(&recipes[i], &p, path, error);
+        lom_release(path);
     }
-    return true;
+    return done;
 }
 
 static bool make_scene_docs(const char *path, lom_error *error)
 {
-    lom_bytes page = lom_write_scene_documentation(error);
-    bool written = page.data != NULL && lom_write_file(path, page.data, page.size, error);
-    lom_release(page.data);
-    return written;
+    return write_bytes(path, lom_write_scene_documentation(error), error);
 }
 
 int lom_command_make(int argc, char **argv)

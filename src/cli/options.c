@@ -84,9 +84,14 @@ static bool take_integer(const char **text, int64_t *value)
 static bool store_integers(const lom_command_line *line, const lom_option *option, const char *word, void *field)
 {
     lom_option_integers values = { .given = true };
-    const char *text = word;
+    const char *text = word, *bar = strchr(option->value, '|');
     int count = 0;
-    for (const char *pattern = option->value; *pattern != 0; pattern++) {
+    if (bar != NULL && strcmp(word, bar + 1) == 0) {
+        values.is_word = true;
+        *(lom_option_integers *)field = values;
+        return true;
+    }
+    for (const char *pattern = option->value; *pattern != 0 && pattern != bar; pattern++) {
         bool is_integer = *pattern >= 'A' && *pattern <= 'Z' && count < 4;
         if (is_integer ? !take_integer(&text, &values.value[count]) : *text++ != *pattern)
             return refuse(line, "--%s takes %s in whole numbers, not \"%s\"", option->name, option->value, word);

@@ -21,7 +21,8 @@ typedef enum lom_option_kind {
     LOM_OPTION_CHOICE,  /* one of the words of `value`, separated by '|'; const char *, NULL when absent */
     LOM_OPTION_NUMBER,  /* a decimal number in [minimum, maximum]; lom_option_number */
     LOM_OPTION_INTEGER, /* integers in [minimum, maximum], in the pattern of `value`: a capital letter stands for an
-                         * integer, anything else for itself ("N", "WxH", "A:B", "X,Y,W,H"); lom_option_integers */
+                         * integer, anything else for itself ("N", "WxH", "A:B", "X,Y,W,H"); behind a '|' stands a
+                         * word that may be given instead ("A:B|all"); lom_option_integers */
     LOM_OPTION_LIST     /* any word, may be repeated; lom_option_list */
 } lom_option_kind;
 
@@ -32,6 +33,7 @@ typedef struct lom_option_number {
 
 typedef struct lom_option_integers {
     bool given;
+    bool is_word;     /* the word instead of integers */
     int64_t value[4]; /* as many as the pattern has capital letters */
 } lom_option_integers;
 

@@ -2,6 +2,8 @@
  * locale says. */
 #include "paths.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 const char *lom_path_file(const char *path)
@@ -13,7 +15,7 @@ const char *lom_path_file(const char *path)
 const char *lom_path_extension(const char *path)
 {
     const char *file = lom_path_file(path), *dot = strrchr(file, '.');
-    return dot != NULL && dot != file ? dot + 1 : "";
+    return dot != NULL ? dot + 1 : "";
 }
 
 bool lom_path_is(const char *path, const char *extension)
@@ -23,4 +25,19 @@ bool lom_path_is(const char *path, const char *extension)
         if ((*p >= 'A' && *p <= 'Z' ? *p - 'A' + 'a' : *p) != *extension)
             return false;
     return *p == *extension;
+}
+
+char *lom_path_print(lom_error *error, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *path = length >= 0 ? lom_allocate((size_t)length + 1, 1, error) : NULL;
+    if (path == NULL)
+        return NULL;
+    va_start(arguments, format);
+    vsnprintf(path, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    return path;
 }

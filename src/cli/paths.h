@@ -11,4 +11,7 @@ const char *lom_path_file(const char *path);
 /* Whether the extension of path is the given one (in small letters), whatever the case of path's ASCII letters. */
 bool lom_path_is(const char *path, const char *extension);
 
+/* A path as printf makes it, however long; NULL on failure, freed with lom_release. */
+char *lom_path_print(lom_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 #endif

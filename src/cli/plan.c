@@ -53,7 +53,8 @@ int lom_command_plan(int argc, char **argv)
     lom_frame_desc desc = lom_frame_of_options(&values.scene, values.frame.given ? (int)values.frame.value[0] : 0);
     lom_frame frame = { .image = NULL };
     lom_scene *scene = lom_open_scene(arguments.items[0], &values.scene, &error);
-    lom_renderer *renderer = scene == NULL ? NULL : lom_create_renderer(scene, &device, &error);
+    bool drawable = scene != NULL && lom_check_frame(scene, &desc, &error);
+    lom_renderer *renderer = drawable ? lom_create_renderer(scene, &device, &error) : NULL;
     bool done = renderer != NULL && lom_render_frame(renderer, &desc, &frame, &error);
     if (done)
         print_plan(&frame);

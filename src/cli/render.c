@@ -1,7 +1,8 @@
 /* `lom render`. In: a scene; out: pictures, hashes, statistics. With --watch it goes on, drawing again whenever the
  * scene or a file it names changes, also after an error in them. */
 #include "commands.h"
-#include "json.h"
+#include "frame_output.h"
+#include "frame_stats.h"
 #include "progress.h"
 #include "scene_options.h"
 
@@ -21,11 +22,11 @@ struct values {
 
 static const lom_option options[] = {
     { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "OUT", 0, 0,
-      "the picture; %04d stands for the number of the frame, - is stdout" },
+      "the picture; %04d in its name is the frame's number, %% one %; - is stdout" },
     { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9,
       "the frame to draw, 0 when not given" },
-    { "frames", 0, LOM_OPTION_INTEGER, offsetof(struct values, frames), "A:B", 0, 1e9,
-      "draw frames A to B, both included" },
+    { "frames", 0, LOM_OPTION_INTEGER, offsetof(struct values, frames), "A:B|all", 0, 1e9,
+      "draw frames A to B, both included, or all of the scene" },
     LOM_SCENE_OPTIONS(struct values),
     { "hash", 0, LOM_OPTION_FLAG, offsetof(struct values, hash), NULL, 0, 0, "print \"HASH  frame N\" for each frame" },
     { "stats", 0, LOM_OPTION_TEXT, offsetof(struct values, stats), "FILE", 0, 0,
@@ -44,6 +45,7 @@ static const lom_command_line line = {
     .arguments = "SCENE -o OUT",
     .summary = "draw a scene",
     .details = "OUT is png, ppm, pgm, pam, pfm or y4m by its ending. -o may be left out with --hash or --stats.\n"
+               "Other videos are made of y4m: lom render SCENE --frames all -o - --format y4m | ffmpeg -i - OUT.mp4\n"
                "Any frame alone has the bytes that it has in a run, unless quality.impostors is on.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
@@ -56,9 +58,8 @@ struct run {
     const struct values *values;
     lom_scene *scene;
     lom_renderer *renderer;
-    FILE *video; /* of y4m, until the run ends */
-    char video_path[4096];
-    FILE *stats;
+    struct lom_frame_output output;
+    lom_writer *stats;
     bool rejected;
 };
 
@@ -67,136 +68,6 @@ static double seconds(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* OUT with its %d or %0Nd replaced by the frame's number; false when it is too long or has another %. */
-static bool name_frame(char *name, size_t room, const char *pattern, int frame, lom_error *error)
-{
-    const char *mark = strchr(pattern, '%');
-    int digits = 0, length;
-    if (mark == NULL) {
-        length = snprintf(name, room, "%s", pattern);
-    } else {
-        const char *end = mark + 1;
-        while (*end >= '0' && *end <= '9' && digits < 100)
-            digits = digits * 10 + (*end++ - '0');
-        if (*end != 'd' || strchr(end, '%') != NULL || digits > 20)
-            return lom_fail(error, LOM_ERROR_USAGE, "%s: the frame's number is written as %%d or %%04d, once.",
-                            pattern);
-        length = snprintf(name, room, "%.*s%0*d%s", (int)(mark - pattern), pattern, digits, frame, end + 1);
-    }
-    if (length < 0 || (size_t)length >= room)
-        return lom_fail(error, LOM_ERROR_USAGE, "%s: the name is too long.", pattern);
-    return true;
-}
-
-static bool is_video(const struct values *v)
-{
-    if (v->format != NULL)
-        return strcmp(v->format, "y4m") == 0;
-    size_t length = v->output == NULL ? 0 : strlen(v->output);
-    return length > 4 && strcmp(v->output + length - 4, ".y4m") == 0;
-}
-
-/* A video grows beside its final name and is renamed when it is whole. */
-static bool append_to_video(struct run *run, lom_bytes part, lom_error *error)
-{
-    bool done = part.data != NULL && fwrite(part.data, 1, part.size, run->video) == part.size;
-    if (part.data != NULL && !done)
-        lom_fail(error, LOM_ERROR_FILE, "%s: not everything could be written.", run->values->output);
-    lom_release(part.data);
-    return done;
-}
-
-static bool open_video(struct run *run, const lom_image *image, lom_error *error)
-{
-    const char *path = run->values->output;
-    if (strcmp(path, "-") == 0) {
-        run->video = stdout;
-    } else {
-        int length = snprintf(run->video_path, sizeof run->video_path, "%s.part", path);
-        run->video = length > 0 && (size_t)length < sizeof run->video_path ? fopen(run->video_path, "wb") : NULL;
-    }
-    if (run->video == NULL)
-        return lom_fail(error, LOM_ERROR_FILE, "%s: the file cannot be written.", path);
-    int rate = (int)(run->scene->output.fps * 1000 + 0.5);
-    return append_to_video(run, lom_encode_y4m_header(image->width, image->height, rate, 1000, error), error);
-}
-
-static bool close_video(struct run *run, bool keep, lom_error *error)
-{
-    if (run->video == NULL || run->video == stdout)
-        return true;
-    bool whole = fflush(run->video) == 0 && fsync(fileno(run->video)) == 0;
-    whole = fclose(run->video) == 0 && whole;
-    run->video = NULL;
-    if (keep && whole && rename(run->video_path, run->values->output) == 0)
-        return true;
-    remove(run->video_path);
-    return !keep || lom_fail(error, LOM_ERROR_FILE, "%s: not everything could be written.", run->values->output);
-}
-
-static bool write_frame(struct run *run, const lom_image *image, int frame, lom_error *error)
-{
-    const struct values *v = run->values;
-    char name[4096];
-    if (v->output == NULL)
-        return true;
-    if (is_video(v))
-        return (run->video != NULL || open_video(run, image, error)) &&
-               append_to_video(run, lom_encode_y4m_frame(image, error), error);
-    if (!name_frame(name, sizeof name, v->output, frame, error))
-        return false;
-    const char *kind = v->format == NULL && strcmp(name, "-") == 0 ? "png" : v->format;
-    return lom_write_image(name, kind, image, error);
-}
-
-static void print_stats(const struct run *run, const lom_frame *frame, int number, double elapsed)
-{
-    const lom_counters *c = &frame->counters;
-    lom_device_desc device = lom_describe_device(lom_renderer_device(run->renderer));
-    const struct {
-        const char *name;
-        uint64_t value;
-    } facts[] = { { "threads", (uint64_t)device.threads },
-                  { "lanes", (uint64_t)device.lanes },
-                  { "passes", c->passes },
-                  { "draws", c->draws },
-                  { "vertices", c->vertices },
-                  { "triangles", c->triangles },
-                  { "triangles_clipped", c->triangles_clipped },
-                  { "triangles_binned", c->triangles_binned },
-                  { "fragments", c->fragments },
-                  { "packets", c->packets },
-                  { "tiles", c->tiles },
-                  { "transforms", c->transforms },
-                  { "impostors_shown", (uint64_t)frame->impostors.plates },
-                  { "impostors_refreshed", (uint64_t)frame->impostors.refreshed },
-                  { "impostors_reused", (uint64_t)frame->impostors.reused },
-                  { "impostors_split", (uint64_t)frame->impostors.split },
-                  { "impostors_skipped", (uint64_t)frame->impostors.skipped },
-                  { "clouds_culled", (uint64_t)frame->impostors.culled },
-                  { "shallow_steps", frame->shallow_steps },
-                  { "drops_moved", frame->spray.moved },
-                  { "drops_drawn", frame->spray.drawn } };
-    char ran[LOM_MAX_STEPS * 25] = "";
-    size_t length = 0;
-    lom_json json = lom_json_begin(run->stats);
-    lom_json_integer(&json, "frame", number);
-    lom_json_number(&json, "ms", elapsed * 1e3);
-    for (size_t i = 0; i < sizeof facts / sizeof facts[0]; i++)
-        lom_json_integer(&json, facts[i].name, (int64_t)facts[i].value);
-    for (int i = 0; i < frame->plan.count; i++)
-        if (frame->plan.step[i].runs)
-            length += (size_t)snprintf(ran + length, sizeof ran - length, "%s%s", length > 0 ? " " : "",
-                                       frame->plan.step[i].name);
-    for (int i = 0; i < LOM_MAX_STAGES && frame->stage[i].name != NULL; i++) {
-        char name[48];
-        snprintf(name, sizeof name, "ms_%s", frame->stage[i].name);
-        lom_json_number(&json, name, frame->stage[i].milliseconds);
-    }
-    lom_json_text(&json, "ran", ran);
-    lom_json_end(&json);
 }
 
 /* One single colour, or a number that is none. */
@@ -244,27 +115,31 @@ static bool draw_frame(struct run *run, int number, struct moving *moving, lom_e
         fprintf(stderr, "lom: frame %d is one single colour, or held a number that is none.\n", number);
         run->rejected = true;
     }
-    bool done = write_frame(run, frame.image, number, error);
+    bool done = lom_write_frame(&run->output, frame.image, number, error);
     if (done && v->hash)
         printf("%016llx  frame %d\n", (unsigned long long)lom_hash_image(frame.image), number);
     if (done && run->stats != NULL)
-        print_stats(run, &frame, number, elapsed);
+        done = lom_append_stats(run->stats, run->renderer, &frame, number, elapsed, error);
     lom_free_image(frame.image);
     return done;
+}
+
+/* The frames that were asked for, *first to *last. */
+static void find_frames(const struct run *run, int *first, int *last)
+{
+    const struct values *v = run->values;
+    *first = *last = v->frame.given ? (int)v->frame.value[0] : 0;
+    if (v->frames.given) {
+        *first = v->frames.is_word ? 0 : (int)v->frames.value[0];
+        *last = v->frames.is_word ? run->scene->output.frames - 1 : (int)v->frames.value[1];
+    }
 }
 
 static bool draw_frames(struct run *run, lom_error *error)
 {
     const struct values *v = run->values;
-    int first = v->frame.given ? (int)v->frame.value[0] : 0, last = first;
-    if (v->frames.given) {
-        first = (int)v->frames.value[0];
-        last = (int)v->frames.value[1];
-    }
-    if (last < first)
-        return lom_fail(error, LOM_ERROR_USAGE, "--frames %d:%d ends before it begins.", first, last);
-    if (last > first && v->output != NULL && !is_video(v) && strchr(v->output, '%') == NULL)
-        return lom_fail(error, LOM_ERROR_USAGE, "%s: several frames need a %%04d in the name, or y4m.", v->output);
+    int first, last;
+    find_frames(run, &first, &last);
     struct moving moving = { lom_begin_progress("lom render", last - first + 1, v->quiet), 0 };
     bool done = true;
     for (int n = first; done && n <= last; n++) {
@@ -272,25 +147,48 @@ static bool draw_frames(struct run *run, lom_error *error)
         done = draw_frame(run, n, &moving, error);
     }
     lom_end_progress(&moving.bar);
-    return close_video(run, done, error) && done;
+    return lom_end_frame_output(&run->output, done, error) && done;
+}
+
+/* What can be refused before the scene's files are read and anything is drawn. */
+static bool check_run(const struct run *run, lom_error *error)
+{
+    const struct values *v = run->values;
+    int first, last;
+    find_frames(run, &first, &last);
+    if (last < first)
+        return lom_fail(error, LOM_ERROR_USAGE, "--frames %d:%d ends before it begins.", first, last);
+    lom_frame_desc desc = lom_frame_of_options(&v->scene, first);
+    return lom_check_frame(run->scene, &desc, error) &&
+           lom_check_frame_output(&run->output, (lom_output_format)run->scene->output.format, last - first + 1, error);
 }
 
 static bool open_stats(struct run *run, lom_error *error)
 {
     const char *path = run->values->stats;
-    if (path == NULL)
-        return true;
-    run->stats = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
-    return run->stats != NULL || lom_fail(error, LOM_ERROR_FILE, "%s: the file cannot be written.", path);
+    run->stats = path != NULL ? lom_open_writer(path, error) : NULL;
+    return path == NULL || run->stats != NULL;
 }
 
-static bool close_stats(struct run *run, lom_error *error)
+static bool close_stats(struct run *run, bool keep, lom_error *error)
 {
-    if (run->stats == NULL || run->stats == stdout)
-        return true;
-    bool failed = ferror(run->stats) != 0;
-    failed |= fclose(run->stats) != 0;
-    return !failed || lom_fail(error, LOM_ERROR_FILE, "%s: not everything could be written.", run->values->stats);
+    lom_writer *stats = run->stats;
+    run->stats = NULL;
+    if (stats != NULL && keep)
+        return lom_close_writer(stats, error);
+    lom_abandon_writer(stats);
+    return true;
+}
+
+/* Of a scene with many frames one is drawn unless more are asked for, which surprises those who have just made it move.
+ */
+static void hint_at_frames(const struct run *run)
+{
+    const struct values *v = run->values;
+    int frames = run->scene->output.frames;
+    if (frames > 1 && v->output != NULL && !v->frame.given && !v->frames.given && !v->quiet && !v->watch)
+        fprintf(stderr, "lom: frame 0 of the scene's %d is drawn; --frames all draws them all, --frame N another.\n",
+                frames);
 }
 
 /* Draws once; the scene stays open for --watch to see which files it names. */
@@ -301,11 +199,17 @@ static bool render_once(struct run *run, const char *path, lom_error *error)
     run->scene = lom_open_scene(path, &v->scene, error);
     if (run->scene == NULL)
         return false;
+    run->output = (struct lom_frame_output){ v->output, v->format, run->scene->output.fps, NULL };
+    if (!check_run(run, error))
+        return false;
     run->renderer = lom_create_renderer(run->scene, &device, error);
-    if (run->renderer != NULL && !v->quiet)
+    if (run->renderer == NULL)
+        return false;
+    if (!v->quiet)
         lom_tell_warnings(lom_renderer_warning(run->renderer), lom_renderer_warning_count(run->renderer));
-    bool done = run->renderer != NULL && open_stats(run, error) && draw_frames(run, error);
-    return close_stats(run, error) && done;
+    hint_at_frames(run);
+    bool done = open_stats(run, error) && draw_frames(run, error);
+    return close_stats(run, done, error) && done;
 }
 
 static void close_run(struct run *run)
@@ -413,6 +317,21 @@ static void watch(struct run *run, const char *path)
     }
 }
 
+/* Two outputs into one would spoil both. Two into one device do no harm. */
+static bool check_names(const struct values *v)
+{
+    bool picture = v->output != NULL && strcmp(v->output, "-") == 0;
+    bool stats = v->stats != NULL && strcmp(v->stats, "-") == 0;
+    struct stat status;
+    if (picture && (stats || v->hash))
+        return lom_complain("render: -o - writes to standard output, and %s does too.",
+                            stats ? "--stats -" : "--hash") == 0;
+    if (v->output == NULL || v->stats == NULL || stats || strcmp(v->output, v->stats) != 0)
+        return true;
+    return (stat(v->stats, &status) == 0 && !S_ISREG(status.st_mode)) ||
+           lom_complain("render: --output and --stats are both %s.", v->stats) == 0;
+}
+
 int lom_command_render(int argc, char **argv)
 {
     struct values values = { .output = NULL };
@@ -422,6 +341,8 @@ int lom_command_render(int argc, char **argv)
         return status;
     if (values.output == NULL && !values.hash && values.stats == NULL && !values.check)
         return lom_complain("render needs -o OUT, or --hash, --stats or --check.");
+    if (!check_names(&values))
+        return LOM_EXIT_FAILED;
     if (values.frame.given && values.frames.given)
         return lom_complain("--frame and --frames exclude one another.");
     struct run run = { .values = &values };

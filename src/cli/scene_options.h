@@ -10,7 +10,7 @@ struct lom_scene_options {
     lom_option_list set;
     lom_option_integers size, crop, threads;
     const char *lanes;
-    lom_option_number fps;
+    lom_option_number fps, memory;
 };
 
 /* Rows for an option table whose values struct has a `struct lom_scene_options scene`. */
@@ -41,6 +41,8 @@ struct lom_scene_options {
           0,                                                                                                           \
           0,                                                                                                           \
           "change a key of the scene, like water.level=12" },                                                          \
+        { "memory", 0,     LOM_OPTION_NUMBER, offsetof(values, scene.memory),                                          \
+          "GIB",    0.001, 1000000,           "what a frame's targets may take; the machine's when not given" },       \
         { "threads",                                                                                                   \
           0,                                                                                                           \
           LOM_OPTION_INTEGER,                                                                                          \

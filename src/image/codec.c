@@ -2,6 +2,8 @@
  * whatever its name; it is written by kind or extension. Formats are rows of two tables. */
 #include "codec.h"
 
+#include "foreign.h"
+
 #include <string.h>
 
 enum { MAX_FILE = 0x7fffffff };
@@ -81,7 +83,8 @@ static lom_image *decode(const uint8_t *data, size_t size, const char *name, lom
     for (size_t i = 0; i < sizeof decoders / sizeof *decoders; i++)
         if (size >= decoders[i].length && memcmp(data, decoders[i].signature, decoders[i].length) == 0)
             return decoders[i].decode(data, size, name, error);
-    lom_fail(error, LOM_ERROR_INPUT, "%s: byte 0: this is no picture (PNG, PBM, PGM, PPM, PAM, PFM or NRRD).", name);
+    lom_fail(error, LOM_ERROR_INPUT, "%s: byte 0: this is no picture (PNG, PBM, PGM, PPM, PAM, PFM or NRRD)%s.", name,
+             lom_foreign_kind(data, size, name));
     return NULL;
 }
 

@@ -5,8 +5,6 @@
 
 #include <string.h>
 
-static const uint64_t most_bytes = UINT64_C(1) << 31;
-
 lom_image *lom_create_image(int width, int height, int depth, lom_format format, lom_error *error)
 {
     uint64_t pixel = lom_format_size(format);
@@ -17,7 +15,7 @@ lom_image *lom_create_image(int width, int height, int depth, lom_format format,
     }
     /* every factor is below 2^16 or is checked first, so the product stays below 2^64 */
     if (width > LOM_MAX_SIZE || height > LOM_MAX_SIZE || depth > LOM_MAX_SIZE ||
-        (uint64_t)width * (uint64_t)height * (uint64_t)depth * pixel > most_bytes) {
+        (uint64_t)width * (uint64_t)height * (uint64_t)depth * pixel > LOM_MAX_IMAGE_BYTES) {
         lom_fail(error, LOM_ERROR_LIMIT,
                  "An image of %d x %d x %d pixels of %d bytes is larger than the limit of %d a side and 2^31 bytes.",
                  width, height, depth, (int)pixel, LOM_MAX_SIZE);

@@ -3,6 +3,7 @@
 #include "codec.h"
 
 #include "bytes.h"
+#include "foreign.h"
 
 #include <string.h>
 
@@ -77,7 +78,8 @@ lom_image *lom_read_volume(const char *path, const int size[3], lom_error *error
     else if (size != NULL && size[0] > 0)
         image = lom_decode_raw_volume(file.data, file.size, size[0], size[1], size[2], path, error);
     else {
-        lom_fail(error, LOM_ERROR_INPUT, "%s: this is no NRRD file, and raw voxels need their size.", path);
+        lom_fail(error, LOM_ERROR_INPUT, "%s: this is no NRRD file, and raw voxels need their size%s.", path,
+                 lom_foreign_kind(file.data, file.size, path));
         image = NULL;
     }
     lom_release(file.data);

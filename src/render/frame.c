@@ -4,6 +4,8 @@
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
 #include "render/frame.h"
 
+#include "base/cpu.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <time.h>
@@ -128,6 +130,50 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
     return NULL;
 }
 
+/* The picture is read back with alpha as one image, and those have a limit. */
+static bool check_picture(const struct frame *f, lom_error *error)
+{
+    uint64_t pixel = f->scene->output.format == LOM_OUTPUT_RGB8 ? 4 : 16;
+    return (uint64_t)f->crop.width * (uint64_t)f->crop.height * pixel <= LOM_MAX_IMAGE_BYTES ||
+           lom_fail(error, LOM_ERROR_LIMIT,
+                    "A picture of %d x %d pixels, %d bytes each while it is drawn, is larger than the limit of 2^31 "
+                    "bytes an image: draw it in parts, each a crop (--crop X,Y,W,H) of the whole frame.",
+                    f->crop.width, f->crop.height, (int)pixel);
+}
+
+static bool check_memory(const struct frame *f, lom_error *error)
+{
+    static const double gib = 1024.0 * 1024 * 1024;
+    double taken = (double)lom_target_bytes(f->scene, f->width, f->height, f->crop.width, f->crop.height) / gib;
+    double limit = f->desc->memory > 0 ? f->desc->memory : (double)lom_machine_memory() / gib;
+    return limit == 0 || taken <= limit ||
+           lom_fail(
+               error, LOM_ERROR_LIMIT,
+               "The targets of a frame of %d x %d pixels take %.3g GiB at least, more than the limit of %.3g GiB (%s): "
+               "draw it smaller or in parts (--crop), lower quality.reflection_scale and refraction_scale, or "
+               "raise the limit (--memory GIB).",
+               f->width, f->height, taken, limit, f->desc->memory > 0 ? "as asked for" : "this machine's memory");
+}
+
+static bool find_sizes(struct frame *f, lom_error *error)
+{
+    const lom_frame_desc *desc = f->desc;
+    f->width = desc->width != 0 ? desc->width : f->scene->output.width;
+    f->height = desc->height != 0 ? desc->height : f->scene->output.height;
+    f->crop = desc->crop.width != 0 ? desc->crop : (lom_rect){ 0, 0, f->width, f->height };
+    if (f->width < 1 || f->height < 1 || f->width > LOM_MAX_SIZE || f->height > LOM_MAX_SIZE || f->crop.x < 0 ||
+        f->crop.y < 0 || f->crop.width < 1 || f->crop.height < 1 || f->crop.x > f->width - f->crop.width ||
+        f->crop.y > f->height - f->crop.height)
+        return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
+                        f->crop.x, f->crop.y, f->crop.width, f->crop.height, f->width, f->height);
+    return check_picture(f, error) && check_memory(f, error);
+}
+
+bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_error *error)
+{
+    return find_sizes(&(struct frame){ .scene = scene, .desc = desc }, error);
+}
+
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
@@ -138,16 +184,10 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
                        .impostors = &out->impostors,
                        .spray = &out->spray };
     *out = (lom_frame){ .image = NULL };
-    f.width = desc->width != 0 ? desc->width : scene->output.width;
-    f.height = desc->height != 0 ? desc->height : scene->output.height;
-    f.crop = desc->crop.width != 0 ? desc->crop : (lom_rect){ 0, 0, f.width, f.height };
     f.number = desc->frame;
     f.time = desc->frame / scene->output.fps;
-    if (f.width < 1 || f.height < 1 || f.width > LOM_MAX_SIZE || f.height > LOM_MAX_SIZE || f.crop.x < 0 ||
-        f.crop.y < 0 || f.crop.width < 1 || f.crop.height < 1 || f.crop.x > f.width - f.crop.width ||
-        f.crop.y > f.height - f.crop.height)
-        return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
-                        f.crop.x, f.crop.y, f.crop.width, f.crop.height, f.width, f.height);
+    if (!find_sizes(&f, error))
+        return false;
     lom_counters before = lom_device_counters(renderer->device);
     lom_float_state state;
     lom_enter_float_state(&state);

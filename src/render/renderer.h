@@ -174,6 +174,8 @@ struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer);
 /* The haze for an eye at this height; mirrored: the eye below the water's plane from which its reflection is drawn. */
 struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored);
+/* The bytes of those targets that every frame has, and of the picture: no more than they will take. */
+uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int target_width, int target_height);
 /* Makes the targets for a frame of this size of which target_width x target_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int target_width, int target_height,
                       lom_error *error);

@@ -86,6 +86,18 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, 
     return failed->code == LOM_OK || lom_fail(error, failed->code, "%s", failed->text);
 }
 
+uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int target_width, int target_height)
+{
+    uint64_t color = lom_format_size(color_format(scene)), depth = 4;
+    uint64_t bytes = (uint64_t)target_width * (uint64_t)target_height * (2 * color + depth); /* and the picture */
+    if (scene->water.given == 0 || !scene->water.enabled)
+        return bytes;
+    const double scales[] = { scene->quality.reflection_scale, scene->quality.refraction_scale };
+    for (int i = 0; i < 2; i++)
+        bytes += (uint64_t)scaled(width, scales[i]) * (uint64_t)scaled(height, scales[i]) * (color + depth);
+    return bytes;
+}
+
 /* IEC 61966-2-1 of linear light, in double. */
 static double encode_srgb(double x)
 {

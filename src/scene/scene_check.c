@@ -2,6 +2,7 @@
  * file names and sizes worked out from what the file gives. Invariant: afterwards the scene contradicts itself nowhere.
  */
 #include "scene/reader.h"
+#include "sky/face_mark.h"
 #include "waves/sea_desc.h"
 
 #include <lom/shallow.h>
@@ -187,7 +188,7 @@ static bool check_light(lom_reader *reader, const lom_toml_value *root)
 /* The pattern with name in the place of its %s, as a path of the scene. */
 static const char *face_path(lom_reader *reader, const lom_toml_value *value, const char *pattern, const char *name)
 {
-    const char *mark = strstr(pattern, "%s");
+    const char *mark = lom_face_mark(pattern);
     size_t before = (size_t)(mark - pattern), length = strlen(pattern) - 2 + strlen(name);
     char *text = lom_arena_take(reader->tree, length + 1, 1, reader->error);
     if (text == NULL)
@@ -209,8 +210,7 @@ static bool check_sky(lom_reader *reader, const lom_toml_value *root)
         return true;
     if (has_faces)
         return fail_at(reader, root, table, "pattern", "the sky has either a pattern or faces, not both.");
-    const char *mark = strchr(sky->pattern, '%');
-    if (mark == NULL || mark[1] != 's' || strchr(mark + 1, '%') != NULL)
+    if (lom_face_mark(sky->pattern) == NULL)
         return fail_at(reader, root, table, "pattern", "\"pattern\" must have one %s, for right, left, top, ...");
     for (int i = 0; i < 6; i++) {
         sky->faces[i] = face_path(reader, child(table, "pattern"), sky->pattern, names[i]);

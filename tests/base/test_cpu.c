@@ -1,5 +1,5 @@
-/* Proves what is read from control groups: both versions, the least of all levels, fractions, "max", and nonsense; and
- * that the machine this runs on gets an answer. */
+/* Proves what is read from control groups: both versions, the least of all levels, of CPUs and of memory, fractions,
+ * "max", and nonsense; and that the machine this runs on gets an answer. */
 #include "check.h"
 
 #include "base/cpu.h"
@@ -85,8 +85,32 @@ static void version_1(void)
     remove_root();
 }
 
+static void memory(void)
+{
+    make_root();
+    put("memory.max", "max\n");
+    put("a/memory.max", "1073741824\n");
+    put("a/b/memory.max", "max\n");
+    put("a/c/memory.max", "1000\n");
+    put("memory/memory.limit_in_bytes", "9223372036854771712\n");
+    put("memory/box/memory.limit_in_bytes", "4096\n");
+    static const struct {
+        const char *membership;
+        uint64_t bytes;
+    } cases[] = {
+        { "0::/\n", 0 },        { "0::/a/b\n", 1073741824 },        { "0::/a/c\n", 1000 },
+        { "4:memory:/\n", 0 },  { "4:memory:/box/inner\n", 4096 },  { "4:cpu:/box\n", 0 },
+        { "0::/nowhere\n", 0 }, { "4:memory:/box\n0::/a\n", 4096 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        CHECK(lom_cgroup_memory(cases[i].membership, root) == cases[i].bytes, "\"%s\": %llu", cases[i].membership,
+              (unsigned long long)lom_cgroup_memory(cases[i].membership, root));
+    remove_root();
+}
+
 static void this_machine(void)
 {
+    CHECK(lom_machine_memory() > 1 << 24, "%llu", (unsigned long long)lom_machine_memory());
     int threads = lom_default_threads();
     CHECK(threads >= 1 && threads <= 1 << 20, "%d", threads);
     lom_cpu cpu = lom_detect_cpu();
@@ -125,6 +149,7 @@ int main(int argc, char **argv)
 {
     RUN(version_2);
     RUN(version_1);
+    RUN(memory);
     RUN(this_machine);
     RUN(nearest_names);
     return check_result();

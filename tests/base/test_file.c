@@ -1,103 +1,12 @@
 /* Whole files. Proves: what was written is read; short and interrupted calls lose nothing; when any step of writing
  * fails (write, flush, close, rename, a full device, a size limit) the old content stays, no temporary file is left and
- * the error names the file; limits and special files. The system's calls are replaced here, so that each can be made to
- * fail. */
+ * the error names the file; limits and special files. Twice: with temporary files that have no name, and where the
+ * system has only such with names. */
 #include "check.h"
+#include "file_calls.h"
 
-#include <lom/base.h>
-
-#include <dirent.h>
-#include <errno.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-static struct {
-    bool write, fsync, close, rename; /* fail with ENOSPC, EIO, EIO, EACCES */
-    bool shorten;                     /* at most 7 bytes a call, every third one interrupted */
-    int calls, fsyncs;
-} inject;
-
-ssize_t write(int descriptor, const void *data, size_t size)
-{
-    inject.calls++;
-    if (inject.write || (inject.shorten && inject.calls % 3 == 0)) {
-        errno = inject.write ? ENOSPC : EINTR;
-        return -1;
-    }
-    return syscall(SYS_write, descriptor, data, inject.shorten && size > 7 ? 7 : size);
-}
-
-ssize_t read(int descriptor, void *data, size_t size)
-{
-    inject.calls++;
-    if (inject.shorten && inject.calls % 3 == 0) {
-        errno = EINTR;
-        return -1;
-    }
-    return syscall(SYS_read, descriptor, data, inject.shorten && size > 7 ? 7 : size);
-}
-
-int fsync(int descriptor)
-{
-    inject.fsyncs++;
-    if (inject.fsync) {
-        errno = EIO;
-        return -1;
-    }
-    return (int)syscall(SYS_fsync, descriptor);
-}
-
-int close(int descriptor)
-{
-    int closed = (int)syscall(SYS_close, descriptor);
-    if (inject.close) {
-        errno = EIO;
-        return -1;
-    }
-    return closed;
-}
-
-int rename(const char *from, const char *to)
-{
-    if (inject.rename) {
-        errno = EACCES;
-        return -1;
-    }
-    return (int)syscall(SYS_renameat2, -100, from, -100, to, 0);
-}
-
-static char folder[64];
-
-static const char *path_of(const char *name)
-{
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static int count_files(void)
-{
-    DIR *d = opendir(folder);
-    int count = 0;
-    while (d != NULL && readdir(d) != NULL)
-        count++;
-    if (d != NULL)
-        closedir(d);
-    return count - 2;
-}
-
-static bool holds(const char *path, const void *data, size_t size)
-{
-    lom_error error = { 0 };
-    lom_bytes bytes = lom_read_file(path, 1 << 30, &error);
-    bool same =
-        bytes.data != NULL && bytes.size == size && memcmp(bytes.data, data, size) == 0 && bytes.data[size] == 0;
-    lom_release(bytes.data);
-    return same;
-}
 
 static void round_trips(void)
 {
@@ -137,14 +46,16 @@ static void keeps_mode_and_link(void)
 
 static void failures_keep_the_old(void)
 {
-    bool *const faults[] = { &inject.write, &inject.fsync, &inject.close, &inject.rename };
+    bool rename = false, *const faults[] = { &inject.write, &inject.fsync, &inject.close, &rename };
     lom_error error = { 0 };
     CHECK(lom_write_file(path_of("f"), "old content", 11, &error), "%s", error.text);
     for (int i = 0; i < 4; i++) {
         lom_error fault = { 0 };
         *faults[i] = true;
+        inject.rename = rename ? EACCES : 0;
         bool written = lom_write_file(path_of("f"), "new", 3, &fault);
         *faults[i] = false;
+        inject.rename = 0;
         CHECK(!written && fault.code == LOM_ERROR_FILE, "fault %d: code %d", i, fault.code);
         CHECK(strncmp(fault.text, path_of("f"), strlen(path_of("f"))) == 0, "%s", fault.text);
         CHECK(holds(path_of("f"), "old content", 11), "fault %d", i);
@@ -217,16 +128,17 @@ static void limits(void)
 
 int main(int argc, char **argv)
 {
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%.40s/lom-file-XXXXXX", base != NULL ? base : "/tmp");
-    if (mkdtemp(folder) == NULL) {
+    if (!make_folder()) {
         printf("FAIL test_file: no temporary folder\n");
         return 1;
     }
-    RUN(round_trips);
-    RUN(keeps_mode_and_link);
-    RUN(failures_keep_the_old);
-    RUN(size_limit_keeps_the_old);
+    for (int named = 0; named < 2; named++) {
+        inject.named = named == 1;
+        RUN(round_trips);
+        RUN(keeps_mode_and_link);
+        RUN(failures_keep_the_old);
+        RUN(size_limit_keeps_the_old);
+    }
     RUN(special_files);
     RUN(limits);
     rmdir(folder);

@@ -223,7 +223,7 @@ static void wrong_files(void)
         { "[[entity]]\nmesh = '.'", NULL, "lake.toml:2:8: \".\" is a folder, not a file." },
         { "[sky]\npattern = 'moon_%s'", NULL, "lake.toml:2:11: there is no file \"moon_right\"." },
         { "[sky]\npattern = 'sky'", NULL, "lake.toml:2:11: \"pattern\" must have one %s, for right, left, top, ..." },
-        { "[sky]\npattern = '%s%n'", NULL, "lake.toml:2:11: \"pattern\" must have one %s, for right, left, top, ..." },
+        { "[sky]\npattern = '%s%s'", NULL, "lake.toml:2:11: \"pattern\" must have one %s, for right, left, top, ..." },
         { "[sky]\npattern = '%d'", NULL, "lake.toml:2:11: \"pattern\" must have one %s, for right, left, top, ..." },
         { "[sky]\nfaces = ['a','a','a','a','a']", NULL,
           "lake.toml:2:9: \"faces\" must be an array of 6 file names, not of 5." },
