@@ -21,7 +21,7 @@ MACHINE := $(shell $(CC) -dumpmachine)
 # The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized
-CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes
+CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc
 # Where variables live is half of the time that vectors as wide as these take to compile; -O0 knows it without.
 CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking -fPIC -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
@@ -262,7 +262,7 @@ install: all
 	install -m 644 $(BUILD)/liblom.a $(INSTALL_LIB)/liblom.a
 	install -m 755 $(BUILD)/liblom.so $(INSTALL_LIB)/liblom.so.0
 	ln -sf liblom.so.0 $(INSTALL_LIB)/liblom.so
-	install -m 644 include/lom/*.h src/lanes/lanes_x86.h $(INSTALL_INC)
+	install -m 644 include/lom/*.h $(INSTALL_INC)
 	$(FILL) src/lanes/lom.pc.in > $(INSTALL_LIB)/pkgconfig/lom.pc
 	$(FILL) src/lanes/lom-cc > $(INSTALL_BIN)/lom-cc
 	chmod 755 $(INSTALL_BIN)/lom-cc

@@ -14,9 +14,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* What is declared from LOM_API_BEGIN to LOM_API_END is the library's interface, with C's names and visible outside of
+ * the library; it is built with everything else hidden. */
+/* clang-format off */
 #ifdef __cplusplus
-extern "C" {
+#define LOM_API_BEGIN _Pragma("GCC visibility push(default)") extern "C" {
+#define LOM_API_END   } _Pragma("GCC visibility pop")
+#else
+#define LOM_API_BEGIN _Pragma("GCC visibility push(default)")
+#define LOM_API_END   _Pragma("GCC visibility pop")
 #endif
+/* clang-format on */
+
+LOM_API_BEGIN
 
 #if defined __FAST_MATH__
 #error "lom promises the same bytes everywhere, which -ffast-math breaks: compile without it."
@@ -206,8 +216,6 @@ const char *lom_nearest_name(const char *word, size_t length, const char *const 
 #define LOM_VERSION         "0.1.0"
 #define LOM_PICTURE_VERSION 1 /* raised by every deliberate change of pixels; CHANGELOG.md says why */
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -10,9 +10,7 @@
 #include <lom/geometry.h>
 #include <lom/march.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- made: volumes of density ---- */
 
@@ -97,7 +95,7 @@ typedef struct lom_cloud_wind { /* [[clouds.wind]]: heights rise strictly */
 
 typedef struct lom_clouds {
     uint32_t given;
-    int phase;                           /* lom_cloud_phase */
+    lom_cloud_phase phase;
     double forward, backward, blend;     /* mean cosines of the lobes (-1..1) and the share of the backward one */
     double silver, silver_spread;        /* strength of the silver lining and 1 - mean cosine of its lobe */
     double albedo;                       /* share of light that an encounter scatters, 0..1 */
@@ -106,10 +104,10 @@ typedef struct lom_clouds {
     double haze_color[3], haze_distance; /* metres after which a share of 1/e of a cloud is left; 0: clear air */
     bool shadows;                        /* clouds shadow one another, the ground and the water */
     double shadow_strength;              /* 0..1, of those on the ground and the water */
-    int original_light;                  /* lom_cloud_original_light */
-    double lighter, dark_light;          /* the original's constants of lighting in advance */
-    lom_cloud_wind *winds;               /* by height; between two their ways are mixed */
-    size_t wind_count;                   /* 0: calm */
+    lom_cloud_original_light original_light;
+    double lighter, dark_light; /* the original's constants of lighting in advance */
+    lom_cloud_wind *winds;      /* by height; between two their ways are mixed */
+    size_t wind_count;          /* 0: calm */
     double evolve; /* seconds in which the small shapes of clouds become others; 0: they stay as they are */
     double swell;  /* 0..1, how much clouds grow and shrink meanwhile, in twice that time */
 } lom_clouds;
@@ -148,8 +146,6 @@ typedef struct lom_impostor_dials {
     bool lod;                        /* off: every plate has the largest size */
 } lom_impostor_dials;
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

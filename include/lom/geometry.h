@@ -3,10 +3,9 @@
 #define LOM_GEOMETRY_H
 
 #include <lom/image.h>
+#include <lom/lanes.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- vectors and matrices: right-handed, y up, column vectors ----
  * Pure functions of their arguments in double; they compute in the float state they are called in, which is expected
@@ -64,6 +63,8 @@ lom_vec3 lom_transform_point(const lom_mat4 *m, lom_vec3 p);
 lom_vec3 lom_transform_direction(const lom_mat4 *m, lom_vec3 v);
 /* m (p, 1), all four rows. */
 void lom_transform_clip(const lom_mat4 *m, lom_vec3 p, double clip[4]);
+/* Each element rounded once to float: what shaders multiply with. */
+lom_matrix_uniform lom_round_matrix(const lom_mat4 *m);
 
 /* ---- boxes and the view frustum ---- */
 
@@ -274,8 +275,6 @@ lom_mesh *lom_make_entity(const char *name, uint64_t seed, lom_error *error);
 /* The names of the entities, from 0; NULL behind the last. */
 const char *lom_entity_name(size_t index);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

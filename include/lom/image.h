@@ -4,9 +4,7 @@
 
 #include <lom/base.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- formats ---- */
 
@@ -163,8 +161,6 @@ lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error
 lom_bytes lom_encode_y4m_header(int width, int height, int frames, int seconds, lom_error *error);
 lom_bytes lom_encode_y4m_frame(const lom_image *image, lom_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

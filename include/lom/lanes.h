@@ -6,7 +6,7 @@
  * vectors: use lom_select.
  *
  * The functions named lom_defined_* are the specification: plain C, the same on every machine. Where a measurement says
- * that an instruction does the same faster, src/lanes/lanes_x86.h overrides the name without _defined; a test holds
+ * that an instruction does the same faster, lom/lanes_x86.h overrides the name without _defined; a test holds
  * every override to its definition bit for bit. Everything here is inline: vectors cross object files by pointer only.
  *
  * LOM_LANES is 4, 8 or 16 and comes from the compiler's command line (4 when it does not).
@@ -52,6 +52,11 @@ enum { LOM_SLOT_4 = 0, LOM_SLOT_8, LOM_SLOT_16, LOM_SLOT_8_plain, LOM_SLOT_16_pl
 #define LOM_INLINE static inline __attribute__((always_inline, unused))
 #endif
 
+/* Vectors wider than the machine's are passed between functions in ways that compilers have changed; here all are
+ * inline. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 typedef float lom_float __attribute__((vector_size(LOM_LANES * 4)));
 typedef int32_t lom_int __attribute__((vector_size(LOM_LANES * 4)));
 typedef uint32_t lom_uint __attribute__((vector_size(LOM_LANES * 4)));
@@ -72,29 +77,33 @@ typedef struct lom_float4 {
 
 LOM_INLINE lom_float lom_splat(float value)
 {
-    return value - (lom_float){ 0 }; /* value - 0 keeps -0 and NaN */
+    lom_float zero = { 0 };
+    return value - zero; /* value - 0 keeps -0 and NaN */
 }
 
 LOM_INLINE lom_int lom_splat_int(int32_t value)
 {
-    return value - (lom_int){ 0 };
+    lom_int zero = { 0 };
+    return value - zero;
 }
 
 LOM_INLINE lom_uint lom_splat_uint(uint32_t value)
 {
-    return value - (lom_uint){ 0 };
+    lom_uint zero = { 0 };
+    return value - zero;
 }
 
 /* 0, 1, 2 ... LOM_LANES - 1 */
 LOM_INLINE lom_int lom_lane_index(void)
 {
 #if LOM_LANES == 4
-    return (lom_int){ 0, 1, 2, 3 };
+    lom_int index = { 0, 1, 2, 3 };
 #elif LOM_LANES == 8
-    return (lom_int){ 0, 1, 2, 3, 4, 5, 6, 7 };
+    lom_int index = { 0, 1, 2, 3, 4, 5, 6, 7 };
 #else
-    return (lom_int){ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    lom_int index = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
 #endif
+    return index;
 }
 
 /* The same bits as another type. */
@@ -171,7 +180,7 @@ LOM_INLINE lom_float lom_defined_sqrt(lom_float x)
 /* Towards zero; clamped to [-2147483648, 2147483520]; NaN gives 0. */
 LOM_INLINE lom_int lom_defined_to_int(lom_float x)
 {
-    lom_float number = lom_defined_select(x == x, x, (lom_float){ 0 });
+    lom_float number = lom_defined_select(x == x, x, lom_splat(0.0f));
     lom_float bounded = lom_defined_min(lom_defined_max(number, lom_splat(-2147483648.0f)), lom_splat(2147483520.0f));
     return __builtin_convertvector(bounded, lom_int);
 }
@@ -196,7 +205,7 @@ LOM_INLINE lom_float lom_defined_floor(lom_float x)
 {
     lom_float magnitude = (lom_float)((lom_int)x & 0x7fffffff);
     lom_mask small = magnitude < 8388608.0f; /* larger floats are integers; NaN is not small */
-    lom_float whole = lom_to_float(lom_defined_to_int(lom_defined_select(small, x, (lom_float){ 0 })));
+    lom_float whole = lom_to_float(lom_defined_to_int(lom_defined_select(small, x, lom_splat(0.0f))));
     lom_float down = whole - (lom_float)((whole > x) & (lom_int)lom_splat(1.0f));
     lom_int sign = (lom_int)x & INT32_MIN;
     return lom_defined_select(small, (lom_float)((lom_int)down | sign), x);
@@ -330,7 +339,7 @@ LOM_INLINE void lom_defined_compress(float *to, lom_mask mask, lom_float x)
 /* ---- overrides: the same values by an instruction ---- */
 
 #if defined __x86_64__ && !defined LOM_NO_OVERRIDES
-#include "lanes_x86.h"
+#include <lom/lanes_x86.h>
 #endif
 
 #ifndef LOM_OVERRIDES_ARITHMETIC
@@ -481,14 +490,14 @@ LOM_INLINE lom_float lom_clamp(lom_float x, lom_float low, lom_float high)
 /* Clamped to [0, 1]: 0 for NaN. */
 LOM_INLINE lom_float lom_saturate(lom_float x)
 {
-    return lom_clamp(x, (lom_float){ 0 }, lom_splat(1.0f));
+    return lom_clamp(x, lom_splat(0.0f), lom_splat(1.0f));
 }
 
 /* x - floor(x), kept below 1 (it would round to 1 for x in (-2^-25, 0)): in [0, 1); NaN for NaN and infinities. */
 LOM_INLINE lom_float lom_fraction(lom_float x)
 {
     lom_float fraction = x - lom_floor(x);
-    return lom_select(fraction >= 1.0f, (lom_float){ 0 }, fraction);
+    return lom_select(fraction >= 1.0f, lom_splat(0.0f), fraction);
 }
 
 LOM_INLINE lom_float lom_ceil(lom_float x)
@@ -513,32 +522,38 @@ LOM_INLINE lom_float lom_smoothstep(lom_float low, lom_float high, lom_float x)
 
 LOM_INLINE lom_float3 lom_splat3(float x, float y, float z)
 {
-    return (lom_float3){ lom_splat(x), lom_splat(y), lom_splat(z) };
+    lom_float3 v = { lom_splat(x), lom_splat(y), lom_splat(z) };
+    return v;
 }
 
 LOM_INLINE lom_float3 lom_add3(lom_float3 a, lom_float3 b)
 {
-    return (lom_float3){ a.x + b.x, a.y + b.y, a.z + b.z };
+    lom_float3 sum = { a.x + b.x, a.y + b.y, a.z + b.z };
+    return sum;
 }
 
 LOM_INLINE lom_float3 lom_sub3(lom_float3 a, lom_float3 b)
 {
-    return (lom_float3){ a.x - b.x, a.y - b.y, a.z - b.z };
+    lom_float3 difference = { a.x - b.x, a.y - b.y, a.z - b.z };
+    return difference;
 }
 
 LOM_INLINE lom_float3 lom_mul3(lom_float3 a, lom_float3 b)
 {
-    return (lom_float3){ a.x * b.x, a.y * b.y, a.z * b.z };
+    lom_float3 product = { a.x * b.x, a.y * b.y, a.z * b.z };
+    return product;
 }
 
 LOM_INLINE lom_float3 lom_scale3(lom_float3 a, lom_float factor)
 {
-    return (lom_float3){ a.x * factor, a.y * factor, a.z * factor };
+    lom_float3 scaled = { a.x * factor, a.y * factor, a.z * factor };
+    return scaled;
 }
 
 LOM_INLINE lom_float3 lom_mix3(lom_float3 a, lom_float3 b, lom_float t)
 {
-    return (lom_float3){ lom_mix(a.x, b.x, t), lom_mix(a.y, b.y, t), lom_mix(a.z, b.z, t) };
+    lom_float3 mixed = { lom_mix(a.x, b.x, t), lom_mix(a.y, b.y, t), lom_mix(a.z, b.z, t) };
+    return mixed;
 }
 
 /* (a.x b.x + a.y b.y) + a.z b.z */
@@ -549,14 +564,15 @@ LOM_INLINE lom_float lom_dot3(lom_float3 a, lom_float3 b)
 
 LOM_INLINE lom_float3 lom_cross3(lom_float3 a, lom_float3 b)
 {
-    return (lom_float3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+    lom_float3 cross = { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+    return cross;
 }
 
 /* a / |a|; zero (and what underflows in the square) stays zero. */
 LOM_INLINE lom_float3 lom_normalize3(lom_float3 a)
 {
     lom_float square = lom_dot3(a, a);
-    lom_float inverse = lom_select(square > 0.0f, 1.0f / lom_sqrt(square), (lom_float){ 0 });
+    lom_float inverse = lom_select(square > 0.0f, 1.0f / lom_sqrt(square), lom_splat(0.0f));
     return lom_scale3(a, inverse);
 }
 
@@ -565,5 +581,59 @@ LOM_INLINE lom_float3 lom_reflect3(lom_float3 incident, lom_float3 n)
 {
     return lom_sub3(incident, lom_scale3(n, 2.0f * lom_dot3(n, incident)));
 }
+
+/* ---- matrices that are the same in every lane ---- */
+
+/* As uniforms hold it: m[row][column], for column vectors; lom_round_matrix of lom/geometry.h makes it of a lom_mat4.
+ */
+typedef struct lom_matrix_uniform {
+    float m[4][4];
+} lom_matrix_uniform;
+
+/* row (p, 1): ((p.x row[0] + p.y row[1]) + p.z row[2]) + row[3] */
+LOM_INLINE lom_float lom_transform_row(const float row[4], lom_float3 p)
+{
+    return p.x * row[0] + p.y * row[1] + p.z * row[2] + row[3];
+}
+
+/* m (p, 1): a place, for example to clip space. */
+LOM_INLINE lom_float4 lom_transform4(const lom_matrix_uniform *m, lom_float3 p)
+{
+    lom_float4 q = { lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p),
+                     lom_transform_row(m->m[3], p) };
+    return q;
+}
+
+/* The upper three rows of m (p, 1): a place, m affine. */
+LOM_INLINE lom_float3 lom_transform3(const lom_matrix_uniform *m, lom_float3 p)
+{
+    lom_float3 q = { lom_transform_row(m->m[0], p), lom_transform_row(m->m[1], p), lom_transform_row(m->m[2], p) };
+    return q;
+}
+
+/* The upper 3x3 of m times v: a direction. */
+LOM_INLINE lom_float3 lom_rotate3(const lom_matrix_uniform *m, lom_float3 v)
+{
+    lom_float3 q = { v.x * m->m[0][0] + v.y * m->m[0][1] + v.z * m->m[0][2],
+                     v.x * m->m[1][0] + v.y * m->m[1][1] + v.z * m->m[1][2],
+                     v.x * m->m[2][0] + v.y * m->m[2][1] + v.z * m->m[2][2] };
+    return q;
+}
+
+/* row v: ((v.x row[0] + v.y row[1]) + v.z row[2]) + v.w row[3] */
+LOM_INLINE lom_float lom_dot_row4(const float row[4], lom_float4 v)
+{
+    return v.x * row[0] + v.y * row[1] + v.z * row[2] + v.w * row[3];
+}
+
+/* m v */
+LOM_INLINE lom_float4 lom_multiply4(const lom_matrix_uniform *m, lom_float4 v)
+{
+    lom_float4 product = { lom_dot_row4(m->m[0], v), lom_dot_row4(m->m[1], v), lom_dot_row4(m->m[2], v),
+                           lom_dot_row4(m->m[3], v) };
+    return product;
+}
+
+#pragma GCC diagnostic pop
 
 #endif

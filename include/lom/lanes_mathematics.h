@@ -18,6 +18,9 @@
 
 #include <lom/lanes.h>
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 typedef int64_t lom_long __attribute__((vector_size(LOM_LANES * 8)));
 typedef uint64_t lom_ulong __attribute__((vector_size(LOM_LANES * 8)));
 
@@ -47,7 +50,8 @@ LOM_INLINE lom_double lom_select_double(lom_long mask, lom_double a, lom_double 
 
 LOM_INLINE lom_double lom_splat_double(double value)
 {
-    return value - (lom_double){ 0 };
+    lom_double zero = { 0 };
+    return value - zero;
 }
 
 /* The quiet NaN where x is NaN, otherwise y. */
@@ -182,7 +186,7 @@ LOM_INLINE lom_float lom_pow(lom_float x, lom_float y)
     lom_float power = lom_narrow(s + s * p);
 
     lom_float infinity = lom_splat(__builtin_inff());
-    lom_float at_zero = lom_select(y > 0.0f, (lom_float){ 0 }, lom_select(y < 0.0f, infinity, lom_splat(1.0f)));
+    lom_float at_zero = lom_select(y > 0.0f, lom_splat(0.0f), lom_select(y < 0.0f, infinity, lom_splat(1.0f)));
     power = lom_select((lom_int)x == 0, at_zero, power);
     lom_mask usual = ((lom_int)x >= 0) & (x < infinity) & (lom_abs(y) < infinity);
     uint32_t unusual = lom_bits(~usual);
@@ -294,8 +298,8 @@ LOM_INLINE lom_float lom_upper_angle(lom_float y, lom_float ax, lom_mask x_negat
     high = lom_select(high == 0.0f, lom_splat(1.0f), high);
     lom_mask middle = low > high * 0.41421357f;
     lom_double n = lom_widen(low), d = lom_widen(high);
-    lom_double of_n = lom_widen(lom_select(middle, low, (lom_float){ 0 }));
-    lom_double of_d = lom_widen(lom_select(middle, high, (lom_float){ 0 }));
+    lom_double of_n = lom_widen(lom_select(middle, low, lom_splat(0.0f)));
+    lom_double of_d = lom_widen(lom_select(middle, high, lom_splat(0.0f)));
     lom_double q = (n - of_d) / (d + of_n);
     lom_double u = q * q;
     lom_double c = 0x1.b0f0ae6216a23p-4 + u * -0x1.edacbeb0f9099p-5;
@@ -318,7 +322,7 @@ LOM_INLINE lom_float lom_upper_angle(lom_float y, lom_float ax, lom_mask x_negat
 LOM_INLINE lom_float lom_atan(lom_float x)
 {
     lom_float bounded = lom_min(lom_abs(x), lom_splat(0x1p100f));
-    lom_float angle = lom_upper_angle(bounded, lom_splat(1.0f), (lom_mask){ 0 });
+    lom_float angle = lom_upper_angle(bounded, lom_splat(1.0f), lom_splat_int(0));
     return lom_keep_nan(x, lom_copysign(angle, x));
 }
 
@@ -345,7 +349,7 @@ LOM_INLINE lom_double lom_asin_parts(lom_float a, lom_mask big)
     lom_double wide = lom_widen(a);
     lom_long mask = lom_widen_mask(big);
     lom_double u = lom_select_double(mask, 0.5 - 0.5 * wide, wide * wide);
-    lom_float half = lom_select(big, 0.5f - 0.5f * a, (lom_float){ 0 });
+    lom_float half = lom_select(big, 0.5f - 0.5f * a, lom_splat(0.0f));
     lom_float first = lom_sqrt(half);
     lom_float rest = lom_narrow(u - lom_widen(first) * lom_widen(first)) / (first + first + 0x1p-100f); /* 0 at a = 1 */
     lom_double root = lom_widen(first) + lom_widen(rest);
@@ -379,5 +383,7 @@ LOM_INLINE lom_float lom_acos(lom_float x)
     lom_double angle = lom_select_double(negative, 0x1.921fb54442d18p+1 - acute, acute);
     return lom_select(a <= 1.0f, lom_narrow(angle), lom_splat(__builtin_nanf("")));
 }
+
+#pragma GCC diagnostic pop
 
 #endif

@@ -10,9 +10,9 @@
 #include <lom/image.h>
 #include <lom/lanes.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 /* ---- volumes ---- */
 
@@ -44,7 +44,7 @@ typedef struct lom_volume_place {
 
 LOM_INLINE lom_float lom_volume_axis(lom_float position, int size, lom_int *cell)
 {
-    lom_float along = lom_clamp(position * (float)size - 0.5f, (lom_float){ 0 }, lom_splat((float)(size - 1)));
+    lom_float along = lom_clamp(position * (float)size - 0.5f, lom_splat(0.0f), lom_splat((float)(size - 1)));
     *cell = __builtin_convertvector(along, lom_int); /* in range and not negative: the floor */
     return along - lom_to_float(*cell);
 }
@@ -112,9 +112,10 @@ LOM_INLINE lom_float3 lom_sample_volume_all(const lom_volume *volume, lom_volume
     for (int i = 0; i < 8; i++)
         high[i] = (lom_int)((lom_uint)corner[i] >> 24);
     *density = lom_volume_channel(high, 0xff, place) * (1 / 255.0f);
-    return (lom_float3){ lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
+    lom_float3 color = { lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
                          lom_volume_channel(corner, 0xff00, place) * (0x1p-8f / 255.0f),
                          lom_volume_channel(corner, 0xff0000, place) * (0x1p-16f / 255.0f) };
+    return color;
 }
 
 /* Colour in [0, 1], in the same order. */
@@ -122,9 +123,10 @@ LOM_INLINE lom_float3 lom_sample_volume_color(const lom_volume *volume, lom_volu
 {
     lom_int corner[8];
     lom_load_volume_corners(volume, place, corner);
-    return (lom_float3){ lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
+    lom_float3 color = { lom_volume_channel(corner, 0xff, place) * (1 / 255.0f),
                          lom_volume_channel(corner, 0xff00, place) * (0x1p-8f / 255.0f),
                          lom_volume_channel(corner, 0xff0000, place) * (0x1p-16f / 255.0f) };
+    return color;
 }
 
 /* ---- marching ---- */
@@ -210,11 +212,11 @@ LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
     int mask = detail->size - 1;
     lom_float3 p = { at.x * size, at.y * size, at.z * size };
     lom_float3 below = { lom_floor(p.x), lom_floor(p.y), lom_floor(p.z) };
-    lom_volume_place place = { .index = { 0 }, .x = p.x - below.x, .y = p.y - below.y, .z = p.z - below.z };
-    place.index = ((lom_to_int(below.z) & mask) * detail->size + (lom_to_int(below.y) & mask)) * detail->size +
-                  (lom_to_int(below.x) & mask);
+    lom_int index = ((lom_to_int(below.z) & mask) * detail->size + (lom_to_int(below.y) & mask)) * detail->size +
+                    (lom_to_int(below.x) & mask);
+    lom_volume_place place = { index, p.x - below.x, p.y - below.y, p.z - below.z };
     lom_int low, high;
-    lom_gather_pairs(detail->corners, place.index + place.index, &low, &high);
+    lom_gather_pairs(detail->corners, index + index, &low, &high);
     return lom_mix_corners(low, high, place);
 }
 
@@ -329,8 +331,7 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
  * three are goes nowhere and misses. */
 void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays);
 
-#ifdef __cplusplus
-}
-#endif
+#pragma GCC diagnostic pop
+LOM_API_END
 
 #endif

@@ -6,9 +6,7 @@
 
 #include <lom/base.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 enum { LOM_MAX_PARTICLES = 1000000 };
 
@@ -87,8 +85,6 @@ lom_emitter lom_spray_emitter(const lom_spray *spray);
 /* A box that no drop leaves in its life: by the bounds of lom_random_normal. low[3], high[3]. */
 void lom_bound_emitter(const lom_emitter *emitter, double low[3], double high[3]);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -15,9 +15,9 @@
 #include <lom/lanes.h>
 #include <lom/texture.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 /* ---- the device ---- */
 
@@ -165,43 +165,86 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
 /* LOM_SHADER(name, vertex, fragment, .varyings = 2, ...) defines the shader `name` from two static functions of this
  * file. LOM_DEPTH_SHADER has no fragment function. A file that is compiled once (at LOM_LANES) gives a shader of that
  * width; the command lom-cc compiles it at every width (-DLOM_ALL_LANES) and joins the objects: the 4-lane one defines
- * the shader. */
+ * the shader. In C++ (17 or newer), too, outside of namespaces. */
+#ifdef __cplusplus
+#define LOM_SHADER_EXTERN extern "C"
+#else
+#define LOM_SHADER_EXTERN extern
+#endif
 #define LOM_SHADER_ENTRY(kind, name, function, out_type, in_type)                                                      \
-    void LOM_WIDE(name##_##kind##_entry)(out_type * out, const in_type *in, const void *uniforms);                     \
+    LOM_SHADER_EXTERN void LOM_WIDE(name##_##kind##_entry)(out_type * out, const in_type *in, const void *uniforms);   \
     void LOM_WIDE(name##_##kind##_entry)(out_type * out, const in_type *in, const void *uniforms)                      \
     {                                                                                                                  \
         function(out, in, uniforms);                                                                                   \
     }
-#define LOM_SHADER_VERTEX_SLOT(name, variant)    [LOM_SLOT_##variant] = name##_vertex_entry_##variant,
-#define LOM_SHADER_FRAGMENT_SLOT(name, variant)  [LOM_SLOT_##variant] = name##_fragment_entry_##variant,
-#define LOM_SHADER_VERTEX_ENTRY(name, variant)   extern lom_vertex_function name##_vertex_entry_##variant;
-#define LOM_SHADER_FRAGMENT_ENTRY(name, variant) extern lom_fragment_function name##_fragment_entry_##variant;
+#define LOM_SHADER_VERTEX_ENTRY(name, variant) LOM_SHADER_EXTERN lom_vertex_function name##_vertex_entry_##variant;
+#define LOM_SHADER_FRAGMENT_ENTRY(name, variant)                                                                       \
+    LOM_SHADER_EXTERN lom_fragment_function name##_fragment_entry_##variant;
 #if !defined LOM_ALL_LANES
 #define LOM_SHADER_EXPAND(X, name, variant) X(name, variant)
 #define LOM_SHADER_EACH(X, name)            LOM_SHADER_EXPAND(X, name, LOM_VARIANT)
 #else
 #define LOM_SHADER_EACH(X, name) LOM_EACH_VARIANT(X, name)
 #endif
-#if !defined LOM_ALL_LANES || LOM_LANES == 4
-#define LOM_SHADER_DEFINE(name, ...)                                                                                   \
-    extern const lom_shader name;                                                                                      \
-    const lom_shader name = { #name, __VA_ARGS__ };
-#define LOM_SHADER_DECLARE(X, name) LOM_SHADER_EACH(X, name)
-#else
-#define LOM_SHADER_DEFINE(name, ...)
+#if defined LOM_ALL_LANES && LOM_LANES != 4
+#define LOM_SHADER_DEFINE(name, slots, ...)
 #define LOM_SHADER_DECLARE(X, name)
+#else
+#define LOM_SHADER_DECLARE(X, name) LOM_SHADER_EACH(X, name)
+#ifdef __cplusplus
+/* C++ has no designators of array elements, nor any in any order: there members are assigned, up to 16, each `.member =
+ * value` after the name of a shader. The initialiser is a constant all the same. */
+#define LOM_SHADER_VERTEX_SLOT(name, variant)   shader.vertex[LOM_SLOT_##variant] = name##_vertex_entry_##variant;
+#define LOM_SHADER_FRAGMENT_SLOT(name, variant) shader.fragment[LOM_SLOT_##variant] = name##_fragment_entry_##variant;
+#define LOM_SHADER_DEFINE(shader_name, slots, ...)                                                                     \
+    extern const lom_shader shader_name;                                                                               \
+    const lom_shader shader_name = [] {                                                                                \
+        lom_shader shader = {};                                                                                        \
+        shader.name = #shader_name;                                                                                    \
+        slots LOM_SHADER_MEMBERS(__VA_ARGS__) return shader;                                                           \
+    }();
+/* clang-format off */
+#define LOM_SHADER_MEMBERS(...) LOM_SHADER_MEMBERS_OF(__VA_ARGS__, \
+    LOM_SHADER_16, LOM_SHADER_15, LOM_SHADER_14, LOM_SHADER_13, LOM_SHADER_12, LOM_SHADER_11, LOM_SHADER_10, LOM_SHADER_9, \
+    LOM_SHADER_8, LOM_SHADER_7, LOM_SHADER_6, LOM_SHADER_5, LOM_SHADER_4, LOM_SHADER_3, LOM_SHADER_2, LOM_SHADER_1, )(__VA_ARGS__)
+#define LOM_SHADER_MEMBERS_OF(_1, _2, _3, _4, _5, _6, _7, _8, _9, _10, _11, _12, _13, _14, _15, _16, assign, ...) assign
+#define LOM_SHADER_1(member) shader member;
+#define LOM_SHADER_2(member, ...) shader member; LOM_SHADER_1(__VA_ARGS__)
+#define LOM_SHADER_3(member, ...) shader member; LOM_SHADER_2(__VA_ARGS__)
+#define LOM_SHADER_4(member, ...) shader member; LOM_SHADER_3(__VA_ARGS__)
+#define LOM_SHADER_5(member, ...) shader member; LOM_SHADER_4(__VA_ARGS__)
+#define LOM_SHADER_6(member, ...) shader member; LOM_SHADER_5(__VA_ARGS__)
+#define LOM_SHADER_7(member, ...) shader member; LOM_SHADER_6(__VA_ARGS__)
+#define LOM_SHADER_8(member, ...) shader member; LOM_SHADER_7(__VA_ARGS__)
+#define LOM_SHADER_9(member, ...) shader member; LOM_SHADER_8(__VA_ARGS__)
+#define LOM_SHADER_10(member, ...) shader member; LOM_SHADER_9(__VA_ARGS__)
+#define LOM_SHADER_11(member, ...) shader member; LOM_SHADER_10(__VA_ARGS__)
+#define LOM_SHADER_12(member, ...) shader member; LOM_SHADER_11(__VA_ARGS__)
+#define LOM_SHADER_13(member, ...) shader member; LOM_SHADER_12(__VA_ARGS__)
+#define LOM_SHADER_14(member, ...) shader member; LOM_SHADER_13(__VA_ARGS__)
+#define LOM_SHADER_15(member, ...) shader member; LOM_SHADER_14(__VA_ARGS__)
+#define LOM_SHADER_16(member, ...) shader member; LOM_SHADER_15(__VA_ARGS__)
+/* clang-format on */
+#else
+#define LOM_SHADER_VERTEX_SLOT(name, variant)   .vertex[LOM_SLOT_##variant] = name##_vertex_entry_##variant,
+#define LOM_SHADER_FRAGMENT_SLOT(name, variant) .fragment[LOM_SLOT_##variant] = name##_fragment_entry_##variant,
+#define LOM_SHADER_DEFINE(shader_name, slots, ...)                                                                     \
+    extern const lom_shader shader_name;                                                                               \
+    const lom_shader shader_name = { .name = #shader_name, slots __VA_ARGS__ };
+#endif
 #endif
 #define LOM_SHADER(name, vertex_function, fragment_function, ...)                                                      \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
     LOM_SHADER_ENTRY(fragment, name, fragment_function, lom_fragment, lom_varyings)                                    \
     LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
     LOM_SHADER_DECLARE(LOM_SHADER_FRAGMENT_ENTRY, name)                                                                \
-    LOM_SHADER_DEFINE(name, { LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) },                                         \
-                      { LOM_SHADER_EACH(LOM_SHADER_FRAGMENT_SLOT, name) }, __VA_ARGS__)
+    LOM_SHADER_DEFINE(name,                                                                                            \
+                      LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) LOM_SHADER_EACH(LOM_SHADER_FRAGMENT_SLOT, name),   \
+                      __VA_ARGS__)
 #define LOM_DEPTH_SHADER(name, vertex_function, ...)                                                                   \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
     LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
-    LOM_SHADER_DEFINE(name, { LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) }, { NULL }, __VA_ARGS__)
+    LOM_SHADER_DEFINE(name, LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name), __VA_ARGS__)
 
 /* ---- passes ---- */
 
@@ -340,8 +383,7 @@ typedef struct lom_draw_desc {
 /* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */
 void lom_draw(lom_device *device, const lom_draw_desc *desc);
 
-#ifdef __cplusplus
-}
-#endif
+#pragma GCC diagnostic pop
+LOM_API_END
 
 #endif

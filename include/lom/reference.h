@@ -12,9 +12,7 @@
 #include <lom/pipeline.h>
 #include <lom/scene.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- optics ---- */
 
@@ -162,8 +160,6 @@ typedef struct lom_volume_light {
 bool lom_trace_volume(const lom_reference_volume *volume, const lom_reference_light *light, const lom_volume_rays *rays,
                       lom_volume_light *out, lom_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -5,9 +5,7 @@
 #include <lom/pipeline.h>
 #include <lom/scene.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 typedef struct lom_renderer lom_renderer;
 
@@ -99,8 +97,6 @@ size_t lom_renderer_warning_count(const lom_renderer *renderer);
 /* The device that draws, for its descriptor and counters. */
 const lom_device *lom_renderer_device(const lom_renderer *renderer);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -13,9 +13,7 @@
 #include <lom/sky.h>
 #include <lom/water.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- [output] ---- */
 
@@ -24,11 +22,11 @@ typedef enum lom_output_format { LOM_OUTPUT_RGB8, LOM_OUTPUT_RGB16, LOM_OUTPUT_R
 
 typedef struct lom_output {
     uint32_t given;
-    int width, height; /* pixels, 1..LOM_MAX_SIZE */
-    int transfer;      /* lom_transfer; naive: textures are not decoded and the output is not encoded */
-    int format;        /* lom_output_format: the samples; the kind of file comes from its extension */
-    int frames;        /* how many frames the animation has, from 1 */
-    double fps;        /* frame n shows the time n / fps, in seconds */
+    int width, height;        /* pixels, 1..LOM_MAX_SIZE */
+    lom_transfer transfer;    /* naive: textures are not decoded and the output is not encoded */
+    lom_output_format format; /* the samples; the kind of file comes from its extension */
+    int frames;               /* how many frames the animation has, from 1 */
+    double fps;               /* frame n shows the time n / fps, in seconds */
 } lom_output;
 
 /* ---- [camera] ---- */
@@ -49,17 +47,17 @@ typedef enum lom_interpolation { LOM_INTERPOLATION_LINEAR, LOM_INTERPOLATION_SMO
 
 typedef struct lom_camera {
     uint32_t given;
-    lom_vec3 position, target, up; /* up has unit length */
-    double yaw, pitch, roll;       /* radians, as in the file; the reader has worked them into target and up */
-    double field_of_view;          /* radians, vertical, 0.01 to 179 degrees */
-    double near_plane;             /* metres, above 0 */
-    int interpolation;             /* lom_interpolation, between the keys */
+    lom_vec3 position, target, up;   /* up has unit length */
+    double yaw, pitch, roll;         /* radians, as in the file; the reader has worked them into target and up */
+    double field_of_view;            /* radians, vertical, 0.01 to 179 degrees */
+    double near_plane;               /* metres, above 0 */
+    lom_interpolation interpolation; /* between the keys */
     lom_camera_key *keys;
     size_t key_count;   /* 0: a camera that stands still */
     const char *follow; /* name of an entity, or NULL: position, target, up and keys are then in its coordinates, whose
                            -z is ahead */
     size_t followed;    /* 1 + its index; 0: none */
-    int person;         /* lom_person */
+    lom_person person;
 } lom_camera;
 
 /* The camera at one moment: the arguments of lom_look_at and lom_perspective. */
@@ -132,7 +130,7 @@ typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers
     double blend;                  /* metres of height over which the layer fades in and out at its height bounds */
     double slope_blend;            /* radians, the same at its slope bounds */
     double grain;                  /* how far the brightness of what lies under it moves its bounds; 0: not at all */
-    int mapping;                   /* lom_mapping: from above, or from three sides */
+    lom_mapping mapping;           /* from above, or from three sides */
 } lom_terrain_layer;
 
 typedef struct lom_terrain {
@@ -168,7 +166,7 @@ typedef struct lom_entity {
     lom_vec3 scale;    /* no component is 0 */
     lom_scene_material material;
     bool on_ground, visible;
-    int interpolation; /* lom_interpolation, between the keys */
+    lom_interpolation interpolation; /* between the keys */
     lom_entity_key *keys;
     size_t key_count; /* 0: it stands still */
 } lom_entity;
@@ -196,18 +194,18 @@ typedef struct lom_reference_quality { /* [quality.reference] */
 
 typedef struct lom_quality {
     uint32_t given;
-    int water;                /* lom_water_model */
-    int clouds;               /* lom_cloud_model */
+    lom_water_model water;
+    lom_cloud_model clouds;
     double cloud_error;       /* of an optical depth, in parts of the greatest one of that length: bounds the step */
     double cloud_stop;        /* a ray stops when less than this share of the light behind comes through */
     int cloud_octaves;        /* of multiple scattering, 1..8 */
     bool cloud_jitter;        /* samples are shifted along the ray by a table of blue noise */
     double cloud_light_scale; /* voxels of the light's grid a voxel of the density, along each axis */
     bool spray;               /* the drops of [[spray]] are drawn */
-    int impostors;            /* lom_impostor_rule */
+    lom_impostor_rule impostors;
     lom_impostor_dials impostor;
-    int shading;             /* lom_shading */
-    int texture_filter;      /* lom_texture_filter */
+    lom_shading shading;
+    lom_texture_filter texture_filter;
     bool mipmaps;            /* false: the finest level alone */
     double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale; /* the same of the refraction picture */
@@ -272,8 +270,6 @@ lom_vec3 lom_sunlight_direction(double azimuth, double elevation);
 /* docs/scene.md, made from the tables of keys; data is NULL on failure. */
 lom_bytes lom_write_scene_documentation(lom_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

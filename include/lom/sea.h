@@ -17,9 +17,7 @@
 
 #include <lom/pipeline.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- named winds ---- */
 
@@ -187,8 +185,6 @@ typedef struct lom_sea_point {
  * |x|, |z| <= 1e7 m. Costs a few multiplications a wave. */
 lom_sea_point lom_evaluate_sea(const lom_sea_moment *moment, int cascade, double x, double z);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

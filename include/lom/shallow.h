@@ -16,9 +16,7 @@
 
 #include <lom/base.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 enum { LOM_SHALLOW_LARGEST = 4096, LOM_SHALLOW_OBSTACLES = 64, LOM_SHALLOW_SOURCES = 64 };
 
@@ -89,8 +87,6 @@ typedef struct lom_shallow_view {
 } lom_shallow_view;
 lom_shallow_view lom_view_shallow(const lom_shallow *shallow);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include <lom/image.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* A box of six pictures when faces[0] is not NULL (then all six are set), else one colour. Strings belong to the
  * scene. */
@@ -41,8 +39,6 @@ typedef struct lom_sky_box_desc {
  * are NULL. */
 bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -19,9 +19,9 @@
 #include <lom/image.h>
 #include <lom/lanes.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 typedef struct lom_texture lom_texture;
 
@@ -173,8 +173,7 @@ LOM_INLINE lom_float lom_lod_of(const lom_texture *texture, lom_float dsdx, lom_
     return lod;
 }
 
-#ifdef __cplusplus
-}
-#endif
+#pragma GCC diagnostic pop
+LOM_API_END
 
 #endif

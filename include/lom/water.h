@@ -5,9 +5,7 @@
 #include <lom/image.h>
 #include <lom/waves.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- what the richer models add: [water.optics]; [water.waves] and [water.foam] are in lom/waves.h ---- */
 
@@ -30,9 +28,9 @@ typedef enum lom_water_type {
 
 typedef struct lom_water_optics {
     uint32_t given;
-    double index;         /* of refraction, water against air */
-    int fresnel;          /* lom_fresnel */
-    int type;             /* lom_water_type */
+    double index; /* of refraction, water against air */
+    lom_fresnel fresnel;
+    lom_water_type type;
     double absorption[3]; /* 1/m of red, green, blue; the reader has put the type's here when the file gives none */
     double scatter[3]; /* radiance of bottomless water, in parts of a white surface's under the same light; likewise */
     double roughness;  /* mean square slope of the ripples that the waves do not contain */
@@ -116,8 +114,6 @@ lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error
 /* The flow map that belongs to a normal map: smoothstep(0.2, 0.8, 1 - n) for each channel, RGB8. */
 lom_image *lom_make_flow_map(const lom_image *normal_map, lom_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

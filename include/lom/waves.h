@@ -3,11 +3,10 @@
 #ifndef LOM_WAVES_H
 #define LOM_WAVES_H
 
-#include <lom/base.h>
+#include <lom/sea.h>
+#include <lom/shallow.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+LOM_API_BEGIN
 
 /* ---- [water.waves] ---- */
 
@@ -24,24 +23,24 @@ typedef enum lom_waves_kind {
  * cascades of lom/sea.h. An angle is measured from +x towards +z and says where the waves travel to. */
 typedef struct lom_water_waves {
     uint32_t given;
-    int kind;         /* lom_waves_kind */
+    lom_waves_kind kind;
     double direction; /* radians */
     int seed;
-    double height;          /* Gerstner: four standard deviations of the surface, metres */
-    double length[2];       /* Gerstner: the longest and the shortest wave, metres */
-    int count;              /* Gerstner: 1..LOM_MAX_WAVES */
-    double steepness;       /* Gerstner: 0 sines .. 1 the sum of all waves touches a cusp somewhere, never a loop */
-    double spread;          /* Gerstner: standard deviation of the waves' directions, radians */
-    int spectrum;           /* sea: lom_spectrum_kind */
-    const char *wind_level; /* sea: a name of the Beaufort scale, or NULL: wind_speed */
-    double wind_speed;      /* sea: m/s at 10 m */
-    double fetch, depth;    /* sea: metres; depth 0 is deep water */
-    double height_scale;    /* sea: factor on the heights */
-    double choppiness;      /* sea: factor on the horizontal displacement */
-    int cascades, size;     /* sea: how many, and samples a side of each */
-    double speed;           /* flow: its mean, m/s */
-    double cell;            /* displaced: pixels between the vertices of the mesh */
-    double patch;           /* sea: metres of the largest cascade; 0: six peak wavelengths */
+    double height;              /* Gerstner: four standard deviations of the surface, metres */
+    double length[2];           /* Gerstner: the longest and the shortest wave, metres */
+    int count;                  /* Gerstner: 1..LOM_MAX_WAVES */
+    double steepness;           /* Gerstner: 0 sines .. 1 the sum of all waves touches a cusp somewhere, never a loop */
+    double spread;              /* Gerstner: standard deviation of the waves' directions, radians */
+    lom_spectrum_kind spectrum; /* sea */
+    const char *wind_level;     /* sea: a name of the Beaufort scale, or NULL: wind_speed */
+    double wind_speed;          /* sea: m/s at 10 m */
+    double fetch, depth;        /* sea: metres; depth 0 is deep water */
+    double height_scale;        /* sea: factor on the heights */
+    double choppiness;          /* sea: factor on the horizontal displacement */
+    int cascades, size;         /* sea: how many, and samples a side of each */
+    double speed;               /* flow: its mean, m/s */
+    double cell;                /* displaced: pixels between the vertices of the mesh */
+    double patch;               /* sea: metres of the largest cascade; 0: six peak wavelengths */
 } lom_water_waves;
 
 /* ---- [water.foam]: what waves leave where they break ---- */
@@ -88,7 +87,7 @@ typedef struct lom_shallow_water {
     int cells;                   /* along the longer side */
     double start;                /* seconds: when it stands still at the level */
     double step, friction, implicitness;
-    int edge; /* lom_shallow_edge */
+    lom_shallow_edge edge;
     lom_shallow_spring *springs;
     size_t spring_count;
     lom_shallow_body *bodies;
@@ -135,8 +134,6 @@ typedef struct lom_trochoid_point {
  * by less than 1e-15 (number (|x| + |z|) + rate |time|) radians: 1e-8 m of a wave of 10 m, 1 m high, at 10^7 m. */
 lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, double x, double z, double time);
 
-#ifdef __cplusplus
-}
-#endif
+LOM_API_END
 
 #endif

@@ -68,7 +68,7 @@ double lom_double_asin(double x)
 {
     double a = magnitude(x);
     if (!(a <= 1))
-        return DOUBLE_NAN;
+        return double_nan();
     if (a < 0x1p-28)
         return x; /* x^3/6 is below half an ulp */
     return with_sign(upper_angle((lom_pair){ a, 0 }, other_leg(a)), x);
@@ -77,7 +77,7 @@ double lom_double_asin(double x)
 double lom_double_acos(double x)
 {
     if (!(magnitude(x) <= 1))
-        return DOUBLE_NAN;
+        return double_nan();
     if (magnitude(x) < 0x1p-60)
         return HALF_PI.hi;
     return upper_angle(other_leg(x), (lom_pair){ x, 0 });
@@ -87,7 +87,7 @@ double lom_double_atan(double x)
 {
     double a = magnitude(x);
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (a < 0x1p-28)
         return x; /* x^3/3 is below half an ulp */
     if (a > 0x1p60)
@@ -100,7 +100,7 @@ double lom_double_atan2(double y, double x)
 {
     double a = magnitude(x), b = magnitude(y);
     if (x != x || y != y)
-        return DOUBLE_NAN;
+        return double_nan();
     if (a == DOUBLE_INFINITY && b == DOUBLE_INFINITY)
         return with_sign(is_negative(x) ? 0x1.2d97c7f3321d2p+1 : 0x1.921fb54442d18p-1, y); /* 3 pi/4, pi/4 */
     if (b == 0 || a == DOUBLE_INFINITY)

@@ -78,7 +78,7 @@ double lom_double_erf(double x)
 {
     double a = magnitude(x);
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (a < 0x1p-400) /* kept away from denormals, so that it is rounded once or nearly so */
         return (x * 0x1p500 * TWO_OVER_SQRT_PI.hi + x * 0x1p500 * TWO_OVER_SQRT_PI.lo) * 0x1p-500;
     if (a < 0.5)

@@ -184,7 +184,7 @@ lom_pair lom_exp_parts(lom_pair x, int *k)
 double lom_double_exp(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (x > 710)
         return DOUBLE_INFINITY;
     if (x < -746)
@@ -197,7 +197,7 @@ double lom_double_exp(double x)
 double lom_double_exp2(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (x >= 1024)
         return DOUBLE_INFINITY;
     if (x < -1076)
@@ -225,7 +225,7 @@ static lom_pair expm1_parts(double x)
 double lom_double_expm1(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (magnitude(x) < 0x1p-54)
         return x; /* x^2/2 is below half an ulp */
     if (x < -50)
@@ -250,7 +250,7 @@ static double half_exp(double a)
 double lom_double_sinh(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     double a = magnitude(x);
     if (a < 0x1p-28)
         return x; /* x^3/6 is below half an ulp */
@@ -264,7 +264,7 @@ double lom_double_sinh(double x)
 double lom_double_cosh(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     double a = magnitude(x);
     if (a > 40)
         return half_exp(a);
@@ -277,7 +277,7 @@ double lom_double_cosh(double x)
 double lom_double_tanh(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     double a = magnitude(x);
     if (a < 0x1p-28)
         return x; /* x^3/3 is below half an ulp */

@@ -192,7 +192,7 @@ static bool log_special(double x, double *result)
 {
     if (x > 0 && x < DOUBLE_INFINITY)
         return false;
-    *result = x == 0 ? -DOUBLE_INFINITY : x > 0 ? DOUBLE_INFINITY : DOUBLE_NAN;
+    *result = x == 0 ? -DOUBLE_INFINITY : x > 0 ? DOUBLE_INFINITY : double_nan();
     return true;
 }
 
@@ -245,13 +245,13 @@ static bool pow_special(double x, double y, double *result)
     if (y == 0 || x == 1)
         *result = 1;
     else if (x != x || y != y)
-        *result = DOUBLE_NAN;
+        *result = double_nan();
     else if (a == 0 || a == DOUBLE_INFINITY)
         *result = signed_one * ((a == 0) == (y < 0) ? DOUBLE_INFINITY : 0.0);
     else if (b == DOUBLE_INFINITY)
         *result = a == 1 ? 1 : (a > 1) == (y > 0) ? DOUBLE_INFINITY : 0.0;
     else if (x < 0 && integer_kind(y) == 0)
-        *result = DOUBLE_NAN;
+        *result = double_nan();
     else
         return false;
     return true;

@@ -16,7 +16,6 @@ typedef struct lom_pair {
 } lom_pair;
 
 #define DOUBLE_INFINITY __builtin_inf()
-#define DOUBLE_NAN      __builtin_nan("") /* every NaN result is this one, so that its bits do not differ by machine */
 
 static inline uint64_t double_bits(double x)
 {
@@ -30,6 +29,15 @@ static inline double bits_double(uint64_t bits)
     double x;
     memcpy(&x, &bits, sizeof x);
     return x;
+}
+
+/* Every NaN result is this one, so that its bits do not differ by machine. They are hidden from the compiler, which may
+ * otherwise take one NaN for another: clang 19 makes the square root alone of x >= 0 ? root of x : NaN. */
+static inline double double_nan(void)
+{
+    uint64_t bits = UINT64_C(0x7ff8000000000000);
+    __asm__("" : "+r"(bits));
+    return bits_double(bits);
 }
 
 static inline bool is_negative(double x)

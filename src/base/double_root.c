@@ -4,13 +4,13 @@
 
 double lom_double_sqrt(double x)
 {
-    return x >= 0 ? __builtin_sqrt(x) : x == 0 ? x : DOUBLE_NAN;
+    return x >= 0 ? __builtin_sqrt(x) : x == 0 ? x : double_nan();
 }
 
 double lom_double_floor(double x)
 {
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (magnitude(x) >= 0x1p52) /* an integer already */
         return x;
     double whole = (double)(int64_t)x;
@@ -23,7 +23,7 @@ double lom_double_cbrt(double x)
 {
     double a = magnitude(x);
     if (x != x)
-        return DOUBLE_NAN;
+        return double_nan();
     if (a == 0 || a == DOUBLE_INFINITY)
         return x;
     int k = 0;

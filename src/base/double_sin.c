@@ -157,7 +157,7 @@ static lom_pair cos_parts(lom_pair r)
 static double shifted_sin(double x, int shift)
 {
     if (!(magnitude(x) < DOUBLE_INFINITY))
-        return DOUBLE_NAN;
+        return double_nan();
     int quadrant;
     lom_pair r = reduce(x, &quadrant);
     quadrant += shift;
@@ -183,7 +183,7 @@ double lom_double_tan(double x)
     if (magnitude(x) < 0x1p-28)
         return x; /* x^3/3 is below half an ulp */
     if (!(magnitude(x) < DOUBLE_INFINITY))
-        return DOUBLE_NAN;
+        return double_nan();
     int quadrant;
     lom_pair r = reduce(x, &quadrant);
     lom_pair s = sin_parts(r), c = cos_parts(r);

@@ -9,7 +9,7 @@
 #include <lom/base.h>
 
 #if defined __x86_64__
-#include <immintrin.h>
+#include <xmmintrin.h>
 
 void lom_enter_float_state(lom_float_state *state)
 {

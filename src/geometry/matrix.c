@@ -144,3 +144,12 @@ void lom_transform_clip(const lom_mat4 *m, lom_vec3 p, double clip[4])
     for (int i = 0; i < 4; i++)
         clip[i] = m->m[i][0] * p.x + m->m[i][1] * p.y + m->m[i][2] * p.z + m->m[i][3];
 }
+
+lom_matrix_uniform lom_round_matrix(const lom_mat4 *m)
+{
+    lom_matrix_uniform rounded;
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++)
+            rounded.m[row][column] = (float)m->m[row][column];
+    return rounded;
+}

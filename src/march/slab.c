@@ -2,6 +2,7 @@
  * first, and back, by blocks of 8 x 8. Invariant: values are moved, none is changed. */
 #include "march/light_grid.h"
 
+#include "base/shuffle.h"
 #include "march/cells.h"
 
 #include <string.h>
@@ -17,8 +18,8 @@ static void transpose(eight row[BLOCK])
     eight next[BLOCK];
     for (int round = 0; round < 3; round++) {
         for (int i = 0; i < BLOCK / 2; i++) {
-            next[2 * i] = __builtin_shufflevector(row[i], row[i + BLOCK / 2], 0, 8, 1, 9, 2, 10, 3, 11);
-            next[2 * i + 1] = __builtin_shufflevector(row[i], row[i + BLOCK / 2], 4, 12, 5, 13, 6, 14, 7, 15);
+            next[2 * i] = LOM_SHUFFLE(row[i], row[i + BLOCK / 2], eight, 0, 8, 1, 9, 2, 10, 3, 11);
+            next[2 * i + 1] = LOM_SHUFFLE(row[i], row[i + BLOCK / 2], eight, 4, 12, 5, 13, 6, 14, 7, 15);
         }
         memcpy(row, next, sizeof next);
     }

@@ -2,6 +2,8 @@
  * rows transformed (sign -1). Invariant: the same operations on every element at every width. */
 #include "waves/fft_plan.h"
 
+#include "base/shuffle.h"
+
 #include <lom/lanes.h>
 
 typedef struct wave {
@@ -168,8 +170,8 @@ LOM_INLINE void transpose(lom_float row[LOM_LANES])
     for (int bit = 1; bit < LOM_LANES; bit *= 2) {
         lom_float next[LOM_LANES];
         for (int i = 0; i < LOM_LANES / 2; i++) {
-            next[2 * i] = __builtin_shufflevector(row[i], row[i + LOM_LANES / 2], LOM_LOW);
-            next[2 * i + 1] = __builtin_shufflevector(row[i], row[i + LOM_LANES / 2], LOM_HIGH);
+            next[2 * i] = LOM_SHUFFLE(row[i], row[i + LOM_LANES / 2], lom_int, LOM_LOW);
+            next[2 * i + 1] = LOM_SHUFFLE(row[i], row[i + LOM_LANES / 2], lom_int, LOM_HIGH);
         }
         for (int i = 0; i < LOM_LANES; i++)
             row[i] = next[i];

@@ -23,7 +23,7 @@ below() {
 public() { # the public headers of each layer
     case $1 in
     base.h) echo base ;;
-    lanes.h | lanes_mathematics.h) echo lanes ;;
+    lanes.h | lanes_mathematics.h | lanes_x86.h) echo lanes ;;
     image.h | texture.h) echo image ;;
     sea.h | shallow.h) echo waves ;;
     particles.h) echo spray ;;
@@ -31,7 +31,7 @@ public() { # the public headers of each layer
     *) basename "$1" .h ;;
     esac
 }
-system=' assert errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/stat sys/time sys/types time unistd immintrin xmmintrin SDL2/SDL SDL '
+system=' assert errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/stat sys/time sys/types time unistd xmmintrin SDL2/SDL SDL '
 status=0
 for folder in src/*/; do
     name=$(basename "$folder")
@@ -46,7 +46,7 @@ for folder in src/*/; do
             esac
             if [ -n "$layer" ]; then
                 case $allowed in *" $layer "*) ;; *) echo "$file includes $word, which lies above or beside src/$name"; status=1 ;; esac
-            elif [ ! -f "$(dirname "$file")/$word" ] && [ ! -f "src/lanes/$word" ]; then
+            elif [ ! -f "$(dirname "$file")/$word" ]; then
                 case $system in *" ${word%.h} "*) ;; *) echo "$file includes <$word>, which is neither libc nor pthreads"; status=1 ;; esac
             fi
         done

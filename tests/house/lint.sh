@@ -25,18 +25,18 @@ if have objdump "the instructions"; then
     [ "$fused" -eq 0 ] || found "$fused fused or approximate instructions in $BUILD/liblom.a"
 fi
 for header in include/lom/*.h; do
-    $CC -std=gnu11 -Wall -Wextra -Werror -Wno-psabi -Iinclude -Isrc/lanes -fsyntax-only -x c "$header" || found "$header alone in C"
+    $CC -std=gnu11 -Wall -Wextra -Werror -Wno-psabi -Iinclude -fsyntax-only -x c "$header" || found "$header alone in C"
 done
 if have g++ "the headers in C++"; then
     for header in include/lom/*.h; do
-        g++ -std=gnu++17 -Wall -Wextra -Werror -Wno-psabi -Iinclude -Isrc/lanes -fsyntax-only -x c++ "$header" ||
+        g++ -std=gnu++17 -Wall -Wextra -Werror -Wno-psabi -Iinclude -fsyntax-only -x c++ "$header" ||
             found "$header alone in C++"
     done
 fi
 if have cppcheck "what cppcheck sees"; then
     cppcheck --quiet --std=c11 --language=c --enable=warning,performance,portability --inline-suppr -j 2 \
         --suppress=missingIncludeSystem --suppress=uninitvar --suppress=internalAstError --suppress=syntaxError \
-        --error-exitcode=1 -Iinclude -Isrc -Isrc/lanes $(ls src/*/*.c src/*/*/*.c | grep -v '\.wide\.c') || status=1
+        --error-exitcode=1 -Iinclude -Isrc $(ls src/*/*.c src/*/*/*.c | grep -v '\.wide\.c') || status=1
 fi
 # What is written goes through lom_open_writer. (main.c opens /dev/null for a stream that the caller closed.)
 roads=$(grep -nE '\b(fopen|freopen|creat|rename|renameat|link|linkat|mkstemp|tmpfile|O_WRONLY|O_RDWR|O_CREAT)\b' $(ls src/*/*.c src/*/*/*.c) |

@@ -1,10 +1,17 @@
 /* Overrides of the lane operations by x86 instructions; included by lom/lanes.h only. Every function here gives, bit
  * for bit, what lom_defined_* of lom/lanes.h gives (tests/lanes/test_operations.wide.c). Chosen where the compiler does
  * not find the instruction by itself. 4 lanes: SSE2, the baseline; 8: AVX2; 16: AVX-512 F, DQ, BW, VL. */
+#include <lom/lanes.h> /* before the guard, so that it includes the rest of this file, whichever of the two comes first */
 #ifndef LOM_LANES_X86_H
 #define LOM_LANES_X86_H
 
+/* Reading every instruction set's header takes a compiler longer than most files: where 4 lanes are baseline, SSE2's.
+ */
+#if LOM_LANES > 4 && defined __AVX2__
 #include <immintrin.h>
+#else
+#include <emmintrin.h>
+#endif
 
 /* Keeps indices in memory: gcc would take them out of the vector one by one, which costs more than storing it. */
 #define LOM_IN_MEMORY(array) __asm__("" : "+m"(array))
@@ -118,8 +125,9 @@ LOM_INLINE lom_float4 lom_transpose_quarters(__m512 *t)
 {
     __m512d a = (__m512d)_mm512_unpacklo_ps(t[0], t[1]), b = (__m512d)_mm512_unpackhi_ps(t[0], t[1]);
     __m512d c = (__m512d)_mm512_unpacklo_ps(t[2], t[3]), d = (__m512d)_mm512_unpackhi_ps(t[2], t[3]);
-    return (lom_float4){ (lom_float)_mm512_unpacklo_pd(a, c), (lom_float)_mm512_unpackhi_pd(a, c),
-                         (lom_float)_mm512_unpacklo_pd(b, d), (lom_float)_mm512_unpackhi_pd(b, d) };
+    lom_float4 columns = { (lom_float)_mm512_unpacklo_pd(a, c), (lom_float)_mm512_unpackhi_pd(a, c),
+                           (lom_float)_mm512_unpacklo_pd(b, d), (lom_float)_mm512_unpackhi_pd(b, d) };
+    return columns;
 }
 
 LOM_INLINE __m512 lom_load_quarters(const float *a, const float *b, const float *c, const float *d)
@@ -156,12 +164,15 @@ LOM_INLINE lom_float4 lom_pick_rows(const float *from, const int32_t *row, int c
     __m512i x = (__m512i)(which * 4), y = (__m512i)(which * 4 + 1), z = (__m512i)(which * 4 + 2),
             w = (__m512i)(which * 4 + 3);
     __m512 a = lom_load_quarters(from + row[0], from + row[1], from + row[2], from + row[3]);
-    if (count <= 4)
-        return (lom_float4){ (lom_float)_mm512_permutexvar_ps(x, a), (lom_float)_mm512_permutexvar_ps(y, a),
-                             (lom_float)_mm512_permutexvar_ps(z, a), (lom_float)_mm512_permutexvar_ps(w, a) };
+    if (count <= 4) {
+        lom_float4 columns = { (lom_float)_mm512_permutexvar_ps(x, a), (lom_float)_mm512_permutexvar_ps(y, a),
+                               (lom_float)_mm512_permutexvar_ps(z, a), (lom_float)_mm512_permutexvar_ps(w, a) };
+        return columns;
+    }
     __m512 b = lom_load_quarters(from + row[4], from + row[5], from + row[6], from + row[7]);
-    return (lom_float4){ (lom_float)_mm512_permutex2var_ps(a, x, b), (lom_float)_mm512_permutex2var_ps(a, y, b),
-                         (lom_float)_mm512_permutex2var_ps(a, z, b), (lom_float)_mm512_permutex2var_ps(a, w, b) };
+    lom_float4 columns = { (lom_float)_mm512_permutex2var_ps(a, x, b), (lom_float)_mm512_permutex2var_ps(a, y, b),
+                           (lom_float)_mm512_permutex2var_ps(a, z, b), (lom_float)_mm512_permutex2var_ps(a, w, b) };
+    return columns;
 }
 
 LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
@@ -270,8 +281,9 @@ LOM_INLINE lom_float4 lom_transpose_halves(__m256 *t)
 {
     __m256d a = (__m256d)_mm256_unpacklo_ps(t[0], t[1]), b = (__m256d)_mm256_unpackhi_ps(t[0], t[1]);
     __m256d c = (__m256d)_mm256_unpacklo_ps(t[2], t[3]), d = (__m256d)_mm256_unpackhi_ps(t[2], t[3]);
-    return (lom_float4){ (lom_float)_mm256_unpacklo_pd(a, c), (lom_float)_mm256_unpackhi_pd(a, c),
-                         (lom_float)_mm256_unpacklo_pd(b, d), (lom_float)_mm256_unpackhi_pd(b, d) };
+    lom_float4 columns = { (lom_float)_mm256_unpacklo_pd(a, c), (lom_float)_mm256_unpackhi_pd(a, c),
+                           (lom_float)_mm256_unpacklo_pd(b, d), (lom_float)_mm256_unpackhi_pd(b, d) };
+    return columns;
 }
 
 LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
@@ -361,7 +373,8 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
     __m128 a = _mm_loadu_ps(rows[0] + offset), b = _mm_loadu_ps(rows[1] + offset);
     __m128 c = _mm_loadu_ps(rows[2] + offset), d = _mm_loadu_ps(rows[3] + offset);
     _MM_TRANSPOSE4_PS(a, b, c, d);
-    return (lom_float4){ (lom_float)a, (lom_float)b, (lom_float)c, (lom_float)d };
+    lom_float4 columns = { (lom_float)a, (lom_float)b, (lom_float)c, (lom_float)d };
+    return columns;
 }
 
 LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
