@@ -25,11 +25,11 @@ if have objdump "the instructions"; then
     [ "$fused" -eq 0 ] || found "$fused fused or approximate instructions in $BUILD/liblom.a"
 fi
 for header in include/lom/*.h; do
-    $CC -std=gnu11 -Wall -Wextra -Werror -Wno-psabi -Iinclude -fsyntax-only -x c "$header" || found "$header alone in C"
+    $CC -std=c11 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only -x c "$header" || found "$header alone in C"
 done
 if have g++ "the headers in C++"; then
     for header in include/lom/*.h; do
-        g++ -std=gnu++17 -Wall -Wextra -Werror -Wno-psabi -Iinclude -fsyntax-only -x c++ "$header" ||
+        g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only -x c++ "$header" ||
             found "$header alone in C++"
     done
 fi
