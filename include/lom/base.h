@@ -204,6 +204,8 @@ lom_cpu lom_detect_cpu(void);
 /* How many threads are worth starting, at least 1: the CPUs this thread may run on (affinity), or fewer where the
  * quota of its control groups (cgroup version 1 and 2, every level; a fraction counts as a whole CPU) allows fewer. */
 int lom_default_threads(void);
+/* Bytes of the last level of cache; 0 where the system does not say. */
+size_t lom_cache_bytes(void);
 
 /* ---- names ---- */
 

@@ -325,6 +325,25 @@ LOM_INLINE void lom_defined_store_halves(int32_t *low, int32_t *high, lom_int x)
     }
 }
 
+/* 2 LOM_LANES consecutive values as pairs: the first, third, fifth ... pair, and the others. */
+LOM_INLINE void lom_defined_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
+{
+    lom_int a = { 0 }, b = { 0 };
+    for (int i = 0; i < LOM_LANES; i++) {
+        a[i] = from[2 * i - (i & 1)];
+        b[i] = from[2 * i - (i & 1) + 2];
+    }
+    *even = a;
+    *odd = b;
+}
+
+/* A store of what nobody reads soon: past the caches, where the machine can. `to` is aligned to the vector; another
+ * thread sees it after lom_end_streams. */
+LOM_INLINE void lom_defined_stream_int(int32_t *to, lom_int x)
+{
+    lom_store_int(to, x);
+}
+
 /* The lanes whose mask is set, side by side from `to` on, in lane order; up to LOM_LANES floats are written, those
  * after the last set lane with unspecified values. */
 LOM_INLINE void lom_defined_compress(float *to, lom_mask mask, lom_float x)
@@ -400,6 +419,19 @@ LOM_INLINE void lom_store_halves(int32_t *low, int32_t *high, lom_int x)
     lom_defined_store_halves(low, high, x);
 }
 #endif
+#ifndef LOM_OVERRIDES_STREAMS
+LOM_INLINE void lom_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
+{
+    lom_defined_split_pairs(from, even, odd);
+}
+LOM_INLINE void lom_stream_int(int32_t *to, lom_int x)
+{
+    lom_defined_stream_int(to, x);
+}
+LOM_INLINE void lom_end_streams(void)
+{
+}
+#endif
 #ifndef LOM_OVERRIDES_ROUNDING
 LOM_INLINE lom_float lom_floor(lom_float x)
 {
@@ -450,6 +482,26 @@ LOM_INLINE bool lom_any(lom_mask mask)
 LOM_INLINE bool lom_all(lom_mask mask)
 {
     return lom_bits(mask) == (uint32_t)((UINT64_C(1) << LOM_LANES) - 1);
+}
+
+/* How many of the lowest 16 bits are set. Where the machine has no instruction for it, by adding neighbours. */
+LOM_INLINE uint32_t lom_count_bits(uint32_t bits)
+{
+#ifdef __POPCNT__
+    return (uint32_t)__builtin_popcount(bits & 0xffff);
+#else
+    bits &= 0xffff;
+    bits -= bits >> 1 & 0x5555;
+    bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+    bits = (bits + (bits >> 4)) & 0x0f0f;
+    return (bits + (bits >> 8)) & 31;
+#endif
+}
+
+/* How many lanes are set. */
+LOM_INLINE uint32_t lom_count(lom_mask mask)
+{
+    return lom_count_bits(lom_bits(mask));
 }
 
 /* The mask whose lane i is set when bit i is. */

@@ -31,6 +31,26 @@ LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
 #define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_COMPRESS
 #define LOM_OVERRIDES_HALVES
+#define LOM_OVERRIDES_STREAMS
+
+LOM_INLINE void lom_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
+{
+    const __m512i first = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
+    const __m512i second = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+    __m512i low = _mm512_loadu_si512(from), high = _mm512_loadu_si512(from + 16);
+    *even = (lom_int)_mm512_permutex2var_epi64(low, first, high);
+    *odd = (lom_int)_mm512_permutex2var_epi64(low, second, high);
+}
+
+LOM_INLINE void lom_stream_int(int32_t *to, lom_int x)
+{
+    _mm512_stream_si512((__m512i *)(void *)to, (__m512i)x);
+}
+
+LOM_INLINE void lom_end_streams(void)
+{
+    _mm_sfence();
+}
 
 /* By memory two halves make a store that the load of the whole has to wait for. */
 LOM_INLINE lom_int lom_load_halves(const int32_t *low, const int32_t *high)
@@ -199,6 +219,67 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
 #define LOM_OVERRIDES_GATHER
 #define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_TO_DOUBLE
+#define LOM_OVERRIDES_STREAMS
+#define LOM_OVERRIDES_COMPRESS
+
+/* Digit k of entry b: the number of the k-th lowest bit that is set in b. */
+static const uint32_t lom_set_bits[256] __attribute__((unused)) = {
+    0x00000000, 0x00000000, 0x00000001, 0x00000010, 0x00000002, 0x00000020, 0x00000021, 0x00000210, 0x00000003,
+    0x00000030, 0x00000031, 0x00000310, 0x00000032, 0x00000320, 0x00000321, 0x00003210, 0x00000004, 0x00000040,
+    0x00000041, 0x00000410, 0x00000042, 0x00000420, 0x00000421, 0x00004210, 0x00000043, 0x00000430, 0x00000431,
+    0x00004310, 0x00000432, 0x00004320, 0x00004321, 0x00043210, 0x00000005, 0x00000050, 0x00000051, 0x00000510,
+    0x00000052, 0x00000520, 0x00000521, 0x00005210, 0x00000053, 0x00000530, 0x00000531, 0x00005310, 0x00000532,
+    0x00005320, 0x00005321, 0x00053210, 0x00000054, 0x00000540, 0x00000541, 0x00005410, 0x00000542, 0x00005420,
+    0x00005421, 0x00054210, 0x00000543, 0x00005430, 0x00005431, 0x00054310, 0x00005432, 0x00054320, 0x00054321,
+    0x00543210, 0x00000006, 0x00000060, 0x00000061, 0x00000610, 0x00000062, 0x00000620, 0x00000621, 0x00006210,
+    0x00000063, 0x00000630, 0x00000631, 0x00006310, 0x00000632, 0x00006320, 0x00006321, 0x00063210, 0x00000064,
+    0x00000640, 0x00000641, 0x00006410, 0x00000642, 0x00006420, 0x00006421, 0x00064210, 0x00000643, 0x00006430,
+    0x00006431, 0x00064310, 0x00006432, 0x00064320, 0x00064321, 0x00643210, 0x00000065, 0x00000650, 0x00000651,
+    0x00006510, 0x00000652, 0x00006520, 0x00006521, 0x00065210, 0x00000653, 0x00006530, 0x00006531, 0x00065310,
+    0x00006532, 0x00065320, 0x00065321, 0x00653210, 0x00000654, 0x00006540, 0x00006541, 0x00065410, 0x00006542,
+    0x00065420, 0x00065421, 0x00654210, 0x00006543, 0x00065430, 0x00065431, 0x00654310, 0x00065432, 0x00654320,
+    0x00654321, 0x06543210, 0x00000007, 0x00000070, 0x00000071, 0x00000710, 0x00000072, 0x00000720, 0x00000721,
+    0x00007210, 0x00000073, 0x00000730, 0x00000731, 0x00007310, 0x00000732, 0x00007320, 0x00007321, 0x00073210,
+    0x00000074, 0x00000740, 0x00000741, 0x00007410, 0x00000742, 0x00007420, 0x00007421, 0x00074210, 0x00000743,
+    0x00007430, 0x00007431, 0x00074310, 0x00007432, 0x00074320, 0x00074321, 0x00743210, 0x00000075, 0x00000750,
+    0x00000751, 0x00007510, 0x00000752, 0x00007520, 0x00007521, 0x00075210, 0x00000753, 0x00007530, 0x00007531,
+    0x00075310, 0x00007532, 0x00075320, 0x00075321, 0x00753210, 0x00000754, 0x00007540, 0x00007541, 0x00075410,
+    0x00007542, 0x00075420, 0x00075421, 0x00754210, 0x00007543, 0x00075430, 0x00075431, 0x00754310, 0x00075432,
+    0x00754320, 0x00754321, 0x07543210, 0x00000076, 0x00000760, 0x00000761, 0x00007610, 0x00000762, 0x00007620,
+    0x00007621, 0x00076210, 0x00000763, 0x00007630, 0x00007631, 0x00076310, 0x00007632, 0x00076320, 0x00076321,
+    0x00763210, 0x00000764, 0x00007640, 0x00007641, 0x00076410, 0x00007642, 0x00076420, 0x00076421, 0x00764210,
+    0x00007643, 0x00076430, 0x00076431, 0x00764310, 0x00076432, 0x00764320, 0x00764321, 0x07643210, 0x00000765,
+    0x00007650, 0x00007651, 0x00076510, 0x00007652, 0x00076520, 0x00076521, 0x00765210, 0x00007653, 0x00076530,
+    0x00076531, 0x00765310, 0x00076532, 0x00765320, 0x00765321, 0x07653210, 0x00007654, 0x00076540, 0x00076541,
+    0x00765410, 0x00076542, 0x00765420, 0x00765421, 0x07654210, 0x00076543, 0x00765430, 0x00765431, 0x07654310,
+    0x00765432, 0x07654320, 0x07654321, 0x76543210,
+};
+
+/* A permutation, of whose indices the processor reads 3 bits. */
+LOM_INLINE void lom_compress(float *to, lom_mask mask, lom_float x)
+{
+    __m256i digits = _mm256_set1_epi32((int32_t)lom_set_bits[_mm256_movemask_ps((__m256)mask)]);
+    __m256i order = _mm256_srlv_epi32(digits, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+    _mm256_storeu_ps(to, _mm256_permutevar8x32_ps((__m256)x, order));
+}
+
+LOM_INLINE void lom_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
+{
+    __m256i low = _mm256_loadu_si256((const __m256i *)(const void *)from);
+    __m256i high = _mm256_loadu_si256((const __m256i *)(const void *)(from + 8));
+    *even = (lom_int)_mm256_permute4x64_epi64(_mm256_unpacklo_epi64(low, high), _MM_SHUFFLE(3, 1, 2, 0));
+    *odd = (lom_int)_mm256_permute4x64_epi64(_mm256_unpackhi_epi64(low, high), _MM_SHUFFLE(3, 1, 2, 0));
+}
+
+LOM_INLINE void lom_stream_int(int32_t *to, lom_int x)
+{
+    _mm256_stream_si256((__m256i *)(void *)to, (__m256i)x);
+}
+
+LOM_INLINE void lom_end_streams(void)
+{
+    _mm_sfence();
+}
 
 /* A third of what gcc makes of the loop. For 16 lanes it makes the same, and stops at -O0 on the conversion's upper
  * half (gcc 12: "unrecognizable insn"), so they keep the loop. */
@@ -322,6 +403,25 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
 #elif LOM_LANES == 4
 #define LOM_OVERRIDES_ARITHMETIC
 #define LOM_OVERRIDES_PAIRS
+#define LOM_OVERRIDES_STREAMS
+
+LOM_INLINE void lom_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
+{
+    __m128i low = _mm_loadu_si128((const __m128i *)(const void *)from);
+    __m128i high = _mm_loadu_si128((const __m128i *)(const void *)(from + 4));
+    *even = (lom_int)_mm_unpacklo_epi64(low, high);
+    *odd = (lom_int)_mm_unpackhi_epi64(low, high);
+}
+
+LOM_INLINE void lom_stream_int(int32_t *to, lom_int x)
+{
+    _mm_stream_si128((__m128i *)(void *)to, (__m128i)x);
+}
+
+LOM_INLINE void lom_end_streams(void)
+{
+    _mm_sfence();
+}
 
 LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
 {

@@ -1,6 +1,6 @@
 /* The machine. In: nothing but the system. Out: which vector extensions may be used, how many threads are worth
- * starting, how much memory there is. Invariant: the answers choose speed, and what is refused; no pixel depends on
- * them. */
+ * starting, how large the caches are, how much memory there is. Invariant: the answers choose speed, and what is
+ * refused; no pixel depends on them. */
 #include "cpu.h"
 
 #include "base/system.h"
@@ -195,4 +195,15 @@ uint64_t lom_machine_memory(void)
                          ? lom_cgroup_memory(membership, "/sys/fs/cgroup")
                          : 0;
     return limit > 0 && (memory == 0 || limit < memory) ? limit : memory;
+}
+
+size_t lom_cache_bytes(void)
+{
+    long bytes = 0;
+#if defined _SC_LEVEL3_CACHE_SIZE && defined _SC_LEVEL2_CACHE_SIZE
+    bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
+    if (bytes <= 0)
+        bytes = sysconf(_SC_LEVEL2_CACHE_SIZE);
+#endif
+    return bytes > 0 ? (size_t)bytes : 0;
 }

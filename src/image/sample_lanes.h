@@ -78,22 +78,19 @@ LOM_INLINE sample_place sample_place_of_level(const lom_texture *texture, int le
     const lom_level *l = &texture->level[level];
     return (sample_place){
         lom_splat((float)l->width),       lom_splat((float)l->height),      lom_splat((float)l->depth),
-        lom_splat_int((int32_t)l->pitch), lom_splat_int((int32_t)l->slice), lom_splat_int(texture->offset[level]),
+        lom_splat_int((int32_t)l->pitch), lom_splat_int((int32_t)l->slice), lom_splat_int(texture->row[level].offset),
     };
 }
 
 LOM_INLINE sample_place sample_place_of_levels(const lom_texture *texture, lom_int level)
 {
-    const lom_level *l = &texture->level[0];
+    enum { ROW_WORDS = sizeof(lom_level_row) / sizeof(float) };
     if (lom_all(level == lom_splat_int(level[0])))
         return sample_place_of_level(texture, level[0]);
-    lom_int width = lom_max_int(lom_splat_int(l->width) >> level, lom_splat_int(1));
-    lom_int height = lom_max_int(lom_splat_int(l->height) >> level, lom_splat_int(1));
-    lom_int depth = lom_max_int(lom_splat_int(l->depth) >> level, lom_splat_int(1));
-    lom_int pitch = width + 2;
-    return (sample_place){ lom_to_float(width),  lom_to_float(height),
-                           lom_to_float(depth),  pitch,
-                           pitch * (height + 2), lom_gather_int(texture->offset, level) };
+    lom_float4 row = lom_gather_rows(&texture->row[0].width, level * ROW_WORDS);
+    lom_int depth = lom_max_int(lom_splat_int(texture->level[0].depth) >> level, lom_splat_int(1));
+    lom_int pitch = lom_as_int(row.z), slice = pitch * (__builtin_convertvector(row.y, lom_int) + 2);
+    return (sample_place){ row.x, row.y, lom_to_float(depth), pitch, slice, lom_as_int(row.w) };
 }
 
 LOM_INLINE sample_footprint sample_footprint_of(const lom_texture *texture, lom_texture_kind kind,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 static const uint64_t most_texels = INT32_MAX, most_bytes = UINT64_C(1) << 33;
+enum { CACHE_LINE = 64 };                           /* bytes; memory from lom_allocate begins with one */
 static const size_t most_decoded = (size_t)1 << 23; /* texels: 128 MiB */
 
 /* ---- what is asked for ---- */
@@ -95,26 +96,33 @@ static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
 
 /* ---- layout ---- */
 
+/* Texels from a row to the next, `line` texels being a cache line, or 1 where rows need no line of their own. Not a
+ * multiple of a kilobyte, whose rows would share few sets of a cache. */
+static uint64_t pitch_of(int width, uint64_t line)
+{
+    uint64_t lines = ((uint64_t)width + 1 + line) / line;
+    return (lines + (line > 1 && lines % 16 == 0)) * line;
+}
+
 /* Beyond the last level lie the texels that a sample at the far border reads with weight 0. */
 static bool lay_out(lom_texture *texture, const lom_texture_desc *desc, lom_error *error)
 {
     int depth = desc->kind == LOM_TEXTURE_3D ? desc->depth : 1;
-    uint64_t next = 0, tail = 0;
+    bool target = desc->kind == LOM_TEXTURE_2D && desc->pixels == NULL && desc->mips != LOM_MIPS_SUPPLIED;
+    uint64_t line = target ? CACHE_LINE / lom_texel_size(texture) : 1;
+    uint64_t next = line - 1, tail = 0; /* the first texel inside the apron begins a line */
     for (int i = 0; i < texture->level_count; i++) {
         lom_level *l = &texture->level[i];
         l->width = desc->width >> i > 1 ? desc->width >> i : 1;
         l->height = desc->height >> i > 1 ? desc->height >> i : 1;
         l->depth = depth >> i > 1 ? depth >> i : 1;
-        uint64_t pitch = (uint64_t)l->width + 2, slice = pitch * ((uint64_t)l->height + 2); /* < 2^31 */
+        uint64_t pitch = pitch_of(l->width, line), slice = pitch * ((uint64_t)l->height + 2); /* < 2^31 */
         bool deep = texture->kind == LOM_TEXTURE_3D;
         uint64_t slices = deep ? (uint64_t)l->depth + 2 : (uint64_t)lom_level_layers(texture, i);
         l->pitch = (size_t)pitch;
         l->slice = (size_t)slice;
         l->offset = (size_t)(next + (deep ? slice : 0) + pitch + 1);
-        texture->offset[i] = (int32_t)next;
-        texture->size[i][0] = (float)l->width;
-        texture->size[i][1] = (float)l->height;
-        texture->size[i][2] = (float)l->depth;
+        texture->row[i] = (lom_level_row){ (float)l->width, (float)l->height, (int32_t)pitch, (int32_t)next };
         if (i == 0)
             tail = (deep ? slice : 0) + pitch + 2;
         next += slice * slices; /* < 2^47, and the sum over at most 16 levels < 2^51 */

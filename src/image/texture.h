@@ -1,7 +1,8 @@
 /* How a texture lies in memory. Every level has an apron of one texel on all sides (what lies beyond the edge by the
  * wrap mode), so that a sampler needs one index for its 2 x 2 (x 2) texels: +0, +1, +pitch, +pitch + 1 (+ slice).
- * The apron's left column is the right end of the row before: pitch = width + 2, and level.offset leaves room for the
- * row, the texel (and in 3D the slice) before the first. */
+ * The apron's left column is the right end of the row before: pitch is at least width + 2, and level.offset leaves room
+ * for the row, the texel (and in 3D the slice) before the first. Rows of what a pass draws into begin with a cache
+ * line, so that tiles share no line; what lies between the aprons of two rows is never read for its value. */
 #ifndef LOM_IMAGE_TEXTURE_H
 #define LOM_IMAGE_TEXTURE_H
 
@@ -19,6 +20,12 @@ typedef struct lom_level {
     size_t slice;  /* texels from a slice or cube face to the next */
     size_t offset; /* texel (0, 0) of slice 0 in texels[] */
 } lom_level;
+
+/* What a sampler needs of a 2D level or of a cube's, four words that lanes of different levels gather. */
+typedef struct lom_level_row {
+    float width, height;
+    int32_t pitch, offset; /* of texel (-1, -1) of slice 0 (in 3D: of slice -1) */
+} lom_level_row;
 
 enum { LOM_MAX_LEVELS = 16 };
 
@@ -40,8 +47,7 @@ struct lom_texture {
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */
     float lod_min, lod_max;               /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
-    float size[LOM_MAX_LEVELS][3];        /* width, height, depth of each level */
-    int32_t offset[LOM_MAX_LEVELS];       /* of texel (-1, -1) of slice 0 (in 3D: of slice -1) */
+    lom_level_row row[LOM_MAX_LEVELS];
 };
 
 /* After level 0 was written: rebuilds its apron and, if the texture was made with LOM_MIPS_ALL, all levels. */

@@ -26,6 +26,7 @@ static bool resolve_desc(lom_device *device, const lom_device_desc *desc)
                         desc->plain ? " of baseline instructions" : " that run on this processor");
     device->desc.lanes = lom_variants[device->variant].lanes;
     device->desc.plain = lom_variants[device->variant].plain;
+    device->cache_bytes = lom_cache_bytes();
     device->desc.threads = desc->threads != 0 ? desc->threads : lom_default_threads();
     device->desc.tile = desc->tile != 0 ? desc->tile : 64;
     device->desc.chunk = desc->chunk != 0 ? desc->chunk : 8192;

@@ -8,6 +8,7 @@ struct lom_device {
     lom_error error;
     lom_device_desc desc; /* resolved */
     int variant;
+    size_t cache_bytes; /* of the last level; 0: unknown */
     lom_pool *pool;
     lom_counters counters;
     lom_texture **textures;

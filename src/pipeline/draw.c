@@ -117,8 +117,8 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     draw->blends = false;
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
-    draw->constant =
-        shader->reads == 0 && !shader->reads_position && !shader->discards && !shader->writes_depth && !shader->quads;
+    draw->constant = shader->fragment[draw->variant] != NULL && shader->reads == 0 && !shader->reads_position &&
+                     !shader->discards && !shader->writes_depth && !shader->quads;
     draw->queues_depth = shader->reads_position || draw->late_depth;
     draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
 }

@@ -217,24 +217,3 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
     lom_mask mask = shader->discards ? in.covered & ~out.discard : in.covered;
     write_in_order(tile, &packet->places, mask, packet->triangles == 1, &out);
 }
-
-void LOM_WIDE(lom_find_constant)(struct lom_tile *tile)
-{
-    const struct lom_draw *draw = tile->draw;
-    lom_varyings in;
-    lom_fragment out;
-    memset(&in, 0, sizeof in);
-    memset(&out, 0, sizeof out);
-    draw->desc.shader->fragment[draw->variant](&out, &in, draw->uniforms);
-    tile->packets++;
-    for (int i = 0; i < tile->pass->colors; i++) {
-        tile->constant[i][0] = out.color[i].x[0];
-        tile->constant[i][1] = out.color[i].y[0];
-        tile->constant[i][2] = out.color[i].z[0];
-        tile->constant[i][3] = out.color[i].w[0];
-    }
-    tile->constant_bytes = 0;
-    for (int c = 0; c < 4; c++)
-        tile->constant_bytes |= lom_unorm_of(tile->constant[0][c], 255) << 8 * c;
-    tile->constant_draw = draw;
-}

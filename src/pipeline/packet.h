@@ -36,16 +36,15 @@ struct lom_fragments {
 void LOM_WIDE(lom_deliver)(struct lom_tile *tile, const struct lom_fragments *fragments, bool alone);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
-/* The constant colour of a draw whose fragment shader reads nothing, into tile->constant. */
-void LOM_WIDE(lom_find_constant)(struct lom_tile *tile);
 /* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
                                 const lom_float4 *color);
 
-/* Whether the constant colour can go to whole windows at once, and doing so: `count` windows side by side, of which the
- * first begins at `base` in tile memory. */
-bool LOM_WIDE(lom_can_fill)(const struct lom_tile *tile);
+/* A paint that fills: to `count` windows side by side, of which the first begins at `base` in tile memory; to the lanes
+ * of a part of a window; to a tile that is one colour, of which so many pixels are inside the attachments. */
 void LOM_WIDE(lom_fill_windows)(struct lom_tile *tile, int base, int count);
+void LOM_WIDE(lom_fill_part)(struct lom_tile *tile, int place, const lom_mask *covered);
+void LOM_WIDE(lom_fill_tile)(struct lom_tile *tile, int pixels);
 
 /* LOM_LANES values of a window in memory order: two runs of 8 pixels, the second two rows of blocks below. */
 LOM_INLINE lom_int lom_load_block(const int32_t *memory, const struct lom_tile *tile)

@@ -131,6 +131,16 @@ static bool lay_tiles(lom_device *device)
     return true;
 }
 
+/* What is larger than the caches leaves them before anybody reads it: then it is stored past them. */
+static bool exceeds_caches(const struct lom_pass *pass)
+{
+    uint64_t bytes = pass->depth != NULL ? 4 : 0;
+    for (int i = 0; i < pass->colors; i++)
+        bytes += lom_texel_size(pass->color[i].texture);
+    size_t cache = pass->device->cache_bytes;
+    return cache != 0 && bytes * (uint64_t)pass->width * (uint64_t)pass->height > cache;
+}
+
 static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
@@ -152,6 +162,7 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
     if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 &&
           pass->desc.max_depth <= 1))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A depth range lies within 0 to 1.");
+    pass->streams = exceeds_caches(pass);
     return resolve_rects(device) && lay_tiles(device);
 }
 

@@ -67,7 +67,7 @@ static void enqueue(struct lom_tile *tile, const struct lom_fragments *f, lom_ma
     if (q->triangles == 0 || q->triangle[q->triangles - 1] != f->number)
         q->triangle[q->triangles++] = f->number;
     lom_store_int(q->which + first, lom_splat_int(q->triangles - 1));
-    q->count += __builtin_popcount(lom_bits(taken));
+    q->count += (int)lom_count(taken);
     if (q->count >= LOM_LANES)
         shade_queue(tile, LOM_LANES);
 }
@@ -91,13 +91,14 @@ static void shade_part(struct lom_tile *tile, const struct lom_fragments *f)
 /* A draw whose shader reads nothing has one colour: it goes straight to the output stage. */
 static void write_constant(struct lom_tile *tile, const struct lom_fragments *f)
 {
+    const struct lom_paint *paint = &tile->draw->paint;
     struct lom_places places = { .block = true };
     lom_float4 color[LOM_MAX_COLORS];
     lom_mask covered = f->covered;
     lom_store_int(places.pixel, places_of(tile, f));
     for (int i = 0; i < tile->pass->colors; i++)
-        color[i] = (lom_float4){ lom_splat(tile->constant[i][0]), lom_splat(tile->constant[i][1]),
-                                 lom_splat(tile->constant[i][2]), lom_splat(tile->constant[i][3]) };
+        color[i] = (lom_float4){ lom_splat(paint->color[i][0]), lom_splat(paint->color[i][1]),
+                                 lom_splat(paint->color[i][2]), lom_splat(paint->color[i][3]) };
     LOM_WIDE(lom_write_packet)(tile, &places, &covered, color);
 }
 

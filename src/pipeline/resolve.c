@@ -40,12 +40,6 @@ static size_t color_bytes(const struct lom_pass *pass, int i)
     return tile_pixels(pass) * (pass->color[i].kind == COLOR_FLOAT ? 16 : 4);
 }
 
-static void fill_words(uint32_t *to, uint32_t value, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        to[i] = value;
-}
-
 static uint32_t bits_of(float x)
 {
     uint32_t bits;
@@ -64,13 +58,41 @@ static void *row_of(lom_texture *texture, const struct part *p, int y)
     return lom_texel(texture, 0, p->x + p->x0, p->y + y, 0);
 }
 
-/* Pixels first to end (one past the last) of a row of tile memory, side by side: two of each block. */
-static void copy_row(uint32_t *restrict to, const uint32_t *restrict from, int first, int end)
+/* The rectangle of an attachment that a part is, with words as they are. */
+static struct lom_rectangle rectangle_of(const struct lom_pass *pass, lom_texture *texture, const struct part *p)
 {
-    for (int x = first; x < end; x++)
-        to[x - first] = from[x * 2 - (x & 1)];
+    struct lom_rectangle r = { .edge = pass->tile,
+                               .x = p->x0,
+                               .y = p->y0,
+                               .width = p->x1 - p->x0,
+                               .height = p->y1 - p->y0,
+                               .texels = row_of(texture, p, p->y0),
+                               .pitch = texture->level[0].pitch,
+                               .keep = -1 };
+    r.streams = pass->streams && ((uintptr_t)r.texels | r.pitch * sizeof *r.texels) % 64 == 0;
+    return r;
 }
 
+static struct lom_rectangle depth_rectangle(const struct lom_pass *pass, const struct part *p)
+{
+    struct lom_rectangle r = rectangle_of(pass, pass->depth, p);
+    r.divisor = (float)pass->depth_scale;
+    return r;
+}
+
+/* Channels that the format lacks read as 0, a missing alpha as 1. */
+static struct lom_rectangle byte_rectangle(const struct lom_pass *pass, int i, const struct part *p)
+{
+    struct lom_rectangle r = rectangle_of(pass, pass->color[i].texture, p);
+    int channels = lom_describe_format(pass->color[i].format)->channels;
+    if (channels < 4) {
+        r.keep = (1 << 8 * channels) - 1;
+        r.set = (int32_t)0xff000000u;
+    }
+    return r;
+}
+
+/* Pixels first to end (one past the last) of a row of an attachment to a row of tile memory: two of each block. */
 static void fill_row(uint32_t *restrict to, const uint32_t *restrict from, int first, int end)
 {
     for (int x = first; x < end; x++)
@@ -100,23 +122,6 @@ static void load_words(const struct lom_pass *pass, lom_texture *texture, const 
     }
 }
 
-static void store_words(const struct lom_pass *pass, lom_texture *texture, const struct part *p, const uint32_t *memory)
-{
-    for (int y = p->y0; y < p->y1; y++) {
-        const uint32_t *from = memory + memory_index(pass->tile, 0, y);
-        uint32_t *row = row_of(texture, p, y);
-        if (!begins_blocks(p, y)) {
-            copy_row(row, from, p->x0, p->x1);
-            continue;
-        }
-        size_t blocks = (size_t)(p->x1 - p->x0) / 2, words = blocks * 2;
-        uint32_t *lower = row_of(texture, p, ++y);
-        stages_of(pass)->split_rows(from + p->x0 * 2, blocks, row, lower);
-        copy_row(row + words, from, p->x0 + (int)words, p->x1);
-        copy_row(lower + words, from + 2, p->x0 + (int)words, p->x1);
-    }
-}
-
 /* Float planes of a tile from texels of one or four channels. */
 static void load_floats(const struct lom_pass *pass, lom_texture *texture, const struct part *p, float *memory)
 {
@@ -135,11 +140,12 @@ static void clear_color(const struct lom_pass *pass, int i, void *memory)
 {
     const struct lom_color_target *target = &pass->color[i];
     if (target->kind != COLOR_FLOAT) {
-        fill_words(memory, target->clear_bytes, tile_pixels(pass));
+        stages_of(pass)->fill_words(memory, target->clear_bytes, tile_pixels(pass));
         return;
     }
     for (size_t c = 0; c < 4; c++)
-        fill_words((uint32_t *)memory + c * tile_pixels(pass), bits_of(target->clear[c]), tile_pixels(pass));
+        stages_of(pass)->fill_words((uint32_t *)memory + c * tile_pixels(pass), bits_of(target->clear[c]),
+                                    tile_pixels(pass));
 }
 
 static void load_depth(const struct lom_pass *pass, const struct part *p, float *memory)
@@ -155,8 +161,8 @@ static void load_depth(const struct lom_pass *pass, const struct part *p, float 
 void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
 {
     struct part p = part_of(pass, number);
-    if (pass->depth != NULL) {
-        fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
+    if (pass->uses_depth) {
+        stages_of(pass)->fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
         if (pass->desc.depth_load == LOM_LOAD_KEEP)
             load_depth(pass, &p, (float *)(void *)memory);
         memory += tile_pixels(pass) * 4;
@@ -169,22 +175,6 @@ void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
             load_words(pass, pass->color[i].texture, &p, (uint32_t *)(void *)memory);
         memory += color_bytes(pass, i);
     }
-}
-
-/* Channels that the format lacks read as 0, a missing alpha as 1. */
-static void hide_missing_channels(lom_format format, uint32_t *row, int count)
-{
-    int channels = lom_describe_format(format)->channels;
-    uint32_t keep = (uint32_t)((UINT64_C(1) << 8 * channels) - 1);
-    for (int x = 0; channels < 4 && x < count; x++)
-        row[x] = (row[x] & keep) | UINT32_C(0xff000000);
-}
-
-static void resolve_bytes(const struct lom_pass *pass, int i, const struct part *p, const uint32_t *memory)
-{
-    store_words(pass, pass->color[i].texture, p, memory);
-    for (int y = p->y0; y < p->y1; y++)
-        hide_missing_channels(pass->color[i].format, row_of(pass->color[i].texture, p, y), p->x1 - p->x0);
 }
 
 static void resolve_floats(const struct lom_pass *pass, int i, const struct part *p, const float *memory)
@@ -203,50 +193,66 @@ static void resolve_floats(const struct lom_pass *pass, int i, const struct part
     }
 }
 
-static void resolve_depth(const struct lom_pass *pass, const struct part *p, const float *memory)
+/* A depth attachment that no draw of the pass tests or writes ends as it began. */
+static void resolve_depth(const struct lom_pass *pass, const struct part *p, const uint8_t *memory)
 {
-    float scale = (float)pass->depth_scale;
-    store_words(pass, pass->depth, p, (const uint32_t *)(const void *)memory);
-    for (int y = p->y0; scale != 0 && y < p->y1; y++)
-        stages_of(pass)->divide_row(row_of(pass->depth, p, y), (size_t)(p->x1 - p->x0), scale);
-}
-
-static void fill_texels(lom_texture *texture, const struct part *p, uint32_t value)
-{
-    for (int y = p->y0; y < p->y1; y++)
-        fill_words(row_of(texture, p, y), value, (size_t)(p->x1 - p->x0));
+    struct lom_rectangle r = depth_rectangle(pass, p);
+    if (memory != NULL)
+        stages_of(pass)->store_rectangle(&r, (const uint32_t *)(const void *)memory);
+    else if (pass->desc.depth_load != LOM_LOAD_KEEP)
+        stages_of(pass)->fill_rectangle(&r, bits_of(pass->clear_depth));
 }
 
 void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory)
 {
     struct part p = part_of(pass, number);
-    if (pass->depth != NULL) {
-        resolve_depth(pass, &p, (const float *)(const void *)memory);
+    if (pass->depth != NULL)
+        resolve_depth(pass, &p, pass->uses_depth ? memory : NULL);
+    if (pass->uses_depth)
         memory += tile_pixels(pass) * 4;
-    }
     for (int i = 0; i < pass->colors; i++) {
+        struct lom_rectangle r = byte_rectangle(pass, i, &p);
         if (pass->color[i].kind == COLOR_FLOAT)
             resolve_floats(pass, i, &p, (const float *)(const void *)memory);
         else
-            resolve_bytes(pass, i, &p, (const uint32_t *)(const void *)memory);
+            stages_of(pass)->store_rectangle(&r, (const uint32_t *)(const void *)memory);
         memory += color_bytes(pass, i);
     }
+}
+
+void lom_load_whole_tile(struct lom_tile *tile)
+{
+    const struct lom_pass *pass = tile->pass;
+    lom_load_tile(pass, tile->number, tile->memory);
+    if (tile->whole != pass->color[0].clear_bytes)
+        stages_of(pass)->fill_words(tile->color[0], tile->whole, tile_pixels(pass));
+    tile->is_whole = false;
+}
+
+void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t color)
+{
+    struct part p = part_of(pass, number);
+    struct lom_rectangle r = byte_rectangle(pass, 0, &p);
+    if (pass->depth != NULL)
+        resolve_depth(pass, &p, NULL);
+    stages_of(pass)->fill_rectangle(&r, color);
 }
 
 void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory)
 {
     struct part p = part_of(pass, number);
-    if (pass->depth != NULL && pass->desc.depth_load != LOM_LOAD_KEEP)
-        fill_texels(pass->depth, &p,
-                    bits_of(pass->depth_scale == 0 ? pass->clear_depth : pass->clear_depth / (float)pass->depth_scale));
+    if (pass->depth != NULL)
+        resolve_depth(pass, &p, NULL);
     for (int i = 0; i < pass->colors; i++) {
         const struct lom_color_target *target = &pass->color[i];
+        struct lom_rectangle r = byte_rectangle(pass, i, &p);
         if (target->keep)
             continue;
+        if (target->kind != COLOR_FLOAT) {
+            stages_of(pass)->fill_rectangle(&r, target->clear_bytes);
+            continue;
+        }
         clear_color(pass, i, memory);
-        if (target->kind == COLOR_FLOAT)
-            resolve_floats(pass, i, &p, (const float *)(const void *)memory);
-        else
-            resolve_bytes(pass, i, &p, (const uint32_t *)(const void *)memory);
+        resolve_floats(pass, i, &p, (const float *)(const void *)memory);
     }
 }

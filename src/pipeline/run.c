@@ -29,7 +29,9 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
     tile->x = pass->tile_x0 + number % pass->tiles_x * pass->tile;
     tile->y = pass->tile_y0 + number / pass->tiles_x * pass->tile;
     tile->depth = NULL;
-    if (pass->depth != NULL) {
+    tile->number = number;
+    tile->memory = memory;
+    if (pass->uses_depth) {
         tile->depth = (float *)(void *)memory;
         memory += pixels * 4;
     }
@@ -51,10 +53,21 @@ static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
     __builtin_prefetch(list + 16);
 }
 
+/* A tile that is drawn for the first time begins as the clear colour, in memory only where that is not one word. */
+static void begin_tile(struct lom_pass *pass, struct lom_tile *tile)
+{
+    const struct lom_color_target *target = &pass->color[0];
+    tile->is_whole = pass->single_batch && pass->colors == 1 && target->kind != COLOR_FLOAT && !target->keep;
+    tile->whole = target->clear_bytes;
+    if (!tile->is_whole)
+        lom_load_tile(pass, tile->number, tile->memory);
+}
+
 /* The batch's triangles of one tile. */
 static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
 {
     bool placed = false;
+    tile->is_whole = false;
     for (size_t i = 0; i < pass->chunk_count; i++) {
         const struct lom_chunk *chunk = &pass->chunks[i];
         prefetch_list(pass, i + 1, number);
@@ -64,7 +77,7 @@ static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, u
         if (!placed) {
             place_tile(pass, tile, number, memory);
             if (!pass->tile_touched[number])
-                lom_load_tile(pass, number, memory);
+                begin_tile(pass, tile);
             pass->tile_touched[number] = 1;
             placed = true;
         }
@@ -79,9 +92,11 @@ static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, u
 
 /* After the last batch a tile is resolved at once; one that no triangle came near holds its clear values, or keeps what
  * the attachments hold. */
-static void finish_tile(struct lom_pass *pass, int number, uint8_t *memory)
+static void finish_tile(struct lom_pass *pass, const struct lom_tile *tile, int number, uint8_t *memory)
 {
-    if (pass->tile_touched[number])
+    if (tile->is_whole)
+        lom_resolve_whole_tile(pass, number, tile->whole);
+    else if (pass->tile_touched[number])
         lom_resolve_tile(pass, number, memory);
     else
         lom_clear_tile(pass, number, memory);
@@ -99,7 +114,7 @@ static void run_tiles(void *context, int worker)
         uint8_t *memory = memory_of(pass, (int)i, worker);
         run_tile(pass, tile, (int)i, memory);
         if (pass->last_batch)
-            finish_tile(pass, (int)i, memory);
+            finish_tile(pass, tile, (int)i, memory);
     }
 }
 
@@ -194,18 +209,28 @@ static bool lay_tile_memory(lom_device *device)
     return true;
 }
 
+/* A draw whose shader reads nothing runs it once. */
+static void find_paint(lom_device *device, struct lom_draw *draw)
+{
+    lom_stages_of(draw->variant)->find_paint(&device->pass, draw);
+    device->counters.packets++;
+}
+
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
     pass->chunks = device->chunks;
     pass->chunk_count = 0;
+    for (size_t i = 0; i < pass->draw_count; i++)
+        pass->uses_depth |= device->draws[i].compare != LOM_COMPARE_ALWAYS || device->draws[i].depth_write;
     if (!lay_tile_memory(device))
         return false;
-    for (int i = 0; i < device->desc.threads; i++)
-        device->worker_tiles[i].constant_draw = NULL;
     for (size_t i = 0; i < pass->draw_count; i++) {
-        device->draws[i].uniforms = device->uniforms + device->draws[i].uniforms_offset;
-        if (!run_draw(device, &device->draws[i]))
+        struct lom_draw *draw = &device->draws[i];
+        draw->uniforms = device->uniforms + draw->uniforms_offset;
+        if (draw->constant)
+            find_paint(device, draw);
+        if (!run_draw(device, draw))
             return false;
     }
     if (!run_batch(device))

@@ -99,6 +99,16 @@ static inline struct lom_bounds lom_bounds_of(const lom_triangle *t)
     }
 }
 
+/* The colour of a draw whose shader reads nothing. Where `fills`, it goes to the only target as it is, or, with
+ * `blends`, as (target * factor + add) / 255 rounded, channel by channel: two channels of 16 bits a word, red and blue,
+ * green and alpha; `add` holds the 128 of the rounding. */
+struct lom_paint {
+    float color[LOM_MAX_COLORS][4];
+    bool fills, blends;
+    uint32_t bytes;
+    uint32_t factor[2], add[2];
+};
+
 /* A draw as recorded. */
 struct lom_draw {
     lom_draw_desc desc;
@@ -112,7 +122,8 @@ struct lom_draw {
     size_t triangles;    /* of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool depth_write, late_depth, blends, constant, biased;
-    bool queues_depth; /* the fragment stage needs the depth */
+    bool queues_depth;      /* the fragment stage needs the depth */
+    struct lom_paint paint; /* with `constant`, once the pass runs */
 };
 
 enum { SEVERAL_TILES = -1 };
@@ -174,12 +185,13 @@ struct lom_tile {
     bool tests_early;              /* the draw's depth test comes before its fragment shader */
     int x, y;                      /* frame pixel of the tile's first pixel */
     int edge;
-    int32_t offset[16];                   /* of the pixels of a 4x4 window to its first, in tile memory */
-    float *depth;                         /* attachment units; NULL without depth */
-    void *color[LOM_MAX_COLORS];          /* uint32_t for 8-bit formats, else 4 planes of floats */
-    const struct lom_draw *constant_draw; /* whose constant colour is in constant */
-    float constant[LOM_MAX_COLORS][4];
-    uint32_t constant_bytes; /* of the first output, where it is stored as it is */
+    int32_t offset[16];          /* of the pixels of a 4x4 window to its first, in tile memory */
+    float *depth;                /* attachment units; NULL where no draw of the pass uses depth */
+    void *color[LOM_MAX_COLORS]; /* uint32_t for 8-bit formats, else 4 planes of floats */
+    int number;
+    uint8_t *memory;
+    bool is_whole; /* tile memory holds nothing yet: every pixel of the only colour target is `whole` */
+    uint32_t whole;
     struct lom_queue queue;
     uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
                                  write often lies far apart */
@@ -207,6 +219,8 @@ struct lom_pass {
     lom_texture *depth;
     double depth_scale;                           /* 65535, 16777215, or 0 for float depth */
     float clear_depth;                            /* in tile units */
+    bool uses_depth;                              /* a draw tests or writes depth */
+    bool streams;                                 /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
     size_t tile_bytes;
     uint8_t *tile_memory;  /* tile_bytes for each tile, or for each worker when there is a single batch */
@@ -219,6 +233,16 @@ struct lom_pass {
     size_t chunks_left;            /* of the pass, the batch's included until it runs */
     bool single_batch, last_batch; /* the pass is one batch; this is its last one */
     atomic_size_t next;
+};
+
+/* A rectangle of a tile and of an attachment. */
+struct lom_rectangle {
+    int edge, x, y, width, height; /* of the tile; the rectangle in it, in pixels */
+    uint32_t *texels;              /* of its first pixel in the attachment */
+    size_t pitch;                  /* words from a row of the attachment to the next */
+    float divisor;                 /* of depths that are whole numbers; 0: words are stored as */
+    int32_t keep, set;             /* (word & keep) | set */
+    bool streams;                  /* texels and pitch are whole cache lines, and nobody reads them soon */
 };
 
 /* The stages of one variant. */
@@ -236,10 +260,15 @@ struct lom_stages {
     void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
     /* Shades what is left in the queue. */
     void (*flush)(struct lom_tile *tile);
-    /* Tile memory from a block on as two rows of pixels, two of each block; and back. */
-    void (*split_rows)(const uint32_t *from, size_t blocks, uint32_t *upper, uint32_t *lower);
+    /* The paint of a constant draw. */
+    void (*find_paint)(const struct lom_pass *pass, struct lom_draw *draw);
+    /* A rectangle of a plane of tile memory, or one value, to an attachment. */
+    void (*store_rectangle)(const struct lom_rectangle *rectangle, const uint32_t *memory);
+    void (*fill_rectangle)(const struct lom_rectangle *rectangle, uint32_t value);
+    /* `count` words of tile memory, a multiple of 16. */
+    void (*fill_words)(uint32_t *to, uint32_t value, size_t count);
+    /* Two rows of pixels as blocks of tile memory. */
     void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
-    void (*divide_row)(float *row, size_t count, float divisor);
 };
 
 /* NULL where the variant is not built. */
@@ -254,9 +283,11 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
                               size_t count);                                                                           \
     void lom_flush_##variant(struct lom_tile *tile);                                                                   \
-    void lom_split_rows_##variant(const uint32_t *from, size_t blocks, uint32_t *upper, uint32_t *lower);              \
-    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
-    void lom_divide_row_##variant(float *row, size_t count, float divisor);
+    void lom_find_paint_##variant(const struct lom_pass *pass, struct lom_draw *draw);                                 \
+    void lom_store_rectangle_##variant(const struct lom_rectangle *rectangle, const uint32_t *memory);                 \
+    void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
+    void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
+    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
 LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
 
 /* Grows *array to at least `needed` elements of `size` bytes, keeping its content; false when memory runs out. */
@@ -281,6 +312,9 @@ double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chu
 /* Tile memory from the clear values or the attachments, and to the attachments. */
 void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory);
 void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory);
+/* The same for a tile that is one colour; and tile memory of such a tile, which then is none any more. */
+void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t color);
+void lom_load_whole_tile(struct lom_tile *tile);
 /* The clear values to the attachments that do not keep their texels; memory is scratch. */
 void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
 

@@ -200,6 +200,23 @@ static void finishing_follows_level_zero(void)
     lom_free_texture(t);
 }
 
+/* Rows of what a pass may draw into begin with a cache line, at every level, so that tiles of 16 pixels share none. */
+static void rows_of_targets_begin_with_a_cache_line(void)
+{
+    static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH32F, LOM_FORMAT_RGBA32F };
+    for (int f = 0; f < 3; f++)
+        for (int width = 1; width < 1100; width += width < 40 ? 1 : 53) {
+            lom_texture *t = lom_create_texture(
+                &(lom_texture_desc){ .width = width, .height = 5, .format = formats[f], .mips = LOM_MIPS_ALL }, &error);
+            for (int level = 0; level < t->level_count; level++)
+                for (int y = 0; y < t->level[level].height; y++)
+                    CHECK((uintptr_t)lom_texel(t, level, 0, y, 0) % 64 == 0, "row %d of level %d, %d wide", y, level,
+                          width);
+            CHECK(t->level[0].pitch * lom_texel_size(t) % 1024 != 0, "%d wide: rows share few sets of a cache", width);
+            lom_free_texture(t);
+        }
+}
+
 static void floats_are_kept_finite(void)
 {
     const float pixels[4] = { NAN, INFINITY, -INFINITY, 1 };
@@ -245,6 +262,7 @@ int main(int argc, char **argv)
     RUN(levels_do_not_brighten);
     RUN(supplied_levels_are_kept);
     RUN(finishing_follows_level_zero);
+    RUN(rows_of_targets_begin_with_a_cache_line);
     RUN(floats_are_kept_finite);
     RUN(bad_descriptors_are_refused);
     return check_result();

@@ -142,6 +142,42 @@ static void halves_come_from_and_go_to_two_places(void)
     }
 }
 
+static void pairs_are_split(void)
+{
+    int32_t table[2 * LOM_LANES + 3];
+    for (int i = 0; i < 2 * LOM_LANES + 3; i++)
+        table[i] = i * 7 - 3;
+    for (int first = 0; first < 4; first++) {
+        lom_int even, odd, a, b;
+        lom_split_pairs(table + first, &even, &odd);
+        lom_defined_split_pairs(table + first, &a, &b);
+        CHECK(same_int(even, a) && same_int(odd, b), "pairs from word %d", first);
+        CHECK(a[1] == table[first + 1] && b[0] == table[first + 2] && a[2] == table[first + 4], "from word %d", first);
+    }
+}
+
+static void streams_store_what_they_are_given(void)
+{
+    int32_t to[4 * LOM_LANES] __attribute__((aligned(64)));
+    for (int i = 0; i < 4; i++)
+        lom_stream_int(to + i * LOM_LANES, lom_lane_index() + i * LOM_LANES);
+    lom_end_streams();
+    for (int i = 0; i < 4 * LOM_LANES; i++)
+        CHECK(to[i] == i, "word %d is %d", i, to[i]);
+}
+
+static void set_lanes_are_counted(void)
+{
+    for (uint32_t bits = 0; bits < 0x20000; bits++) {
+        uint32_t count = 0;
+        for (int i = 0; i < 16; i++)
+            count += bits >> i & 1;
+        CHECK(lom_count_bits(bits) == count, "bits %x", bits);
+    }
+    for (int i = 0; i < LOM_LANES; i++)
+        CHECK(lom_count(lom_lane_index() > i) == (uint32_t)(LOM_LANES - 1 - i), "lanes above %d", i);
+}
+
 static void compress_keeps_set_lanes_in_order(void)
 {
     for (uint64_t n = 0; n < 70000; n++) {
@@ -173,6 +209,9 @@ int main(int argc, char **argv)
     RUN(definitions_have_their_stated_values);
     RUN(overrides_equal_definitions_on_specials);
     RUN(overrides_equal_definitions_on_random_bits);
+    RUN(pairs_are_split);
+    RUN(streams_store_what_they_are_given);
+    RUN(set_lanes_are_counted);
     RUN(compress_keeps_set_lanes_in_order);
     RUN(gathers_read_what_their_indices_name);
     RUN(rows_are_gathered_and_scattered_in_lane_order);

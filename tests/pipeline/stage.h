@@ -18,7 +18,9 @@ typedef struct stage {
 static inline lom_device *open_device(lom_device_desc desc)
 {
     desc.lanes = LOM_LANES;
-    desc.plain = LOM_SHADER_SLOT > 2;
+#ifdef LOM_LOWERED
+    desc.plain = true;
+#endif
     return lom_open_device(&desc);
 }
 

@@ -57,7 +57,9 @@ typedef struct stage {
 static stage open_stage(lom_device_desc desc, lom_format format)
 {
     desc.lanes = LOM_LANES;
-    desc.plain = LOM_SHADER_SLOT > 2;
+#ifdef LOM_LOWERED
+    desc.plain = true;
+#endif
     stage s = { lom_open_device(&desc), NULL, NULL };
     s.color = lom_make_texture(s.device, &(lom_texture_desc){ .width = SIZE, .height = SIZE, .format = format });
     return s;

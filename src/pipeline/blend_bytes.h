@@ -1,0 +1,112 @@
+/* Blending of 8-bit channels in exact integers, two channels of a pixel at a time: v = S F + D G, rounded once by
+ * t = v + 128, (t + (t >> 8)) >> 8, which is round(v / 255) for every v up to 255^2. */
+#ifndef LOM_PIPELINE_BLEND_BYTES_H
+#define LOM_PIPELINE_BLEND_BYTES_H
+
+#include "pipeline/packet.h"
+
+/* Two 8-bit channels of a pixel in 16 bits each: red and blue, or green and alpha. Products of two channels fit. */
+typedef uint16_t pairs __attribute__((vector_size(LOM_LANES * 4)));
+
+struct channels {
+    pairs rb, ga;
+};
+
+struct equation {
+    lom_factor source, target;
+    lom_blend_operation operation;
+};
+
+LOM_INLINE struct equation equation_of(const lom_blend *blend, int c)
+{
+    if (c == 3)
+        return (struct equation){ blend->source_alpha, blend->target_alpha, blend->alpha_operation };
+    return (struct equation){ blend->source_color, blend->target_color, blend->color_operation };
+}
+
+LOM_INLINE pairs splat_pairs(uint16_t value)
+{
+    return value - (pairs){ 0 };
+}
+
+LOM_INLINE struct channels split(lom_int packed)
+{
+    return (struct channels){ (pairs)(packed & 0xff00ff), (pairs)(packed >> 8 & 0xff00ff) };
+}
+
+LOM_INLINE lom_int join(struct channels c)
+{
+    return (lom_int)c.rb | (lom_int)c.ga << 8;
+}
+
+/* Alpha in both halves of each pixel. */
+LOM_INLINE pairs alpha_of(struct channels c)
+{
+    lom_int alpha = (lom_int)((lom_uint)c.ga >> 16);
+    return (pairs)(alpha | alpha << 16);
+}
+
+/* A factor in units of 1/255, for one half of the channels. */
+LOM_INLINE pairs byte_factor(lom_factor factor, pairs source, pairs source_alpha, pairs target, pairs target_alpha)
+{
+    const pairs one = splat_pairs(255);
+    switch (factor) {
+    case LOM_FACTOR_ONE:
+        return one;
+    case LOM_FACTOR_SOURCE_COLOR:
+        return source;
+    case LOM_FACTOR_ONE_MINUS_SOURCE_COLOR:
+        return one - source;
+    case LOM_FACTOR_SOURCE_ALPHA:
+        return source_alpha;
+    case LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA:
+        return one - source_alpha;
+    case LOM_FACTOR_TARGET_COLOR:
+        return target;
+    case LOM_FACTOR_ONE_MINUS_TARGET_COLOR:
+        return one - target;
+    case LOM_FACTOR_TARGET_ALPHA:
+        return target_alpha;
+    case LOM_FACTOR_ONE_MINUS_TARGET_ALPHA:
+        return one - target_alpha;
+    default:
+        return (pairs){ 0 };
+    }
+}
+
+LOM_INLINE pairs select_pairs(pairs mask, pairs a, pairs b)
+{
+    return (mask & a) | (~mask & b);
+}
+
+/* round(v / 255), v at most 255^2. */
+LOM_INLINE pairs divide_by_255(pairs v)
+{
+    pairs t = v + 128;
+    return (t + (t >> 8)) >> 8;
+}
+
+/* s + d, s - d or d - s within 0..255^2; a sum that wraps is smaller than its terms. */
+LOM_INLINE pairs combine(lom_blend_operation operation, pairs s, pairs d)
+{
+    const pairs largest = splat_pairs(255 * 255);
+    if (operation == LOM_BLEND_SUBTRACT)
+        return (s - d) & (pairs)(s > d);
+    if (operation == LOM_BLEND_REVERSE_SUBTRACT)
+        return (d - s) & (pairs)(d > s);
+    pairs sum = s + d;
+    return select_pairs((pairs)(sum < s) | (pairs)(sum > largest), largest, sum);
+}
+
+LOM_INLINE pairs blend_half(struct equation e, pairs source, pairs source_alpha, pairs target, pairs target_alpha)
+{
+    if (e.operation == LOM_BLEND_MIN)
+        return select_pairs((pairs)(source < target), source, target);
+    if (e.operation == LOM_BLEND_MAX)
+        return select_pairs((pairs)(source > target), source, target);
+    pairs s = source * byte_factor(e.source, source, source_alpha, target, target_alpha);
+    pairs d = target * byte_factor(e.target, source, source_alpha, target, target_alpha);
+    return divide_by_255(combine(e.operation, s, d));
+}
+
+#endif
