@@ -5,13 +5,13 @@
 
 #include "waves/shallow_surface.h"
 
-/* Heights of the terrain's vertices as the renderer has them. */
+/* Heights of the terrain's vertices over its base as the renderer has them. */
 static float *find_heights(const lom_reference *world, lom_error *error)
 {
     size_t count = (size_t)world->ground_columns * (size_t)world->ground_rows;
     float *heights = lom_allocate(count, sizeof *heights, error);
     for (size_t i = 0; heights != NULL && i < count; i++)
-        heights[i] = (float)world->points[i].y;
+        heights[i] = (float)(world->points[i].y - world->scene->terrain.base);
     return heights;
 }
 
@@ -20,7 +20,7 @@ static bool make_surf(struct lom_wave_surface *surface, const struct lom_wave_si
     if (!lom_make_site_surf(&surface->surf, site, error))
         return false;
     if (surface->surf.cells != NULL)
-        lom_fill_surf(&surface->surf_moment, &surface->surf, site->surf, time);
+        lom_fill_surf(&surface->surf_moment, &surface->surf, site->surf, (double[2]){ 0, 0 }, time);
     return true;
 }
 
@@ -39,7 +39,7 @@ static bool make_shallow(struct lom_wave_surface *surface, const struct lom_wave
         moments != NULL && surface->shallow_texels != NULL && lom_advance_shallow_region(state, site, time, error);
     if (done) {
         surface->shallow_view = lom_view_shallow(state->now);
-        lom_fill_shallow_surface(&surface->shallow_view, site->level, site->shallow->edge == LOM_SHALLOW_OPEN,
+        lom_fill_shallow_surface(&surface->shallow_view, 0, site->shallow->edge == LOM_SHALLOW_OPEN,
                                  surface->shallow_texels, moments, bounds);
     }
     lom_release(moments);
@@ -61,7 +61,9 @@ bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *w
     float *heights = ground ? find_heights(world, error) : NULL;
     const double *size = scene->terrain.size;
     const struct lom_wave_site site = lom_scene_wave_site(
-        scene, &(struct lom_bed){ heights, world->ground_columns - 1, world->ground_rows - 1, { size[0], size[1] } });
+        scene,
+        &(struct lom_bed){
+            heights, world->ground_columns - 1, world->ground_rows - 1, { size[0], size[1] }, scene->terrain.base });
     bool done = (!ground || heights != NULL) && make_surf(surface, &site, time, error) &&
                 make_shallow(surface, &site, time, error);
     lom_release(heights);

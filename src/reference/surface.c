@@ -108,7 +108,7 @@ static bool hit_field(const lom_reference_water *w, const struct lom_ray *ray, d
 static lom_vec3 mapped_normal(const lom_reference *world, lom_vec3 place, double time)
 {
     const lom_water_params *w = &world->scene->water;
-    double u = place.x / w->tile, v = place.z / w->tile;
+    double u = (place.x - w->position[0]) / w->tile, v = (place.z - w->position[1]) / w->tile;
     if (world->flow_map != LOM_NO_PICTURE) {
         double moved = time * w->flow_speed;
         moved -= lom_double_floor(moved);

@@ -11,9 +11,10 @@ static const double TURN = 6.283185307179586, SPACING = 0.006;
 static struct lom_wave_place displace(const struct lom_wave_surface *surface, double x, double z)
 {
     struct lom_wave_place p = { .dx = 0 };
+    const double from_x = x - surface->middle[0], from_z = z - surface->middle[1];
     for (int i = 0; i < surface->count; i++) {
         const struct lom_ray_wave *w = &surface->wave[i];
-        double t = w->kx * x + w->kz * z + w->phase, s = lom_double_sin(t), c = lom_double_cos(t);
+        double t = w->kx * from_x + w->kz * from_z + w->phase, s = lom_double_sin(t), c = lom_double_cos(t);
         p.dx -= w->across_x * s;
         p.dy += w->amplitude * c;
         p.dz -= w->across_z * s;
@@ -23,7 +24,7 @@ static struct lom_wave_place displace(const struct lom_wave_surface *surface, do
         p.xz -= w->across_x * w->kz * c;
         p.zz -= w->across_z * w->kz * c;
     }
-    lom_add_sea(&p, surface, x, z);
+    lom_add_sea(&p, surface, from_x, from_z);
     lom_add_shore(&p, surface, x, z);
     return p;
 }
@@ -53,7 +54,7 @@ static bool find_waves(struct lom_wave_surface *surface, const lom_reference *wo
     const lom_water_params *water = &world->scene->water;
     struct lom_waves_uniform waves = { .trochoid_count = 0 };
     double greatest = 0;
-    lom_fill_trochoids(&waves, &water->waves, &water->foam, time);
+    lom_fill_trochoids(&waves, &water->waves, &water->foam, (double[2]){ 0, 0 }, time);
     surface->level = water->level;
     surface->count = waves.trochoid_count;
     for (int i = 0; i < surface->count; i++) {

@@ -29,7 +29,7 @@ struct lom_wave_surface {
     struct lom_shallow_region shallow; /* first NULL: there is none */
     lom_shallow_view shallow_view;
     float (*shallow_texels)[4];
-    double level;
+    double level, middle[2]; /* the waves' x and z count from there */
     lom_vec3 *points;
     double (*rest)[2]; /* of each point: where its water is at rest */
     struct lom_ray_triangle *triangles;
@@ -47,8 +47,8 @@ void lom_free_wave_surface(struct lom_wave_surface *surface);
  * or 0. False on failure. */
 bool lom_make_ray_sea(struct lom_wave_surface *surface, const lom_water_params *water, double time, double *shortest,
                       lom_error *error);
-/* Adds the sea at the rest position (x, z): its samples, linear between neighbours in double, which is the surface that
- * every model of water has. */
+/* Adds the sea at the rest position (x, z) from the water's middle: its samples, linear between neighbours in double,
+ * which is the surface that every model of water has. */
 void lom_add_sea(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z);
 
 /* shore.c. The surf and the shallow water of the scene at a time; the shortest wave gets no longer than theirs. False

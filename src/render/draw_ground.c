@@ -2,10 +2,23 @@
  * view, near ones first, so that they hide the ones behind before these are shaded. */
 #include "render/renderer.h"
 
-static void set_scale(float scale[2], double tile, const double size[2])
+static double fraction(double x)
 {
-    scale[0] = (float)(1 / (tile > 0 ? tile : size[0]));
-    scale[1] = (float)(1 / (tile > 0 ? tile : size[1]));
+    return x - lom_double_floor(x);
+}
+
+/* A map that is laid from the middle of the terrain's base on, `tile` metres a repetition (0: once over it all). */
+static struct lom_laid_uniform lay(const lom_texture *map, double tile, const double size[2], const double eye[3])
+{
+    static const int axis[LOM_SIDES][2] = { { 2, 1 }, { 0, 2 }, { 0, 1 } };
+    struct lom_laid_uniform laid = { .map = map };
+    for (int side = 0; side < LOM_SIDES; side++)
+        for (int k = 0; k < 2; k++) {
+            double scale = (axis[side][k] == 1 ? -1 : 1) / (tile > 0 ? tile : size[k]);
+            laid.scale[side][k] = (float)scale;
+            laid.shift[side][k] = (float)fraction(eye[axis[side][k]] * scale);
+        }
+    return laid;
 }
 
 /* Textures were loaded with the renderer: this only finds them. */
@@ -14,56 +27,70 @@ static const lom_texture *find_texture(lom_renderer *renderer, const char *path,
     return path == NULL ? NULL : lom_load_texture(renderer, path, color, NULL);
 }
 
-void lom_ground_scale(const struct lom_ground *ground, const double size[2], float scale[2])
+void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_vec3 eye, float scale[2], float shift[2])
 {
-    double columns = ground->columns, rows = ground->rows;
-    scale[0] = (float)(columns / (size[0] * (columns + 1)));
-    scale[1] = (float)(rows / (size[1] * (rows + 1)));
+    const double quads[2] = { ground->columns, ground->rows }, at[2] = { eye.x, eye.z };
+    for (int i = 0; i < 2; i++) {
+        double exact = quads[i] / (size[i] * (quads[i] + 1));
+        scale[i] = (float)exact;
+        shift[i] = (float)(0.5 + at[i] * exact);
+    }
 }
 
-static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, const struct lom_view_uniform *view)
+/* A bound that lies so little beyond a height that this is a step: 1 / it is a float. */
+static const double least_blend = 1e-30;
+
+static struct lom_layer_uniform layer_uniform(lom_renderer *renderer, size_t number, const double eye[3])
 {
     const lom_terrain *t = &renderer->scene->terrain;
-    struct lom_terrain_uniforms u = { .view = *view,
-                                      .surface = renderer->ground.surface,
-                                      .detail_map = find_texture(renderer, t->detail_map, false),
-                                      .normal_map = find_texture(renderer, t->normal_map, false),
-                                      .layer_count = (int)t->layer_count };
-    lom_ground_scale(&renderer->ground, t->size, u.surface_scale);
-    set_scale(u.scale, t->tile, t->size);
-    set_scale(u.detail_scale, t->detail_tile, t->size);
+    const lom_terrain_layer *from = &t->layers[number];
+    const double height = t->base + eye[1];
+    return (struct lom_layer_uniform){ .laid = lay(find_texture(renderer, from->map, true), from->tile, t->size, eye),
+                                       .from_height = (float)(from->from_height - height),
+                                       .to_height = (float)(from->to_height - height),
+                                       .from_slope = (float)from->from_slope,
+                                       .to_slope = (float)from->to_slope,
+                                       .blend = (float)(from->blend > least_blend ? from->blend : least_blend),
+                                       .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f,
+                                       .grain = (float)from->grain / renderer->brightness_below[number],
+                                       .grain_offset = (float)from->grain,
+                                       .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
+}
+
+static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, const struct lom_view_uniform *view,
+                                                    lom_vec3 place)
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    const double eye[3] = { place.x, place.y - t->base, place.z };
+    struct lom_terrain_uniforms u = {
+        .view = *view,
+        .surface = renderer->ground.surface,
+        .base = lay(find_texture(renderer, t->texture, true), t->tile, t->size, eye),
+        .detail = lay(find_texture(renderer, t->detail_map, false), t->detail_tile, t->size, eye),
+        .normals = lay(find_texture(renderer, t->normal_map, false), t->detail_tile, t->size, eye),
+        .layer_count = (int)t->layer_count
+    };
+    lom_map_ground(&renderer->ground, t->size, place, u.surface_scale, u.surface_shift);
     for (int i = 0; i < 3; i++) {
+        u.eye[i] = (float)eye[i];
+        u.eye_rest[i] = (float)(eye[i] - (double)u.eye[i]);
         u.material.ambient[i] = (float)t->material.ambient[i];
         u.material.diffuse[i] = (float)t->material.diffuse[i];
         u.material.specular[i] = (float)t->material.specular[i];
     }
     u.material.shininess = (float)t->material.shininess;
-    u.material.texture = find_texture(renderer, t->texture, true);
-    for (size_t i = 0; i < t->layer_count; i++) {
-        const lom_terrain_layer *from = &t->layers[i];
-        struct lom_layer_uniform *layer = &u.layer[i];
-        *layer = (struct lom_layer_uniform){ .map = find_texture(renderer, from->map, true),
-                                             .from_height = (float)from->from_height,
-                                             .to_height = (float)from->to_height,
-                                             .from_slope = (float)from->from_slope,
-                                             .to_slope = (float)from->to_slope,
-                                             .blend = from->blend > 1e-3 ? (float)from->blend : 1e-3f,
-                                             .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f,
-                                             .grain = (float)from->grain / renderer->brightness_below[i],
-                                             .grain_offset = (float)from->grain,
-                                             .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
-        set_scale(layer->scale, from->tile, t->size);
-    }
+    for (size_t i = 0; i < t->layer_count; i++)
+        u.layer[i] = layer_uniform(renderer, i, eye);
     return u;
 }
 
 void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
-                     bool mirrored)
+                     lom_vec3 eye, bool mirrored)
 {
     const struct lom_ground *ground = &renderer->ground;
     if (ground->blocks == NULL)
         return;
-    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, view);
+    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, view, eye);
     lom_draw_desc draw = { .shader = lom_terrain_shader(renderer->scene->quality.shading),
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,

@@ -26,7 +26,8 @@ static double haze_integral(const lom_haze *haze, double y)
 struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored)
 {
     const lom_haze *haze = &scene->haze;
-    struct lom_haze_uniform u = { .glow_exponent = (float)haze->glow_exponent, .base = (float)haze->base };
+    struct lom_haze_uniform u = { .glow_exponent = (float)haze->glow_exponent,
+                                  .base = (float)(haze->base - eye_height) };
     if (haze->given == 0)
         return u;
     for (int i = 0; i < 3; i++) {
@@ -46,36 +47,79 @@ struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height
     return u;
 }
 
-struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer)
+/* The row of a matrix for offsets that is `row` for places. */
+static void center_row(float out[4], const double row[4], lom_vec3 eye)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)row[i];
+    out[3] = (float)(row[3] + row[0] * eye.x + row[1] * eye.y + row[2] * eye.z);
+}
+
+/* Terrain's shadows are as sharp as the vertices that throw them tell: the edge is as high as a part of the way between
+ * two of them, half a metre where these are 1.6 m apart. */
+static const double shadow_edge = 0.3125;
+
+static void set_ground_light(struct lom_light_uniform *u, const lom_renderer *renderer, lom_vec3 eye)
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    const struct lom_ground *ground = &renderer->ground;
+    u->ground_shadow = ground->shadow;
+    if (ground->shadow == NULL)
+        return;
+    double across = t->size[0] / ground->columns, down = t->size[1] / ground->rows;
+    lom_map_ground(ground, t->size, eye, u->ground_scale, u->ground_shift);
+    u->ground_height = (float)(eye.y - t->base);
+    u->ground_sharpness = (float)(1 / (shadow_edge * (across < down ? across : down)));
+}
+
+struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_vec3 eye)
 {
     struct lom_light_uniform u = lom_scene_light(renderer->scene);
     const struct lom_ground_shadow *shadow = &renderer->ground_shadow;
-    u.ground_shadow = renderer->ground.shadow;
-    lom_ground_scale(&renderer->ground, renderer->scene->terrain.size, u.ground_scale);
+    set_ground_light(&u, renderer, eye);
     if (!shadow->falls)
         return u;
     u.shadow = shadow->texture;
     u.shadow_strength = (float)renderer->scene->clouds.shadow_strength;
-    for (int i = 0; i < 4; i++) {
-        u.shadow_s[i] = shadow->s[i];
-        u.shadow_t[i] = shadow->t[i];
-    }
+    center_row(u.shadow_s, shadow->s, eye);
+    center_row(u.shadow_t, shadow->t, eye);
     return u;
 }
 
-/* The highest value of the clip plane over the box; a margin covers rounding in float. */
-static bool is_behind_plane(const double plane[4], const lom_box *box)
+lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view)
 {
-    double value = plane[3];
-    value += plane[0] * (plane[0] > 0 ? box->high.x : box->low.x);
-    value += plane[1] * (plane[1] > 0 ? box->high.y : box->low.y);
-    value += plane[2] * (plane[2] > 0 ? box->high.z : box->low.z);
-    return value < -1e-3;
+    lom_mat4 turned = *view;
+    for (int i = 0; i < 3; i++)
+        turned.m[i][3] = 0;
+    return lom_multiply(projection, &turned);
+}
+
+static double magnitude(double x)
+{
+    return x < 0 ? -x : x;
+}
+
+/* Whether the highest value of the clip plane over the box, seen from the eye, is below 0 by more than floats round. */
+static bool is_behind_plane(const double plane[4], lom_vec3 eye, const lom_box *box)
+{
+    const double low[3] = { box->low.x, box->low.y, box->low.z }, high[3] = { box->high.x, box->high.y, box->high.z };
+    const double from[3] = { eye.x, eye.y, eye.z };
+    double value = plane[3], size = 0;
+    for (int i = 0; i < 3; i++)
+        value += plane[i] * from[i];
+    size = magnitude(value);
+    for (int i = 0; i < 3; i++) {
+        double term = plane[i] * ((plane[i] > 0 ? high[i] : low[i]) - from[i]);
+        value += term;
+        size += magnitude(term);
+    }
+    return value < -0x1p-20 * size;
 }
 
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box)
 {
-    return lom_box_visibility(&culler->frustum, *box) != LOM_OUTSIDE && !is_behind_plane(culler->plane, box);
+    return lom_box_visibility(&culler->frustum, *box) != LOM_OUTSIDE &&
+           !is_behind_plane(culler->plane, culler->eye, box);
 }
 
 static void set_attributes(lom_draw_desc *draw, const lom_mesh *mesh)
@@ -100,15 +144,22 @@ static bool is_mirroring(const lom_mat4 *m)
 }
 
 static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *entity,
-                        const struct lom_view_uniform *view, bool mirrored)
+                        const struct lom_view_uniform *uniform, const struct lom_scene_view *view)
 {
-    struct lom_entity_uniforms uniforms = { .view = *view,
-                                            .world_from_model = lom_round_matrix(&entity->world_from_model),
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
+    lom_mat4 offset_from_model = entity->world_from_model;
+    offset_from_model.m[0][3] -= view->eye.x;
+    offset_from_model.m[1][3] -= view->eye.y;
+    offset_from_model.m[2][3] -= view->eye.z;
+    lom_mat4 clip_from_model = lom_multiply(&clip_from_offset, &offset_from_model);
+    struct lom_entity_uniforms uniforms = { .view = *uniform,
+                                            .clip_from_model = lom_round_matrix(&clip_from_model),
+                                            .offset_from_model = lom_round_matrix(&offset_from_model),
                                             .normal_from_model = lom_round_matrix(&entity->normal_from_model) };
     lom_draw_desc draw = { .shader = lom_entity_shader(renderer->scene->quality.shading),
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
-                           .front_clockwise = mirrored != is_mirroring(&entity->world_from_model) };
+                           .front_clockwise = view->mirrored != is_mirroring(&entity->world_from_model) };
     set_attributes(&draw, entity->drawn);
     for (size_t i = 0; i < entity->drawn->part_count; i++) {
         uniforms.material = entity->parts[i].material;
@@ -120,31 +171,69 @@ static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *
 
 void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world)
 {
-    struct lom_caster_uniforms uniforms = { lom_round_matrix(clip_from_world),
-                                            lom_round_matrix(&entity->world_from_model) };
+    lom_mat4 clip_from_model = lom_multiply(clip_from_world, &entity->world_from_model);
+    struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_model) };
     lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .count = entity->drawn->index_count };
     set_attributes(&draw, entity->drawn);
     lom_draw(renderer->device, &draw);
+}
+
+static struct lom_shadow_map_uniform shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye)
+{
+    if (!shadow->falls)
+        return (struct lom_shadow_map_uniform){ .map = NULL };
+    const float size = (float)lom_texture_width(shadow->map);
+    struct lom_shadow_map_uniform u = {
+        .map = shadow->map, .size = size, .texel = 1 / size, .offset = (float)(2.5 * shadow->texel)
+    };
+    double s[4], t[4];
+    for (int i = 0; i < 4; i++) {
+        s[i] = shadow->clip_from_world.m[0][i] / 2 + (i == 3 ? 0.5 : 0);
+        t[i] = -shadow->clip_from_world.m[1][i] / 2 + (i == 3 ? 0.5 : 0);
+    }
+    center_row(u.s, s, eye);
+    center_row(u.t, t, eye);
+    center_row(u.depth, shadow->clip_from_world.m[2], eye);
+    return u;
+}
+
+static struct lom_caustics_uniform caustics_uniform(const struct lom_caustics *caustics, lom_vec3 eye)
+{
+    if (caustics->map == NULL)
+        return (struct lom_caustics_uniform){ .map = NULL };
+    return (struct lom_caustics_uniform){ .map = caustics->map,
+                                          .corner = { (float)(caustics->corner[0] - eye.x),
+                                                      (float)(caustics->corner[1] - eye.z) },
+                                          .scale = (float)(1 / caustics->size),
+                                          .level = (float)(caustics->level - eye.y),
+                                          .strength = (float)caustics->strength,
+                                          .fade = (float)(1 / caustics->fade),
+                                          .lod_scale = (float)caustics->lod_scale };
+}
+
+static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
+    struct lom_view_uniform u = { .clip_from_offset = lom_round_matrix(&clip_from_offset),
+                                  .light = lom_renderer_light(renderer, view->eye),
+                                  .haze = lom_scene_haze(renderer->scene, view->eye.y, view->mirrored),
+                                  .caustics = caustics_uniform(&view->caustics, view->eye) };
+    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
+        u.entity_shadow[i] = shadow_uniform(&renderer->entity_shadows[i], view->eye);
+    center_row(u.plane, view->plane, view->eye);
+    return u;
 }
 
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
     const lom_scene *scene = renderer->scene;
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
-    struct lom_view_uniform uniform = { .clip_from_world = lom_round_matrix(&clip_from_world),
-                                        .light = lom_renderer_light(renderer),
-                                        .haze = lom_scene_haze(scene, view->eye.y, view->mirrored),
-                                        .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
-                                        .caustics = view->caustics };
-    struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
-    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
-        uniform.entity_shadow[i] = renderer->entity_shadows[i].uniform;
-    for (int i = 0; i < 4; i++)
-        uniform.plane[i] = (float)view->plane[i];
-    lom_draw_ground(renderer, &culler, &uniform, view->mirrored);
+    struct lom_view_uniform uniform = view_uniform(renderer, view);
+    struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane, view->eye };
+    lom_draw_ground(renderer, &culler, &uniform, view->eye, view->mirrored);
     for (size_t i = 0; i < renderer->entity_count; i++)
         if (!renderer->entities[i].is_hidden && lom_is_visible(&culler, &renderer->entities[i].bounds))
-            draw_entity(renderer, &renderer->entities[i], &uniform, view->mirrored);
+            draw_entity(renderer, &renderer->entities[i], &uniform, view);
     if (view->sky)
         lom_draw_sky(renderer->device, &scene->sky, renderer->sky, uniform.light.to_light, &view->projection,
                      &view->view);
@@ -156,7 +245,7 @@ bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *
 {
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     const struct lom_ground *ground = &renderer->ground;
-    struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane };
+    struct lom_culler culler = { lom_view_frustum(&clip_from_world, false), view->plane, view->eye };
     for (int i = 0; i < ground->across * ground->down; i++)
         if (lom_is_visible(&culler, &ground->blocks[i].bounds))
             return true;

@@ -1,24 +1,23 @@
 /* The shaders of entities: textured meshes with Phong's reflection, at three shading frequencies. */
 #include "render/light.h"
 
-enum { WORLD = 0, NORMAL = 3, UV = 6, COLOR = 8, TEXTURED = 8, HIGHLIGHT = 11 };
+enum { OFFSET = 0, NORMAL = 3, UV = 6, COLOR = 8, TEXTURED = 8, HIGHLIGHT = 11 };
 
 struct corner {
-    lom_float3 world, normal;
+    lom_float3 offset, normal;
 };
 
 static struct corner transform(lom_vertex *out, const lom_attributes *in, const struct lom_entity_uniforms *entity)
 {
     lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
-    struct corner c = { lom_transform3(&entity->world_from_model, model),
+    struct corner c = { lom_transform3(&entity->offset_from_model, model),
                         lom_rotate3(&entity->normal_from_model,
                                     (lom_float3){ in->attribute[1].x, in->attribute[1].y, in->attribute[1].z }) };
-    const float *plane = entity->view.plane;
-    out->position = lom_transform4(&entity->view.clip_from_world, c.world);
-    out->distance[0] = lom_transform_row(plane, c.world);
-    out->varying[WORLD] = c.world.x;
-    out->varying[WORLD + 1] = c.world.y;
-    out->varying[WORLD + 2] = c.world.z;
+    out->position = lom_transform4(&entity->clip_from_model, model);
+    out->distance[0] = lom_transform_row(entity->view.plane, c.offset);
+    out->varying[OFFSET] = c.offset.x;
+    out->varying[OFFSET + 1] = c.offset.y;
+    out->varying[OFFSET + 2] = c.offset.z;
     out->varying[UV] = in->attribute[2].x;
     out->varying[UV + 1] = in->attribute[2].y;
     return c;
@@ -47,7 +46,7 @@ static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *un
     const struct lom_entity_uniforms *entity = uniforms;
     struct corner c = transform(out, in, entity);
     struct lom_lit lit =
-        lom_light_surface(&entity->view, &entity->material, c.world, lom_normalize3(c.normal), lom_splat(1.0f));
+        lom_light_surface(&entity->view, &entity->material, c.offset, lom_normalize3(c.normal), lom_splat(1.0f));
     lom_float3 color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
     store3(out->varying + TEXTURED, lom_mul3(lit.textured, color));
     store3(out->varying + HIGHLIGHT, lit.highlight);
@@ -71,13 +70,14 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
                    lom_float3 textured, lom_float3 highlight)
 {
     lom_float3 color = lom_add3(lom_mul3(textured, albedo(entity, in)), highlight);
-    lom_finish_surface(out, &entity->view, load3(in, WORLD), color);
+    lom_finish_surface(out, &entity->view, load3(in, OFFSET), color);
 }
 
 static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
                   lom_float3 normal)
 {
-    struct lom_lit lit = lom_light_surface(&entity->view, &entity->material, load3(in, WORLD), normal, lom_splat(1.0f));
+    struct lom_lit lit =
+        lom_light_surface(&entity->view, &entity->material, load3(in, OFFSET), normal, lom_splat(1.0f));
     finish(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
 }
 
@@ -88,7 +88,7 @@ static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void
 
 static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    shade(out, in, uniforms, lom_face_normal(in, WORLD, load3(in, NORMAL)));
+    shade(out, in, uniforms, lom_face_normal(in, OFFSET, load3(in, NORMAL)));
 }
 
 static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -99,7 +99,7 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
 LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
            .reads = 0x7ff, .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1, .reads = 0x7ff,
-           .differentiates = 3 << UV | 7 << WORLD, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
+           .differentiates = 3 << UV | 7 << OFFSET, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .varyings = 14, .clip_distances = 1,
-           .reads = 0x3f00 | 3 << UV | 7 << WORLD, .differentiates = 3 << UV, .colors = 1,
+           .reads = 0x3f00 | 3 << UV | 7 << OFFSET, .differentiates = 3 << UV, .colors = 1,
            .uniforms_size = sizeof(struct lom_entity_uniforms))

@@ -6,7 +6,7 @@ static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void 
 {
     const struct lom_caster_uniforms *caster = uniforms;
     lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
-    out->position = lom_transform4(&caster->clip_from_world, lom_transform3(&caster->world_from_model, model));
+    out->position = lom_transform4(&caster->clip_from_model, model);
 }
 
 LOM_DEPTH_SHADER(lom_caster_shader, caster_vertex, .attributes = 1, .uniforms_size = sizeof(struct lom_caster_uniforms))
@@ -35,13 +35,13 @@ static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_floa
     return one - shade;
 }
 
-void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *world, const lom_float3 *normal,
+void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
                                 lom_float *share)
 {
     *share = lom_splat(1.0f);
     for (int i = 0; i < LOM_ENTITY_SHADOWS; i++) {
         const struct lom_shadow_map_uniform *shadow = &view->entity_shadow[i];
         if (shadow->map != NULL)
-            *share = *share * map_light(shadow, lom_add3(*world, lom_scale3(*normal, lom_splat(shadow->offset))));
+            *share = *share * map_light(shadow, lom_add3(*offset, lom_scale3(*normal, lom_splat(shadow->offset))));
     }
 }

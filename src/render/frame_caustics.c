@@ -14,17 +14,17 @@ static bool make_targets(lom_renderer *r, int size)
 }
 
 /* The square that is lit: before the eye, its corner on a whole cell so that cells stand still in the world. */
-static void place_square(const struct frame *f, float corner[2], double cell)
+static void place_square(const struct frame *f, double corner[2], double cell)
 {
     double size = f->scene->water.optics.caustics_size;
     double x = -f->view.view.m[2][0], z = -f->view.view.m[2][2];
     double flat = lom_double_sqrt(x * x + z * z), ahead = 0.42 * size / (flat > 1e-6 ? flat : 1e-6);
     ahead = flat > 0.3 ? ahead : 0;
-    corner[0] = (float)(lom_double_floor((f->view.eye.x + ahead * x - size / 2) / cell) * cell);
-    corner[1] = (float)(lom_double_floor((f->view.eye.z + ahead * z - size / 2) / cell) * cell);
+    corner[0] = lom_double_floor((f->view.eye.x + ahead * x - size / 2) / cell) * cell;
+    corner[1] = lom_double_floor((f->view.eye.z + ahead * z - size / 2) / cell) * cell;
 }
 
-static struct lom_photon_uniforms photon_uniforms(const struct frame *f, double cell)
+static struct lom_photon_uniforms photon_uniforms(const struct frame *f, const double corner[2], double cell)
 {
     const lom_terrain *t = &f->scene->terrain;
     const lom_renderer *r = f->renderer;
@@ -32,14 +32,15 @@ static struct lom_photon_uniforms photon_uniforms(const struct frame *f, double 
                                      .cell = (float)cell,
                                      .eta = (float)(1 / f->scene->water.optics.index),
                                      .bed = r->bed,
-                                     .bed_height = 1 };
+                                     .bed_base = (float)(t->base - f->view.eye.y) };
     struct lom_light_uniform light = lom_scene_light(f->scene);
     const int texels[2] = { lom_texture_width(r->bed), lom_texture_height(r->bed) };
     memcpy(u.to_light, light.to_light, sizeof u.to_light);
-    place_square(f, u.corner, cell);
+    const double eye[2] = { f->view.eye.x, f->view.eye.z };
     for (int i = 0; i < 2; i++) { /* vertices are the texels' centres */
         double step = t->size[i] / (texels[i] - 1);
-        u.bed_corner[i] = (float)(-t->size[i] / 2 - step / 2);
+        u.corner[i] = (float)(corner[i] - eye[i]);
+        u.bed_corner[i] = (float)(-t->size[i] / 2 - step / 2 - eye[i]);
         u.bed_scale[i] = (float)(1 / (step * texels[i]));
     }
     return u;
@@ -97,19 +98,21 @@ bool lom_draw_caustics(struct frame *f, lom_error *error)
         lom_add_step(f, "caustics", false, "%s", reason);
         return true;
     }
-    double cell = optics->caustics_size / optics->caustics_texels;
+    double cell = optics->caustics_size / optics->caustics_texels, corner[2];
     if (!make_targets(f->renderer, optics->caustics_texels))
         return false;
-    struct lom_photon_uniforms u = photon_uniforms(f, cell);
+    place_square(f, corner, cell);
+    struct lom_photon_uniforms u = photon_uniforms(f, corner, cell);
     if (!draw_photons(f, &u) || !gather(f->renderer, error))
         return false;
     double pixel_angle = 2 / f->view.projection.m[1][1] / f->height;
-    f->view.caustics = (struct lom_caustics_uniform){ .map = f->renderer->caustics,
-                                                      .corner = { u.corner[0], u.corner[1] },
-                                                      .scale = (float)(1 / optics->caustics_size),
-                                                      .level = u.waves.level,
-                                                      .strength = (float)optics->caustics,
-                                                      .lod_scale = (float)(1.5 * pixel_angle / cell) };
+    f->view.caustics = (struct lom_caustics){ .map = f->renderer->caustics,
+                                              .corner = { corner[0], corner[1] },
+                                              .size = optics->caustics_size,
+                                              .level = f->scene->water.level,
+                                              .strength = optics->caustics,
+                                              .fade = optics->caustics_size / 150,
+                                              .lod_scale = 1.5 * pixel_angle / cell };
     return true;
 }
 

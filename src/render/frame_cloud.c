@@ -92,12 +92,12 @@ static bool make_shadow_map(lom_renderer *r)
 static void set_rows(struct lom_ground_shadow *shadow, const double plane[4], double y, const double to_light[3])
 {
     for (int a = 0; a < 2; a++) {
-        float *row = a == 0 ? shadow->s : shadow->t;
+        double *row = a == 0 ? shadow->s : shadow->t;
         double slope = to_light[2 * a] / to_light[1];
-        row[0] = a == 0 ? (float)(1 / plane[2]) : 0;
-        row[1] = (float)(-slope / plane[2 + a]);
-        row[2] = a == 1 ? (float)(1 / plane[3]) : 0;
-        row[3] = (float)((slope * y - plane[a]) / plane[2 + a]);
+        row[0] = a == 0 ? 1 / plane[2] : 0;
+        row[1] = -slope / plane[2 + a];
+        row[2] = a == 1 ? 1 / plane[3] : 0;
+        row[3] = (slope * y - plane[a]) / plane[2 + a];
     }
 }
 

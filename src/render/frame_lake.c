@@ -9,13 +9,14 @@
 static lom_lake_view lake_view(const struct frame *f)
 {
     const lom_renderer *r = f->renderer;
-    return (lom_lake_view){ .clip_from_world = lom_multiply(&f->view.projection, &f->view.view),
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
+    return (lom_lake_view){ .clip_from_offset = lom_round_matrix(&clip_from_offset),
                             .eye = f->view.eye,
                             .near_plane = f->camera.near_plane,
                             .time = f->time,
                             .frame_width = f->width,
                             .frame_height = f->height,
-                            .light = lom_renderer_light(r),
+                            .light = lom_renderer_light(r, f->view.eye),
                             .normal_map = r->normal_map,
                             .flow_map = r->flow_map };
 }

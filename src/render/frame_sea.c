@@ -10,7 +10,8 @@
 
 struct sea {
     struct lom_surface_uniforms uniforms;
-    lom_mat4 clip_from_world;
+    lom_mat4 clip_from_offset; /* places less the eye, as everything here */
+    double level, quad[4];
 };
 
 /* World directions of (ndc x, ndc y, 1): the view's rotation of (x / p00, y / p11, -1). */
@@ -60,6 +61,10 @@ static void set_foam(struct lom_foam_uniform *foam, const struct frame *f)
     foam->shore_depth = (float)params->shore_depth;
     foam->inverse_tile = (float)(1 / params->tile);
     foam->move = (float)(move - lom_double_floor(move));
+    const double *middle = f->scene->water.position;
+    const double at[2] = { f->view.eye.x - middle[0], f->view.eye.z - middle[1] };
+    for (int i = 0; i < 2; i++)
+        foam->shift[i] = (float)(at[i] / params->tile - lom_double_floor(at[i] / params->tile));
 }
 
 static void set_optics(struct lom_surface_uniforms *u, const lom_scene *scene)
@@ -76,42 +81,67 @@ static void set_optics(struct lom_surface_uniforms *u, const lom_scene *scene)
     set_medium(&u->medium, scene);
 }
 
+static double farther(double square, lom_vec3 eye, const lom_box *box)
+{
+    const double low[3] = { box->low.x - eye.x, box->low.y - eye.y, box->low.z - eye.z };
+    const double high[3] = { box->high.x - eye.x, box->high.y - eye.y, box->high.z - eye.z };
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        sum += low[i] * low[i] > high[i] * high[i] ? low[i] * low[i] : high[i] * high[i];
+    return sum > square ? sum : square;
+}
+
+/* From the eye to the farthest corner of anything that a ray could meet. */
+static double find_range(const struct frame *f)
+{
+    const lom_renderer *r = f->renderer;
+    double farthest = 0;
+    for (int i = 0; i < r->ground.across * r->ground.down; i++)
+        farthest = farther(farthest, f->view.eye, &r->ground.blocks[i].bounds);
+    for (size_t i = 0; i < r->entity_count; i++)
+        farthest = farther(farthest, f->view.eye, &r->entities[i].bounds);
+    return lom_double_sqrt(farthest);
+}
+
 static void look_at_sea(struct sea *sea, struct frame *f)
 {
     struct lom_surface_uniforms *u = &sea->uniforms;
     const lom_water_params *water = &f->scene->water;
-    sea->clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
-    u->clip_from_world = lom_round_matrix(&sea->clip_from_world);
+    sea->clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
+    u->clip_from_offset = lom_round_matrix(&sea->clip_from_offset);
     set_optics(u, f->scene);
-    u->light = lom_renderer_light(f->renderer);
+    u->light = lom_renderer_light(f->renderer, f->view.eye);
     set_sky(&u->sky, f->renderer);
     set_foam(&u->foam, f);
     set_rays(u->ray, &f->view);
     u->waves = f->waves;
     u->side = f->below ? -1 : 1;
     u->eta = (float)(f->below ? f->scene->water.optics.index : 1 / f->scene->water.optics.index);
-    u->eye[0] = (float)f->view.eye.x;
-    u->eye[1] = (float)f->view.eye.y;
-    u->eye[2] = (float)f->view.eye.z;
+    u->range = (float)find_range(f);
     u->pixel[0] = 1.0f / (float)f->width;
     u->pixel[1] = 1.0f / (float)f->height;
     u->near_plane = (float)f->camera.near_plane;
     u->pixel_angle = (float)(2 / f->view.projection.m[1][1] / f->height);
+    sea->level = water->level - f->view.eye.y;
     for (int i = 0; i < 2; i++) {
-        u->quad[i] = (float)(water->position[i] - water->size[i] / 2);
-        u->quad[2 + i] = (float)(water->position[i] + water->size[i] / 2);
+        double middle = water->position[i] - (i == 0 ? f->view.eye.x : f->view.eye.z);
+        sea->quad[i] = middle - water->size[i] / 2;
+        sea->quad[2 + i] = middle + water->size[i] / 2;
     }
+    for (int i = 0; i < 4; i++)
+        u->quad[i] = (float)sea->quad[i];
 }
 
 /* ---- where it may be seen ---- */
 
-static lom_box slab(const struct lom_surface_uniforms *u, bool flat)
+static lom_box slab(const struct sea *sea, bool flat)
 {
-    double low = (double)u->waves.level + (flat ? 0 : (double)u->waves.lowest);
-    double high = (double)u->waves.level + (flat ? 0 : (double)u->waves.highest);
-    double out = flat ? 0 : (double)u->waves.reach;
-    return (lom_box){ { (double)u->quad[0] - out, low, (double)u->quad[1] - out },
-                      { (double)u->quad[2] + out, high, (double)u->quad[3] + out } };
+    const struct lom_waves_uniform *waves = &sea->uniforms.waves;
+    double low = sea->level + (flat ? 0 : (double)waves->lowest);
+    double high = sea->level + (flat ? 0 : (double)waves->highest);
+    double out = flat ? 0 : (double)waves->reach;
+    return (lom_box){ { sea->quad[0] - out, low, sea->quad[1] - out },
+                      { sea->quad[2] + out, high, sea->quad[3] + out } };
 }
 
 static void draw_bounds(struct sea *sea, lom_device *device, const lom_box *box)
@@ -139,9 +169,9 @@ static void draw_bounds(struct sea *sea, lom_device *device, const lom_box *box)
 static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_error *error)
 {
     lom_renderer *r = f->renderer;
-    lom_box box = slab(&sea->uniforms, flat);
-    double margin = 2 * f->camera.near_plane + 0.01;
-    if (!flat && f->view.eye.y > box.low.y - margin && f->view.eye.y < box.high.y + margin) {
+    lom_box box = slab(sea, flat);
+    double margin = 2.1 * f->camera.near_plane;
+    if (!flat && box.low.y < margin && box.high.y > -margin) {
         lom_add_step(f, "visibility", false, "the eye is among the waves: they may be anywhere");
         f->water = f->crop;
         return true;
@@ -176,16 +206,16 @@ static lom_rect lookups(const struct frame *f, const struct lom_window *window, 
 
 /* The picture's matrix, and where it has the frame's pixels. */
 static void set_picture(struct lom_picture_uniform *out, const struct frame *f, const struct lom_window *window,
-                        const lom_mat4 *clip_from_world, lom_texture *color, lom_texture *depth)
+                        const lom_mat4 *clip_from_offset, lom_texture *color, lom_texture *depth)
 {
     double width = window->high[0] - window->low[0], height = window->high[1] - window->low[1];
-    out->clip_from_world = lom_round_matrix(clip_from_world);
+    out->clip_from_offset = lom_round_matrix(clip_from_offset);
     out->color = color;
     out->depth = depth;
     out->scale[0] = (float)(2 / (width * f->width));
     out->scale[1] = (float)(2 / (height * f->height));
-    out->offset[0] = (float)((-1 - window->low[0]) / width);
-    out->offset[1] = (float)((window->high[1] - 1) / height);
+    out->shift[0] = (float)((-1 - window->low[0]) / width);
+    out->shift[1] = (float)((window->high[1] - 1) / height);
 }
 
 /* Clip coordinates in which the window is what -1..1 was. */
@@ -270,7 +300,8 @@ static bool draw_mirrored(struct sea *sea, struct frame *f)
     }
     lom_step *step =
         lom_add_step(f, "reflection", true, "terrain and entities on the eye's side, mirrored in the level");
-    lom_mat4 clip = lom_multiply(&sea->clip_from_world, &mirror);
+    lom_mat4 mirrored = lom_mirror((lom_vec3){ 0, 1, 0 }, sea->level),
+             clip = lom_multiply(&sea->clip_from_offset, &mirrored);
     set_picture(&sea->uniforms.mirrored, f, &lom_whole_view, &clip, r->reflection, r->reflection_depth);
     return lom_draw_picture(f, step, r->reflection, r->reflection_depth, &view, nothing,
                             lookups(f, &lom_whole_view, r->reflection));
@@ -289,7 +320,7 @@ static bool draw_behind(struct sea *sea, struct frame *f)
         return true;
     }
     lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities behind the surface, with their depth");
-    lom_mat4 clip = lom_multiply(&view.projection, &view.view);
+    lom_mat4 clip = lom_clip_from_offset(&view.projection, &view.view);
     set_picture(&sea->uniforms.behind, f, &window, &clip, r->refraction, r->refraction_depth);
     return lom_draw_picture(f, step, r->refraction, r->refraction_depth, &view, nothing,
                             lookups(f, &window, r->refraction));
@@ -303,13 +334,12 @@ static bool fill_mesh(struct sea *sea, struct frame *f, lom_error *error)
     struct lom_polar_mesh *mesh = &f->renderer->polar;
     struct lom_polar_mesh_desc desc = { .projection = f->view.projection,
                                         .view = f->view.view,
-                                        .eye = f->view.eye,
-                                        .level = f->scene->water.level,
+                                        .level = sea->level,
+                                        .near_plane = f->camera.near_plane,
                                         .lowest = (double)u->waves.lowest,
                                         .highest = (double)u->waves.highest,
                                         .reach = (double)u->waves.reach,
-                                        .quad = { (double)u->quad[0], (double)u->quad[1], (double)u->quad[2],
-                                                  (double)u->quad[3] },
+                                        .quad = { sea->quad[0], sea->quad[1], sea->quad[2], sea->quad[3] },
                                         .cell = f->scene->water.waves.cell,
                                         .pixel_angle = (double)u->pixel_angle };
     if (!lom_fill_polar_mesh(mesh, &desc, error))
@@ -359,7 +389,7 @@ static bool draw_underwater(const struct sea *sea, struct frame *f)
                                              .origin = { (float)f->crop.x, (float)f->crop.y },
                                              .crop_pixel = { 1.0f / (float)f->crop.width,
                                                              1.0f / (float)f->crop.height },
-                                             .depth_of_eye = u->waves.level - u->eye[1],
+                                             .depth_of_eye = (float)sea->level,
                                              .highest = u->waves.highest,
                                              .multiplies = true };
     memcpy(under.ray, u->ray, sizeof under.ray);
@@ -384,8 +414,8 @@ static bool draw_underwater(const struct sea *sea, struct frame *f)
 static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_error *error)
 {
     bool flat = lom_water_models[f->scene->quality.water].form == LOM_SURFACE_QUAD;
-    lom_box box = slab(&sea->uniforms, flat);
-    lom_frustum frustum = lom_view_frustum(&sea->clip_from_world, false);
+    lom_box box = slab(sea, flat);
+    lom_frustum frustum = lom_view_frustum(&sea->clip_from_offset, false);
     f->water = (lom_rect){ 0, 0, 0, 0 };
     *why = "the water is outside the view";
     if (lom_box_visibility(&frustum, box) == LOM_OUTSIDE)

@@ -16,15 +16,6 @@ static lom_mat4 light_from_world(lom_vec3 to_light)
     return lom_look_at(from, to, up);
 }
 
-/* The height of the lowest thing that a shadow could fall on. */
-static double lowest_receiver(const lom_renderer *r)
-{
-    double lowest = r->ground.blocks != NULL ? r->scene->terrain.base : 1e30;
-    for (size_t i = 0; i < r->entity_count; i++)
-        lowest = r->entities[i].bounds.low.y < lowest ? r->entities[i].bounds.low.y : lowest;
-    return lowest;
-}
-
 static double lesser(double a, double b)
 {
     return a < b ? a : b;
@@ -35,17 +26,40 @@ static double greater(double a, double b)
     return a > b ? a : b;
 }
 
-/* All that is between a box and the lowest receiver, away from the sun; at most 10 km of it. */
-static lom_box shadow_volume(lom_box box, lom_vec3 to_light, double lowest)
+static lom_box join(lom_box a, lom_box b)
 {
-    double drop = greater(box.high.y - lowest, 0), length = 1e4;
-    if (drop < length * to_light.y)
-        length = drop / to_light.y;
-    lom_vec3 shift = { -to_light.x * length, -to_light.y * length, -to_light.z * length };
-    return (lom_box){
-        { box.low.x + lesser(shift.x, 0), box.low.y + lesser(shift.y, 0), box.low.z + lesser(shift.z, 0) },
-        { box.high.x + greater(shift.x, 0), box.high.y + greater(shift.y, 0), box.high.z + greater(shift.z, 0) }
-    };
+    return (lom_box){ { lesser(a.low.x, b.low.x), lesser(a.low.y, b.low.y), lesser(a.low.z, b.low.z) },
+                      { greater(a.high.x, b.high.x), greater(a.high.y, b.high.y), greater(a.high.z, b.high.z) } };
+}
+
+/* All that a shadow could fall on. */
+static lom_box find_receivers(const lom_renderer *r)
+{
+    lom_box all = r->entities[0].bounds;
+    for (size_t i = 1; i < r->entity_count; i++)
+        all = join(all, r->entities[i].bounds);
+    for (int i = 0; i < r->ground.across * r->ground.down; i++)
+        all = join(all, r->ground.blocks[i].bounds);
+    return all;
+}
+
+/* How far a range can move by `speed` a metre until it has left another: less than 0: it has. */
+static double way_out(double low, double high, double speed, double from, double to)
+{
+    return speed == 0 ? 1e300 : speed < 0 ? (high - from) / -speed : (to - low) / speed;
+}
+
+/* All that is between a box and the last thing behind it that its shadow could fall on. */
+static lom_box shadow_volume(lom_box box, lom_vec3 to_light, const lom_box *all)
+{
+    double length = way_out(box.low.x, box.high.x, -to_light.x, all->low.x, all->high.x);
+    length = lesser(length, way_out(box.low.y, box.high.y, -to_light.y, all->low.y, all->high.y));
+    length = greater(lesser(length, way_out(box.low.z, box.high.z, -to_light.z, all->low.z, all->high.z)), 0);
+    lom_vec3 low = { box.low.x - to_light.x * length, box.low.y - to_light.y * length,
+                     box.low.z - to_light.z * length };
+    lom_vec3 high = { box.high.x - to_light.x * length, box.high.y - to_light.y * length,
+                      box.high.z - to_light.z * length };
+    return join(box, (lom_box){ low, high });
 }
 
 /* From a point to the nearest one of a box. */
@@ -77,9 +91,10 @@ static struct views find_views(const struct frame *f)
 }
 
 /* Whether an entity's shadow may be seen. */
-static bool casts(const struct lom_loaded_entity *entity, const struct views *views, lom_vec3 to_light, double lowest)
+static bool casts(const struct lom_loaded_entity *entity, const struct views *views, lom_vec3 to_light,
+                  const lom_box *all)
 {
-    lom_box volume = shadow_volume(entity->bounds, to_light, lowest);
+    lom_box volume = shadow_volume(entity->bounds, to_light, all);
     for (int i = 0; i < views->count && !entity->is_hidden; i++)
         if (lom_box_visibility(&views->frustum[i], volume) != LOM_OUTSIDE)
             return true;
@@ -94,14 +109,7 @@ struct casters {
 
 static void add_extent(struct casters *c, lom_box box)
 {
-    if (c->count++ == 0) {
-        c->extent = box;
-        return;
-    }
-    lom_box *e = &c->extent;
-    *e =
-        (lom_box){ { lesser(e->low.x, box.low.x), lesser(e->low.y, box.low.y), lesser(e->low.z, box.low.z) },
-                   { greater(e->high.x, box.high.x), greater(e->high.y, box.high.y), greater(e->high.z, box.high.z) } };
+    c->extent = c->count++ == 0 ? box : join(c->extent, box);
 }
 
 /* Marks what casts with the number of its map: the nearer ones, up to the geometric middle of all distances, and the
@@ -110,11 +118,12 @@ static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *lig
 {
     lom_renderer *r = f->renderer;
     struct views views = find_views(f);
-    double lowest = lowest_receiver(r), nearest = 1e30, farthest = 1;
+    lom_box all = find_receivers(r);
+    double nearest = 1e300, farthest = 0;
     for (size_t i = 0; i < r->entity_count; i++) {
         struct lom_loaded_entity *e = &r->entities[i];
-        e->shadow_map = casts(e, &views, to_light, lowest) ? 0 : -1;
-        double distance = greater(distance_to(f->view.eye, e->bounds), 1);
+        e->shadow_map = casts(e, &views, to_light, &all) ? 0 : -1;
+        double distance = greater(distance_to(f->view.eye, e->bounds), f->camera.near_plane);
         if (e->shadow_map == 0) {
             nearest = lesser(nearest, distance);
             farthest = greater(farthest, distance);
@@ -125,46 +134,43 @@ static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *lig
         struct lom_loaded_entity *e = &r->entities[i];
         if (e->shadow_map < 0)
             continue;
-        e->shadow_map = greater(distance_to(f->view.eye, e->bounds), 1) > middle;
+        e->shadow_map = greater(distance_to(f->view.eye, e->bounds), f->camera.near_plane) > middle;
         add_extent(&casters[e->shadow_map], lom_transform_box(light, e->bounds));
     }
 }
 
-/* A size of texels from a scale of eighths, so that it changes seldom. */
-static double texel_size(double least)
+/* A size of texels, at least `least` above 0, from a scale of eighths of a length of the scene, so that it changes
+ * seldom. */
+static double texel_size(double least, double length)
 {
-    double size = 0.0009765625;
+    double size = length > 0 ? length : least;
     while (size < least)
         size *= 1.125;
+    while (size / 1.125 >= least)
+        size /= 1.125;
     return size;
 }
 
-/* From the world to the map's clip space; depth grows towards the sun. */
-static lom_mat4 map_projection(const lom_box *extent, const lom_mat4 *light, int size, double *texel)
+/* From the world to the map's clip space; depth grows towards the sun. Sizes and places of texels are counted from
+ * those of the first entity, wherever the scene is and whatever its scale. */
+static void project_map(struct lom_entity_shadow *shadow, const lom_box *extent, const lom_mat4 *light, int size,
+                        const struct lom_loaded_entity *first)
 {
     double width = extent->high.x - extent->low.x, height = extent->high.y - extent->low.y;
-    double near = extent->high.z + 1, far = extent->low.z - 1;
-    *texel = texel_size(greater(width, height) / (size - 2 * margin));
-    double x = lom_double_floor((extent->low.x + width / 2) / *texel) * *texel;
-    double y = lom_double_floor((extent->low.y + height / 2) / *texel) * *texel;
-    double half = *texel * size / 2;
+    double least = greater(greater(width, height) / (size - 2 * margin), 1e-30);
+    double texel = texel_size(least, first->home_size);
+    double near = extent->high.z + margin * texel, far = extent->low.z - margin * texel;
+    lom_box from = lom_transform_box(light, (lom_box){ first->home, first->home });
+    double x = from.low.x + lom_double_floor((extent->low.x + width / 2 - from.low.x) / texel) * texel;
+    double y = from.low.y + lom_double_floor((extent->low.y + height / 2 - from.low.y) / texel) * texel;
+    double half = texel * size / 2;
     lom_mat4 square = { { { 1 / half, 0, 0, -x / half },
                           { 0, 1 / half, 0, -y / half },
                           { 0, 0, 1 / (near - far), -far / (near - far) },
                           { 0, 0, 0, 1 } } };
-    return lom_multiply(&square, light);
-}
-
-static void set_uniform(struct lom_entity_shadow *shadow, const lom_mat4 *projection, int size, double texel)
-{
-    struct lom_shadow_map_uniform *u = &shadow->uniform;
-    *u = (struct lom_shadow_map_uniform){ .map = shadow->map, .size = (float)size, .texel = 1 / (float)size };
-    for (int i = 0; i < 4; i++) {
-        u->s[i] = (float)(projection->m[0][i] / 2 + (i == 3 ? 0.5 : 0));
-        u->t[i] = (float)(-projection->m[1][i] / 2 + (i == 3 ? 0.5 : 0));
-        u->depth[i] = (float)projection->m[2][i];
-    }
-    u->offset = (float)(2.5 * texel);
+    shadow->clip_from_world = lom_multiply(&square, light);
+    shadow->texel = texel;
+    shadow->falls = true;
 }
 
 static bool make_map(struct frame *f, struct lom_entity_shadow *shadow, int size)
@@ -198,29 +204,28 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
     struct lom_entity_shadow *shadow = &r->entity_shadows[map];
     int size = f->scene->quality.entity_shadows;
 
+    shadow->falls = false;
     if (casters->count == 0) {
         lom_add_step(f, names[map], false, "no shadow of an entity%s is in view",
                      map == 1 ? " farther than the middle" : "");
         return true;
     }
-    double texel;
-    lom_mat4 projection = map_projection(&casters->extent, light, size, &texel);
     if (!make_map(f, shadow, size))
         return false;
-    set_uniform(shadow, &projection, size, texel);
-    uint64_t hash = hash_casters(r, map, &projection);
+    project_map(shadow, &casters->extent, light, size, &r->entities[0]);
+    uint64_t hash = hash_casters(r, map, &shadow->clip_from_world);
     if (shadow->made_for == hash) {
         lom_add_step(f, names[map], false, "neither the sun nor an entity has moved");
         return true;
     }
     shadow->made_for = hash;
-    lom_step *step =
-        lom_add_step(f, names[map], true, "%zu entities as the sun sees them, %.3g m a texel", casters->count, texel);
+    lom_step *step = lom_add_step(f, names[map], true, "%zu entities as the sun sees them, %.3g m a texel",
+                                  casters->count, shadow->texel);
     step->width = step->height = size;
     lom_begin_pass(r->device, &(lom_pass_desc){ .depth = shadow->map });
     for (size_t i = 0; i < r->entity_count; i++)
         if (r->entities[i].shadow_map == map)
-            lom_draw_caster(r, &r->entities[i], &projection);
+            lom_draw_caster(r, &r->entities[i], &shadow->clip_from_world);
     return lom_end_pass(r->device);
 }
 

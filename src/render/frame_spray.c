@@ -100,15 +100,13 @@ static lom_rect reach_of(const struct frame *f, const struct lom_sprites *sprite
 static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct lom_spray_view *view)
 {
     const lom_renderer *r = f->renderer;
-    struct lom_spray_uniforms u = { .light = lom_renderer_light(r),
+    struct lom_spray_uniforms u = { .light = lom_renderer_light(r, view->eye),
                                     .haze = lom_scene_haze(f->scene, view->eye.y, false),
-                                    .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
                                     .near_plane = (float)view->near_plane,
                                     .origin = { (float)f->crop.x, (float)f->crop.y },
                                     .depth = r->depth,
                                     .sprites = r->spray.sprites[0].middle };
-    lom_mat4 move = lom_translation(view->eye), clip = lom_multiply(&view->projection, &view->view);
-    clip = lom_multiply(&clip, &move);
+    lom_mat4 clip = lom_clip_from_offset(&view->projection, &view->view);
     u.clip_from_offset = lom_round_matrix(&clip);
     return u;
 }

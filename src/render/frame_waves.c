@@ -26,7 +26,7 @@ static bool is_below(const struct frame *f)
 bool lom_place_frame_waves(struct frame *f, lom_error *error)
 {
     f->known = LOM_WAVES_PLACED;
-    return lom_place_waves(f->renderer->waves, &f->waves, f->time, error);
+    return lom_place_waves(f->renderer->waves, &f->waves, f->view.eye, f->time, error);
 }
 
 void lom_report_frame_waves(struct frame *f, enum lom_wave_stage stage, const char *why)
@@ -52,7 +52,7 @@ bool lom_prepare_sea_stage(struct frame *f, lom_error *error)
     if (!lom_has_waves(f))
         return true;
     lom_report_frame_waves(f, LOM_WAVES_AT_FIRST, NULL);
-    lom_bound_waves(f->renderer->waves, &f->waves, f->time);
+    lom_bound_waves(f->renderer->waves, &f->waves, f->view.eye, f->time);
     if (lom_waves_advance(f->renderer->waves) && !is_below(f))
         return true;
     if (!lom_place_frame_waves(f, error))

@@ -1,5 +1,7 @@
 /* Terrain as it is drawn: square blocks of the height map's grid, each held at several levels of detail, and one
- * texture with what the surface's light needs. */
+ * texture with what the surface's light needs.
+ *
+ * Invariant: floats count heights from the terrain's base, wherever in the world it is. */
 #ifndef LOM_RENDER_GROUND_H
 #define LOM_RENDER_GROUND_H
 
@@ -16,8 +18,8 @@ enum {
 enum { LOM_EDGE_LEFT = 1, LOM_EDGE_RIGHT = 2, LOM_EDGE_TOP = 4, LOM_EDGE_BOTTOM = 8 };
 
 struct lom_ground_block {
-    int columns, rows; /* quads at level 0 */
-    lom_box bounds;
+    int columns, rows;               /* quads at level 0 */
+    lom_box bounds;                  /* in the world */
     size_t first[LOM_GROUND_LEVELS]; /* its vertices at each level in lom_ground.position, row by row */
     float error[LOM_GROUND_LEVELS];  /* metres that the level's surface is off level 0 at most */
 };
@@ -33,12 +35,12 @@ struct lom_ground {
     int across, down;  /* blocks */
     int columns, rows; /* quads of the whole grid */
     struct lom_ground_block *blocks;
-    float (*position)[3];
+    float (*position)[3]; /* from the middle of the base */
     size_t position_count;
-    float *heights; /* of all vertices, (columns + 1) x (rows + 1) */
+    float *heights; /* of all vertices over the base, (columns + 1) x (rows + 1) */
     /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
     lom_texture *surface;
-    lom_texture *shadow;    /* a texel a vertex: the height up to which terrain keeps the sun off; or NULL */
+    lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
     lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
@@ -54,8 +56,9 @@ struct lom_ground {
  * failure; freed with lom_free_ground. */
 bool lom_load_ground(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map,
                      const lom_quality *quality, lom_device *device, lom_error *error);
-/* Texture coordinates of the textures with a texel a vertex are 0.5 + (x, z) scale. */
-void lom_ground_scale(const struct lom_ground *ground, const double size[2], float scale[2]);
+/* Texture coordinates of the textures with a texel a vertex are (x, z) scale + shift for places less the eye. */
+void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_vec3 eye, float scale[2],
+                    float shift[2]);
 void lom_free_ground(struct lom_ground *ground);
 
 /* The share of the sky (0..1, weighted by the cosine to the vertical) that each vertex sees over the heights around

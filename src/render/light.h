@@ -12,36 +12,36 @@ struct lom_lit {
 };
 
 /* The share of the sunlight that entities let through to a place with this normal (entity_shadow.wide.c). */
-void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *world, const lom_float3 *normal,
+void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
                                 lom_float *share);
 
 /* sky: the share of the sky that the place sees. One function a width, so that no shader has a copy. */
 void LOM_WIDE(lom_light_surface_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                       const lom_float3 *world, const lom_float3 *normal, const lom_float *sky,
+                                       const lom_float3 *offset, const lom_float3 *normal, const lom_float *sky,
                                        struct lom_lit *lit);
 
 LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                            lom_float3 world, lom_float3 normal, lom_float sky)
+                                            lom_float3 offset, lom_float3 normal, lom_float sky)
 {
     struct lom_lit lit;
-    LOM_WIDE(lom_light_surface_lanes)(view, m, &world, &normal, &sky, &lit);
+    LOM_WIDE(lom_light_surface_lanes)(view, m, &offset, &normal, &sky, &lit);
     return lit;
 }
 
-/* The colour of a fragment at a place of the world. */
-LOM_INLINE void lom_finish_surface(lom_fragment *out, const struct lom_view_uniform *view, lom_float3 world,
+/* The colour of a fragment at an offset from the eye. */
+LOM_INLINE void lom_finish_surface(lom_fragment *out, const struct lom_view_uniform *view, lom_float3 offset,
                                    lom_float3 color)
 {
-    color = lom_apply_haze(&view->haze, view->light.to_light, view->eye, world, color);
+    color = lom_apply_haze(&view->haze, view->light.to_light, offset, color);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
 
-/* The face's normal towards the eye, from the derivatives of the world position: d/dy x d/dx on a screen whose y points
+/* The face's normal towards the eye, from the derivatives of its offset: d/dy x d/dx on a screen whose y points
  * down, turned to the side of the interpolated normal. */
-LOM_INLINE lom_float3 lom_face_normal(const lom_varyings *in, int world, lom_float3 normal)
+LOM_INLINE lom_float3 lom_face_normal(const lom_varyings *in, int offset, lom_float3 normal)
 {
-    lom_float3 dx = { lom_dx(in, world), lom_dx(in, world + 1), lom_dx(in, world + 2) };
-    lom_float3 dy = { lom_dy(in, world), lom_dy(in, world + 1), lom_dy(in, world + 2) };
+    lom_float3 dx = { lom_dx(in, offset), lom_dx(in, offset + 1), lom_dx(in, offset + 2) };
+    lom_float3 dy = { lom_dy(in, offset), lom_dy(in, offset + 1), lom_dy(in, offset + 2) };
     lom_float3 face = lom_normalize3(lom_cross3(dy, dx));
     lom_float side = lom_select(lom_dot3(face, normal) < 0.0f, lom_splat(-1.0f), lom_splat(1.0f));
     return lom_scale3(face, side);

@@ -12,6 +12,7 @@ struct loader {
     float *x;          /* of the columns */
     float *z;          /* of the rows */
     double spacing[2]; /* metres between columns and between rows */
+    double base;
 };
 
 static void take_row(void *context, int row, const lom_mesh_vertex *vertices)
@@ -128,8 +129,9 @@ static void find_bounds(const struct place *p, lom_box *box)
             low = y < low ? y : low;
             high = y > high ? y : high;
         }
-    box->low = (lom_vec3){ (double)p->loader->x[p->x0], (double)low, (double)p->loader->z[p->y0] };
-    box->high = (lom_vec3){ (double)p->loader->x[p->x0 + p->block->columns], (double)high,
+    double base = p->loader->base;
+    box->low = (lom_vec3){ (double)p->loader->x[p->x0], base + (double)low, (double)p->loader->z[p->y0] };
+    box->high = (lom_vec3){ (double)p->loader->x[p->x0 + p->block->columns], base + (double)high,
                             (double)p->loader->z[p->y0 + p->block->rows] };
 }
 
@@ -199,12 +201,13 @@ bool lom_load_ground(struct lom_ground *ground, const lom_terrain *t, const lom_
     ground->heights = lom_allocate(vertices, sizeof(float), error);
     struct loader loader = { .ground = ground,
                              .width = map->width,
+                             .base = t->base,
                              .spacing = { t->size[0] / ground->columns, t->size[1] / ground->rows },
                              .surface = lom_allocate(vertices, 4 * sizeof(float), error),
                              .x = lom_allocate((size_t)map->width, sizeof(float), error),
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
     bool done = ground->heights != NULL && loader.surface != NULL && loader.x != NULL && loader.z != NULL &&
-                lom_visit_terrain(map, t->size[0], t->size[1], t->height, t->base, take_row, &loader, error) &&
+                lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
                 lay_out(ground, error);
     if (done)
         fill_blocks(&loader);

@@ -109,10 +109,12 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
     const struct lom_ground *ground = &renderer->ground;
     if (scene->water.given == 0 || !lom_water_models[scene->quality.water].has_waves)
         return true;
-    renderer->wave_site = lom_scene_wave_site(
-        scene,
-        &(struct lom_bed){
-            ground->heights, ground->columns, ground->rows, { scene->terrain.size[0], scene->terrain.size[1] } });
+    renderer->wave_site =
+        lom_scene_wave_site(scene, &(struct lom_bed){ ground->heights,
+                                                      ground->columns,
+                                                      ground->rows,
+                                                      { scene->terrain.size[0], scene->terrain.size[1] },
+                                                      scene->terrain.base });
     const struct lom_wave_source source = { &renderer->wave_site, renderer->normal_map, renderer->device };
     if (!load_foam(renderer, error))
         return false;
@@ -235,6 +237,10 @@ static bool load_entity(lom_renderer *renderer, const lom_entity *entity, const 
         position.y += lom_terrain_height(ground, t->size[0], t->size[1], t->height, t->base, position.x, position.z);
     if (!place(loaded, position, entity->rotation))
         return lom_fail(error, LOM_ERROR_INPUT, "%s: an entity's scale makes its matrix singular.", entity->mesh);
+    const lom_vec3 sides = lom_vec3_subtract(loaded->bounds.high, loaded->bounds.low);
+    const double flat = sides.x > sides.z ? sides.x : sides.z;
+    loaded->home = position;
+    loaded->home_size = sides.y > flat ? sides.y : flat;
     const lom_camera *camera = &renderer->scene->camera;
     loaded->is_hidden = camera->person == LOM_PERSON_FIRST && camera->followed != 0 &&
                         entity == &renderer->scene->entities[camera->followed - 1];

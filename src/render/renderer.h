@@ -32,23 +32,27 @@ struct lom_loaded_entity {
     const lom_mesh *drawn;
     struct lom_loaded_part *parts;
     lom_mat4 world_from_model, normal_from_model;
-    lom_box bounds; /* in the world */
-    bool is_hidden; /* the camera is in it */
-    int shadow_map; /* that it is drawn into in this frame; -1: none */
+    lom_box bounds;   /* in the world */
+    lom_vec3 home;    /* where it was put, before it moves, */
+    double home_size; /* and the longest side of its bounds there */
+    bool is_hidden;   /* the camera is in it */
+    int shadow_map;   /* that it is drawn into in this frame; -1: none */
 };
 
 /* What clouds let through of the sun, over a plane: the shadows that fall on the ground and the water. */
 struct lom_ground_shadow {
     lom_texture *texture;
-    bool falls;       /* on something, in this frame */
-    float s[4], t[4]; /* texture coordinates of a place (x, y, z, 1) */
+    bool falls;        /* on something, in this frame */
+    double s[4], t[4]; /* texture coordinates of a place (x, y, z, 1) */
     uint64_t made_for;
 };
 
 /* A map of what entities keep the sun off. */
 struct lom_entity_shadow {
     lom_texture *map;
-    struct lom_shadow_map_uniform uniform; /* of this frame */
+    bool falls; /* on something, in this frame */
+    lom_mat4 clip_from_world;
+    double texel; /* metres */
     uint64_t made_for;
 };
 
@@ -144,6 +148,14 @@ bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error);
 void lom_free_scene_clouds(lom_renderer *renderer);
 void lom_free_impostors(lom_renderer *renderer); /* their textures are the device's */
 
+/* The light that the water's waves focus on what is below its level, over a square of x and z. */
+struct lom_caustics {
+    const lom_texture *map; /* NULL: none */
+    double corner[2], size, level;
+    double strength, fade; /* metres below the level over which they appear */
+    double lod_scale;      /* texels of the map a pixel covers, per metre of distance */
+};
+
 /* How a pass looks at the scene. */
 struct lom_scene_view {
     lom_mat4 projection, view;
@@ -151,17 +163,18 @@ struct lom_scene_view {
     double plane[4]; /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
     bool mirrored;   /* front faces are clockwise */
     bool sky;
-    struct lom_caustics_uniform caustics;
+    struct lom_caustics caustics;
 };
 
 /* What a pass can show of a box. */
 struct lom_culler {
     lom_frustum frustum;
     const double *plane; /* of the view */
+    lom_vec3 eye;
 };
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
 void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
-                     bool mirrored);
+                     lom_vec3 eye, bool mirrored);
 /* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
  * nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
@@ -170,9 +183,12 @@ void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *ent
 /* Whether any of it but the sky would be drawn. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
-/* The same with the shadows of clouds that the frame has made. */
-struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer);
-/* The haze for an eye at this height; mirrored: the eye below the water's plane from which its reflection is drawn. */
+/* The same for places less the eye, with the shadows of clouds and terrain that the frame has made. */
+struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_vec3 eye);
+/* From places less the eye to clip space: the view's rotation alone, since it takes the eye to 0. */
+lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view);
+/* The haze for places less an eye at this height; mirrored: the eye below the water's plane from which its reflection
+ * is drawn. */
 struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored);
 /* The bytes of those targets that every frame has, and of the picture: no more than they will take. */
 uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int target_width, int target_height);

@@ -2,7 +2,7 @@
  * three shading frequencies. A layer that no fragment of a packet shows is not sampled. */
 #include "render/light.h"
 
-enum { WORLD = 0, TEXTURED = 3, HIGHLIGHT = 6 };
+enum { OFFSET = 0, TEXTURED = 3, HIGHLIGHT = 6 };
 
 /* What the surface texture says of a place. */
 struct ground {
@@ -11,21 +11,24 @@ struct ground {
     lom_float sky;   /* the visible share of it */
 };
 
+/* Vertices are places over the terrain's base. What the eye's float leaves of it is taken away last: near the eye the
+ * first difference is exact (Sterbenz 1974), so terrain of any size is as sharp as a small one. */
 static lom_float3 transform(lom_vertex *out, const lom_attributes *in, const struct lom_terrain_uniforms *terrain)
 {
-    lom_float3 world = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
-    out->position = lom_transform4(&terrain->view.clip_from_world, world);
-    out->distance[0] = lom_transform_row(terrain->view.plane, world);
-    out->varying[WORLD] = world.x;
-    out->varying[WORLD + 1] = world.y;
-    out->varying[WORLD + 2] = world.z;
-    return world;
+    lom_float3 place = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
+    lom_float3 offset = lom_sub3(lom_sub3(place, lom_uniform3(terrain->eye)), lom_uniform3(terrain->eye_rest));
+    out->position = lom_transform4(&terrain->view.clip_from_offset, offset);
+    out->distance[0] = lom_transform_row(terrain->view.plane, offset);
+    out->varying[OFFSET] = offset.x;
+    out->varying[OFFSET + 1] = offset.y;
+    out->varying[OFFSET + 2] = offset.z;
+    return offset;
 }
 
-static struct ground look_up(const struct lom_terrain_uniforms *terrain, lom_float3 world, lom_float lod)
+static struct ground look_up(const struct lom_terrain_uniforms *terrain, lom_float3 offset, lom_float lod)
 {
-    lom_float4 texel = lom_sample(terrain->surface, 0.5f + world.x * terrain->surface_scale[0],
-                                  0.5f + world.z * terrain->surface_scale[1], lod);
+    lom_float4 texel = lom_sample(terrain->surface, offset.x * terrain->surface_scale[0] + terrain->surface_shift[0],
+                                  offset.z * terrain->surface_scale[1] + terrain->surface_shift[1], lod);
     struct ground g = { .normal = lom_normalize3((lom_float3){ texel.x, texel.y, texel.z }), .sky = texel.w };
     g.slope = lom_acos(lom_clamp(g.normal.y, lom_splat(-1.0f), lom_splat(1.0f)));
     return g;
@@ -39,9 +42,9 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
 static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_terrain_uniforms *terrain = uniforms;
-    lom_float3 world = transform(out, in, terrain);
-    struct ground g = look_up(terrain, world, (lom_float){ 0 });
-    struct lom_lit lit = lom_light_surface(&terrain->view, &terrain->material, world, g.normal, g.sky);
+    lom_float3 offset = transform(out, in, terrain);
+    struct ground g = look_up(terrain, offset, (lom_float){ 0 });
+    struct lom_lit lit = lom_light_surface(&terrain->view, &terrain->material, offset, g.normal, g.sky);
     out->varying[TEXTURED] = lit.textured.x;
     out->varying[TEXTURED + 1] = lit.textured.y;
     out->varying[TEXTURED + 2] = lit.textured.z;
@@ -58,40 +61,34 @@ LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
 static struct ground look_up_fragment(const struct lom_terrain_uniforms *terrain, const lom_varyings *in)
 {
     const float *scale = terrain->surface_scale;
-    lom_float lod = lom_lod_of(terrain->surface, lom_dx(in, WORLD) * scale[0], lom_dx(in, WORLD + 2) * scale[1],
-                               lom_dy(in, WORLD) * scale[0], lom_dy(in, WORLD + 2) * scale[1]);
-    return look_up(terrain, load3(in, WORLD), lod);
+    lom_float lod = lom_lod_of(terrain->surface, lom_dx(in, OFFSET) * scale[0], lom_dx(in, OFFSET + 2) * scale[1],
+                               lom_dy(in, OFFSET) * scale[0], lom_dy(in, OFFSET + 2) * scale[1]);
+    return look_up(terrain, load3(in, OFFSET), lod);
 }
 
-/* A map laid over two axes of the world, scale repetitions a metre. */
-static lom_float4 sample_plane(const lom_texture *map, const lom_varyings *in, int s, int t, float s_scale,
-                               float t_scale)
+/* A map as it lies on a side: from above x runs right and z down. */
+static lom_float4 sample_side(const struct lom_laid_uniform *laid, const lom_varyings *in, int side)
 {
-    lom_float lod = lom_lod_of(map, lom_dx(in, s) * s_scale, lom_dx(in, t) * t_scale, lom_dy(in, s) * s_scale,
-                               lom_dy(in, t) * t_scale);
-    return lom_sample(map, in->varying[s] * s_scale, in->varying[t] * t_scale, lod);
-}
-
-/* From above: x runs right and z down. */
-static lom_float4 sample_ground(const lom_texture *map, const lom_varyings *in, const float scale[2])
-{
-    return sample_plane(map, in, WORLD, WORLD + 2, scale[0], scale[1]);
+    const float *scale = laid->scale[side], *shift = laid->shift[side];
+    int s = side == LOM_SIDE_X ? OFFSET + 2 : OFFSET, t = side == LOM_SIDE_ABOVE ? OFFSET + 2 : OFFSET + 1;
+    lom_float lod = lom_lod_of(laid->map, lom_dx(in, s) * scale[0], lom_dx(in, t) * scale[1], lom_dy(in, s) * scale[0],
+                               lom_dy(in, t) * scale[1]);
+    return lom_sample(laid->map, in->varying[s] * scale[0] + shift[0], in->varying[t] * scale[1] + shift[1], lod);
 }
 
 /* From the three sides, mixed by how much the surface faces each: the squares of the normal's components, of which
  * those below a fifth count nothing. So nearly every packet takes one or two samples, and no wall is stretched. */
-static lom_float4 sample_sides(const lom_texture *map, const lom_varyings *in, const float scale[2], lom_float3 normal)
+static lom_float4 sample_sides(const struct lom_laid_uniform *laid, const lom_varyings *in, lom_float3 normal)
 {
     lom_float3 square = lom_mul3(normal, normal);
     lom_float share[3] = { lom_max(square.x - 0.2f, (lom_float){ 0 }), lom_max(square.y - 0.2f, (lom_float){ 0 }),
                            lom_max(square.z - 0.2f, (lom_float){ 0 }) };
     lom_float inverse = 1.0f / (share[0] + share[1] + share[2]);
     lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
-    for (int side = 0; side < 3; side++) {
+    for (int side = 0; side < LOM_SIDES; side++) {
         if (!lom_any(share[side] > 0.0f))
             continue;
-        int s = side == 0 ? WORLD + 2 : WORLD, t = side == 1 ? WORLD + 2 : WORLD + 1;
-        lom_float4 texel = sample_plane(map, in, s, t, scale[0], side == 1 ? scale[1] : -scale[1]);
+        lom_float4 texel = sample_side(laid, in, side);
         lom_float weight = share[side] * inverse;
         sum.x += texel.x * weight;
         sum.y += texel.y * weight;
@@ -118,24 +115,24 @@ LOM_INLINE lom_float ragged(const struct lom_layer_uniform *layer, lom_float wei
 static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
 {
     lom_float3 color = lom_splat3(1, 1, 1);
-    if (terrain->material.texture != NULL) {
-        lom_float4 texel = sample_ground(terrain->material.texture, in, terrain->scale);
+    if (terrain->base.map != NULL) {
+        lom_float4 texel = sample_side(&terrain->base, in, LOM_SIDE_ABOVE);
         color = (lom_float3){ texel.x, texel.y, texel.z };
     }
     for (int i = 0; i < terrain->layer_count; i++) {
         const struct lom_layer_uniform *layer = &terrain->layer[i];
-        lom_float weight = range_weight(in->varying[WORLD + 1], layer->from_height, layer->to_height, layer->blend) *
+        lom_float weight = range_weight(in->varying[OFFSET + 1], layer->from_height, layer->to_height, layer->blend) *
                            range_weight(g->slope, layer->from_slope, layer->to_slope, layer->slope_blend);
         if (!lom_any(weight > 0.0f))
             continue;
         if (layer->grain != 0)
             weight = ragged(layer, weight, color);
-        lom_float4 texel = layer->triplanar ? sample_sides(layer->map, in, layer->scale, g->normal)
-                                            : sample_ground(layer->map, in, layer->scale);
+        lom_float4 texel = layer->triplanar ? sample_sides(&layer->laid, in, g->normal)
+                                            : sample_side(&layer->laid, in, LOM_SIDE_ABOVE);
         color = lom_mix3(color, (lom_float3){ texel.x, texel.y, texel.z }, weight);
     }
-    if (terrain->detail_map != NULL) {
-        lom_float4 detail = sample_ground(terrain->detail_map, in, terrain->detail_scale);
+    if (terrain->detail.map != NULL) {
+        lom_float4 detail = sample_side(&terrain->detail, in, LOM_SIDE_ABOVE);
         color = lom_mul3(color, (lom_float3){ 2.0f * detail.x, 2.0f * detail.y, 2.0f * detail.z });
     }
     return color;
@@ -144,9 +141,9 @@ static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_v
 /* The normal map's z points up the surface, its x and y along the ground's x and z. */
 static lom_float3 perturb(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, lom_float3 normal)
 {
-    if (terrain->normal_map == NULL)
+    if (terrain->normals.map == NULL)
         return normal;
-    lom_float4 texel = sample_ground(terrain->normal_map, in, terrain->detail_scale);
+    lom_float4 texel = sample_side(&terrain->normals, in, LOM_SIDE_ABOVE);
     lom_float3 bump = { texel.x * 2.0f - 1.0f, { 0 }, texel.y * 2.0f - 1.0f };
     return lom_normalize3(lom_add3(lom_scale3(normal, texel.z * 2.0f - 1.0f), bump));
 }
@@ -155,7 +152,7 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_t
                    struct lom_lit lit, const struct ground *g)
 {
     lom_float3 color = lom_add3(lom_mul3(lit.textured, albedo(terrain, in, g)), lit.highlight);
-    lom_finish_surface(out, &terrain->view, load3(in, WORLD), color);
+    lom_finish_surface(out, &terrain->view, load3(in, OFFSET), color);
 }
 
 static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -163,7 +160,7 @@ static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void
     const struct lom_terrain_uniforms *terrain = uniforms;
     struct ground g = look_up_fragment(terrain, in);
     lom_float3 normal = perturb(terrain, in, g.normal);
-    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, WORLD), normal, g.sky),
+    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, OFFSET), normal, g.sky),
            &g);
 }
 
@@ -171,8 +168,8 @@ static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void 
 {
     const struct lom_terrain_uniforms *terrain = uniforms;
     struct ground g = look_up_fragment(terrain, in);
-    lom_float3 normal = lom_face_normal(in, WORLD, g.normal);
-    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, WORLD), normal, g.sky),
+    lom_float3 normal = lom_face_normal(in, OFFSET, g.normal);
+    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, OFFSET), normal, g.sky),
            &g);
 }
 
@@ -184,11 +181,11 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
 }
 
 LOM_SHADER(lom_terrain_phong, vertex, phong_fragment, .attributes = 1, .varyings = 3, .clip_distances = 1,
-           .reads = 7 << WORLD, .differentiates = 7 << WORLD, .colors = 1,
+           .reads = 7 << OFFSET, .differentiates = 7 << OFFSET, .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
 LOM_SHADER(lom_terrain_flat, vertex, flat_fragment, .attributes = 1, .varyings = 3, .clip_distances = 1,
-           .reads = 7 << WORLD, .differentiates = 7 << WORLD, .colors = 1,
+           .reads = 7 << OFFSET, .differentiates = 7 << OFFSET, .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
 LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 1, .varyings = 9, .clip_distances = 1,
-           .reads = 0x1ff, .differentiates = 7 << WORLD, .colors = 1,
+           .reads = 0x1ff, .differentiates = 7 << OFFSET, .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))

@@ -19,6 +19,7 @@ struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, const struct lo
                                    .surf = &scene->surf,
                                    .shallow = &scene->shallow,
                                    .level = water->level,
+                                   .middle = { water->position[0], water->position[1] },
                                    .size = { water->size[0], water->size[1] },
                                    .tile = water->tile,
                                    .ripple_up = water->normal_up,

@@ -15,49 +15,47 @@ struct lom_haze_uniform {
     float color[3];       /* light that the air scatters towards the eye where nothing is seen through it */
     float glow[3];        /* what is added to it towards the sun */
     float glow_exponent;  /* on the cosine to the sun */
-    float base;           /* metres */
+    float base;           /* metres over the eye */
     float inverse_height; /* 1 / m; 0: the same at every height */
     float height;         /* metres */
     float start;          /* G at the eye, or what stands for it in a mirrored view */
     bool on, gray;        /* gray: one density for all colours */
 };
 
-/* G(y) / 1 m: y - base below the base, height (1 - exp(-(y - base) / height)) above. */
+/* G(y) / 1 m, y over the eye: y - base below the base, height (1 - exp(-(y - base) / height)) above. */
 LOM_INLINE lom_float lom_haze_integral(const struct lom_haze_uniform *haze, lom_float y)
 {
     lom_float above = lom_max(y - haze->base, (lom_float){ 0 }), below = lom_min(y - haze->base, (lom_float){ 0 });
     return below + haze->height * (1.0f - lom_exp(-above * haze->inverse_height));
 }
 
-/* The mean of the profile over the path from the eye to a surface at height y. Where the path is nearly level the
+/* The mean of the profile over the path from the eye to a surface that much higher. Where the path is nearly level the
  * quotient loses its digits, and the profile at the middle is within (rise / height)^2 / 24 of the mean. */
-LOM_INLINE lom_float lom_haze_mean(const struct lom_haze_uniform *haze, lom_float eye, lom_float y)
+LOM_INLINE lom_float lom_haze_mean(const struct lom_haze_uniform *haze, lom_float rise)
 {
     if (haze->inverse_height == 0)
         return lom_splat(1.0f);
-    lom_float rise = y - eye;
     lom_mask level = lom_abs(rise) < haze->height * 0x1p-9f;
-    lom_float quotient = (lom_haze_integral(haze, y) - haze->start) / lom_select(level, lom_splat(1.0f), rise);
-    lom_float middle = lom_max(0.5f * (y + eye) - haze->base, (lom_float){ 0 });
+    lom_float quotient = (lom_haze_integral(haze, rise) - haze->start) / lom_select(level, lom_splat(1.0f), rise);
+    lom_float middle = lom_max(0.5f * rise - haze->base, (lom_float){ 0 });
     return lom_select(level, lom_exp(-middle * haze->inverse_height), quotient);
 }
 
-/* A colour at a place as the eye sees it: color T + air (1 - T), T = exp(-optical depth). */
-LOM_INLINE lom_float3 lom_apply_haze(const struct lom_haze_uniform *haze, const float to_light[3], const float eye[3],
-                                     lom_float3 world, lom_float3 color)
+/* A colour at the end of a path from the eye as it sees it: color T + air (1 - T), T = exp(-optical depth). */
+LOM_INLINE lom_float3 lom_apply_haze(const struct lom_haze_uniform *haze, const float to_light[3], lom_float3 path,
+                                     lom_float3 color)
 {
     if (!haze->on)
         return color;
-    lom_float3 path = lom_sub3(world, lom_uniform3(eye));
     lom_float length = lom_sqrt(lom_dot3(path, path));
-    lom_float amount = length * lom_haze_mean(haze, lom_splat(eye[1]), world.y);
+    lom_float amount = length * lom_haze_mean(haze, path.y);
     lom_float3 clear;
     clear.x = lom_exp(-amount * haze->density[0]);
     clear.y = haze->gray ? clear.x : lom_exp(-amount * haze->density[1]);
     clear.z = haze->gray ? clear.x : lom_exp(-amount * haze->density[2]);
     lom_float3 air = lom_uniform3(haze->color);
     if (haze->glow[0] != 0 || haze->glow[1] != 0 || haze->glow[2] != 0) {
-        lom_float cosine = lom_dot3(path, lom_uniform3(to_light)) / lom_max(length, lom_splat(1e-6f));
+        lom_float cosine = lom_dot3(path, lom_uniform3(to_light)) / lom_max(length, lom_splat(1e-30f));
         lom_float towards = lom_clamp(cosine, lom_splat(1e-6f), lom_splat(1.0f));
         air = lom_add3(air, lom_scale3(lom_uniform3(haze->glow), lom_pow(towards, lom_splat(haze->glow_exponent))));
     }

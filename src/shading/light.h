@@ -1,5 +1,8 @@
 /* Light for the shaders of every model layer: what a directional light is, how much of it reaches a place, and what a
- * surface sends back of it (Phong 1975). */
+ * surface sends back of it (Phong 1975).
+ *
+ * Invariant: a place of the world is an offset in shaders: the place less the eye, or less an origin near it. Uniforms
+ * that turn offsets into anything else are formed in double, so that a float never holds a place itself. */
 #ifndef LOM_SHADING_LIGHT_H
 #define LOM_SHADING_LIGHT_H
 
@@ -13,32 +16,35 @@ struct lom_light_uniform {
     float ground[3];  /* ambient light on what faces down */
     /* what clouds let through, by where the light that passes a place meets a plane; NULL: all of it */
     const lom_texture *shadow;
-    float shadow_s[4], shadow_t[4]; /* rows: texture coordinates of a place (x, y, z, 1) */
+    float shadow_s[4], shadow_t[4]; /* rows: texture coordinates of an offset (x, y, z, 1) */
     float shadow_strength;
-    /* up to which height (metres) terrain keeps the light off, over x and z; NULL: nowhere */
+    /* up to which height over the terrain's base it keeps the light off, over x and z; NULL: nowhere */
     const lom_texture *ground_shadow;
-    float ground_scale[2]; /* its coordinates are 0.5 + (x, z) ground_scale */
+    float ground_scale[2], ground_shift[2]; /* its coordinates are (x, z) ground_scale + ground_shift */
+    float ground_height;                    /* of the offsets' origin over the base, metres */
+    float ground_sharpness;                 /* 1 / metres from dark to light */
 };
 
-/* The share of the light that passes terrain: from none half a metre below the shadow's height to all above it. */
-LOM_INLINE lom_float lom_ground_light(const struct lom_light_uniform *light, lom_float3 world)
+/* The share of the light that passes terrain: all above the shadow's height, none so far below it as the edge is high.
+ */
+LOM_INLINE lom_float lom_ground_light(const struct lom_light_uniform *light, lom_float3 offset)
 {
     if (light->ground_shadow == NULL)
         return lom_splat(1.0f);
-    lom_float height = lom_sample(light->ground_shadow, 0.5f + world.x * light->ground_scale[0],
-                                  0.5f + world.z * light->ground_scale[1], (lom_float){ 0 })
+    lom_float height = lom_sample(light->ground_shadow, offset.x * light->ground_scale[0] + light->ground_shift[0],
+                                  offset.z * light->ground_scale[1] + light->ground_shift[1], (lom_float){ 0 })
                            .x;
-    return lom_saturate(1.0f + (world.y - height) * 2.0f);
+    return lom_saturate(1.0f + (offset.y + light->ground_height - height) * light->ground_sharpness);
 }
 
 /* The share of the light that clouds and terrain let through to a place. */
-LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_float3 world)
+LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_float3 offset)
 {
-    lom_float share = lom_ground_light(light, world);
+    lom_float share = lom_ground_light(light, offset);
     if (light->shadow == NULL)
         return share;
-    lom_float through = lom_sample(light->shadow, lom_transform_row(light->shadow_s, world),
-                                   lom_transform_row(light->shadow_t, world), (lom_float){ 0 })
+    lom_float through = lom_sample(light->shadow, lom_transform_row(light->shadow_s, offset),
+                                   lom_transform_row(light->shadow_t, offset), (lom_float){ 0 })
                             .x;
     return share * (1.0f - light->shadow_strength * (1.0f - through));
 }

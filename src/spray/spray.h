@@ -23,7 +23,6 @@ struct lom_spray_uniforms {
     struct lom_matrix_uniform clip_from_offset; /* of a place less the eye */
     struct lom_light_uniform light;
     struct lom_haze_uniform haze;
-    float eye[3];
     float near_plane;
     float origin[2];          /* the frame's pixel that the depth's pixel (0, 0) is */
     const lom_texture *depth; /* of the scene; reversed, infinite */

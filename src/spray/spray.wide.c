@@ -22,13 +22,12 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     lom_float3 middle = gather3(u->sprites, at + MEMBER(middle));
     lom_float3 corner = lom_add3(middle, lom_scale3(gather3(u->sprites, at + MEMBER(across)), s));
     corner = lom_add3(corner, lom_scale3(gather3(u->sprites, at + MEMBER(along)), t));
-    lom_float3 world = lom_add3(middle, lom_uniform3(u->eye));
-    lom_float share = lom_gather(u->sprites, at + MEMBER(sun)) * lom_light_share(&u->light, world);
+    lom_float share = lom_gather(u->sprites, at + MEMBER(sun)) * lom_light_share(&u->light, middle);
     lom_float3 around =
         lom_scale3(lom_add3(lom_uniform3(u->light.ambient), lom_uniform3(u->light.ground)), lom_splat(0.5f));
     lom_float3 light = lom_add3(around, lom_scale3(lom_uniform3(u->light.color), share));
     light = lom_mul3(light, gather3(u->sprites, at + MEMBER(color)));
-    light = lom_apply_haze(&u->haze, u->light.to_light, u->eye, world, light);
+    light = lom_apply_haze(&u->haze, u->light.to_light, middle, light);
     out->position = lom_transform4(&u->clip_from_offset, corner);
     out->varying[S] = s;
     out->varying[T] = t;

@@ -8,10 +8,10 @@
 
 struct lom_photon_uniforms {
     struct lom_waves_uniform waves;
-    float corner[2], cell; /* x and z of the square's corner, metres a texel */
+    float corner[2], cell; /* x and z of the square's corner less the eye, metres a texel */
     float to_light[3], eta;
-    const lom_texture *bed; /* heights over the terrain's rectangle, in parts of bed_height above bed_base */
-    float bed_corner[2], bed_scale[2], bed_height, bed_base;
+    const lom_texture *bed;                      /* heights over bed_base and the terrain's rectangle */
+    float bed_corner[2], bed_scale[2], bed_base; /* less the eye */
 };
 
 /* A texel for each cell: where its light lands, in texels from the corner, and how much it carries, in parts of what a

@@ -13,7 +13,7 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
 static lom_float bed_at(const struct lom_photon_uniforms *u, lom_float x, lom_float z)
 {
     lom_float s = (x - u->bed_corner[0]) * u->bed_scale[0], t = (z - u->bed_corner[1]) * u->bed_scale[1];
-    return u->bed_base + u->bed_height * lom_sample(u->bed, s, t, (lom_float){ 0 }).x;
+    return u->bed_base + lom_sample(u->bed, s, t, (lom_float){ 0 }).x;
 }
 
 /* A cell of rest area A covers J A of the level, J the Jacobian of the displacement, and takes n.l / n_y of the sun's

@@ -2,6 +2,9 @@
  * a scale of (1,0,0) (0,0,0) (1,0,1) (0,0,1). */
 #include "water/lake.h"
 
+/* Lookups are displaced, and highlights seen, in full from this many depths of the soft shore on. */
+static const double clear_share = 10. / 3;
+
 static void set_vector(float out[3], const double in[3])
 {
     for (int i = 0; i < 3; i++)
@@ -11,12 +14,14 @@ static void set_vector(float out[3], const double in[3])
 static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, const lom_lake_view *view)
 {
     double moved = view->time * water->flow_speed;
+    double x = (view->eye.x - water->position[0]) / water->tile, z = (view->eye.z - water->position[1]) / water->tile;
 
     struct lom_lake_uniforms u = { .light = view->light,
-                                   .eye = { (float)view->eye.x, (float)view->eye.y, (float)view->eye.z },
-                                   .level = (float)water->level,
+                                   .clip_from_offset = view->clip_from_offset,
+                                   .level = (float)(water->level - view->eye.y),
                                    .pixel = { 1.0f / (float)view->frame_width, 1.0f / (float)view->frame_height },
                                    .tile = (float)(1 / water->tile),
+                                   .shift = { (float)(x - lom_double_floor(x)), (float)(z - lom_double_floor(z)) },
                                    .move = (float)(moved - lom_double_floor(moved)),
                                    .near_plane = (float)view->near_plane,
                                    .flow_strength = (float)water->flow_strength,
@@ -27,10 +32,11 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
                                    .specular_strength = (float)water->specular_strength,
                                    .tint_amount = (float)water->tint_amount,
                                    .shore_depth = (float)water->shore_depth,
+                                   .inverse_clear = (float)(1 / (clear_share * water->shore_depth)),
                                    .opacity = (float)water->optics.opacity,
-                                   .quad = { (float)(water->position[0] - water->size[0] / 2),
-                                             (float)(water->position[1] - water->size[1] / 2), (float)water->size[0],
-                                             (float)water->size[1] },
+                                   .quad = { (float)(water->position[0] - water->size[0] / 2 - view->eye.x),
+                                             (float)(water->position[1] - water->size[1] / 2 - view->eye.z),
+                                             (float)water->size[0], (float)water->size[1] },
                                    .reflection = view->reflection,
                                    .refraction = view->refraction,
                                    .refraction_depth = view->refraction_depth,
@@ -45,7 +51,6 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
                                    .has_specular = water->specular,
                                    .has_tint = water->tint,
                                    .has_soft_shore = water->soft_shore && view->refraction_depth != NULL };
-    u.clip_from_world = lom_round_matrix(&view->clip_from_world);
     set_vector(u.color, water->color);
     set_vector(u.tint_color, water->tint_color);
     return u;

@@ -8,17 +8,19 @@
 #include <lom/water.h>
 
 struct lom_lake_uniforms {
-    struct lom_matrix_uniform clip_from_world;
+    struct lom_matrix_uniform clip_from_offset;
     struct lom_light_uniform light;
-    float eye[3], level;
+    float level;    /* metres over the eye */
     float pixel[2]; /* 1 / size of the whole frame */
     float tile;     /* 1 / metres of one repetition of the maps */
+    float shift[2]; /* their coordinates at the eye, less whole repetitions */
     float move;     /* repetitions the maps have moved, in [0, 1) */
     float near_plane;
     float flow_strength, normal_up, reflectivity, fresnel_power;
     float shininess, specular_strength, tint_amount, shore_depth, opacity;
+    float inverse_clear; /* 1 / metres of water from which lookups are displaced and highlights seen in full */
     float color[3], tint_color[3];
-    float quad[4]; /* x, z of the quad's corner and its extent */
+    float quad[4]; /* x, z of the quad's corner less the eye, and its extent */
     const lom_texture *reflection, *refraction, *refraction_depth, *normal_map, *flow_map;
     /* the steps that are switched on */
     bool has_reflection, has_refraction, has_projection, has_flow, has_normals, has_fresnel, has_specular, has_tint,
@@ -30,7 +32,7 @@ extern const lom_shader lom_lake_shader, lom_lake_mask_shader, lom_lake_tinted_s
 
 /* What a pass of the lake needs besides its parameters. */
 typedef struct lom_lake_view {
-    lom_mat4 clip_from_world;
+    struct lom_matrix_uniform clip_from_offset;
     lom_vec3 eye;
     double near_plane, time;
     int frame_width, frame_height;

@@ -2,18 +2,21 @@
  * the scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
 #include "water/lake.h"
 
-enum { WORLD_X, WORLD_Y, WORLD_Z };
+enum { X, Y, Z };
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_lake_uniforms *lake = uniforms;
     lom_float u = lom_to_float(in->vertex & 1), v = lom_to_float(in->vertex >> 1);
-    lom_float3 world = { lake->quad[0] + u * lake->quad[2], lom_splat(lake->level), lake->quad[1] + v * lake->quad[3] };
-    out->position = lom_transform4(&lake->clip_from_world, world);
-    out->varying[WORLD_X] = world.x;
-    out->varying[WORLD_Y] = world.y;
-    out->varying[WORLD_Z] = world.z;
+    lom_float3 offset = { lake->quad[0] + u * lake->quad[2], lom_splat(lake->level),
+                          lake->quad[1] + v * lake->quad[3] };
+    out->position = lom_transform4(&lake->clip_from_offset, offset);
+    out->varying[X] = offset.x;
+    out->varying[Y] = offset.y;
+    out->varying[Z] = offset.z;
 }
+
+static const float endless = 1e30f; /* metres */
 
 struct surface {
     lom_float s, t;    /* where the pictures are looked up */
@@ -23,22 +26,22 @@ struct surface {
 };
 
 /* Depth of the water straight down, from the refraction's depth picture: with reversed infinite depth near / z is the
- * distance along the view axis, and the point below lies on the fragment's own ray. */
+ * distance along the view axis, and the point below lies on the fragment's own ray. Where nothing is seen below, z is
+ * 0, and the water has no end. */
 static lom_float water_depth(const struct lom_lake_uniforms *lake, const lom_varyings *in)
 {
     lom_float stored = lom_sample_depth(lake->refraction_depth, in->x * lake->pixel[0], in->y * lake->pixel[1]);
-    lom_float distance = lake->near_plane / lom_max(stored, lom_splat(1e-6f));
-    lom_float drop = (lake->eye[1] - in->varying[WORLD_Y]) * (distance / in->w - 1.0f);
-    return lom_max(drop, (lom_float){ 0 });
+    lom_float beyond = lake->near_plane / (stored * in->w) - 1.0f;
+    return lom_select(stored > 0.0f, lom_max(-in->varying[Y] * beyond, (lom_float){ 0 }), lom_splat(endless));
 }
 
 /* Steps 4 and 5: the flow map, read where it has drifted to, displaces the maps' coordinates and the lookups; the
  * normal map has y and z swapped because the surface faces up, and its up component is scaled (3 in the reference). */
 static void perturb(const struct lom_lake_uniforms *lake, const lom_varyings *in, struct surface *w)
 {
-    lom_float u = in->varying[WORLD_X] * lake->tile, v = in->varying[WORLD_Z] * lake->tile;
-    lom_float ux = lom_dx(in, WORLD_X) * lake->tile, vx = lom_dx(in, WORLD_Z) * lake->tile;
-    lom_float uy = lom_dy(in, WORLD_X) * lake->tile, vy = lom_dy(in, WORLD_Z) * lake->tile;
+    lom_float u = in->varying[X] * lake->tile + lake->shift[0], v = in->varying[Z] * lake->tile + lake->shift[1];
+    lom_float ux = lom_dx(in, X) * lake->tile, vx = lom_dx(in, Z) * lake->tile;
+    lom_float uy = lom_dy(in, X) * lake->tile, vy = lom_dy(in, Z) * lake->tile;
     w->offset_s = w->offset_t = (lom_float){ 0 };
     if (lake->has_flow) {
         lom_float lod = lom_lod_of(lake->flow_map, ux, vx, uy, vy);
@@ -64,10 +67,10 @@ static void place_lookups(const struct lom_lake_uniforms *lake, const lom_varyin
         w->s = in->x * lake->pixel[0];
         w->t = in->y * lake->pixel[1];
     } else {
-        w->s = (in->varying[WORLD_X] - lake->quad[0]) / lake->quad[2];
-        w->t = (in->varying[WORLD_Z] - lake->quad[1]) / lake->quad[3];
+        w->s = (in->varying[X] - lake->quad[0]) / lake->quad[2];
+        w->t = (in->varying[Z] - lake->quad[1]) / lake->quad[3];
     }
-    lom_float fade = lom_saturate(w->depth * 0.5f);
+    lom_float fade = lom_saturate(w->depth * lake->inverse_clear);
     w->s = lom_clamp(w->s + w->offset_s * fade, (lom_float){ 0 }, lom_splat(1.0f));
     w->t = lom_clamp(w->t + w->offset_t * fade, (lom_float){ 0 }, lom_splat(1.0f));
 }
@@ -93,9 +96,9 @@ static lom_float transmitted_share(const struct lom_lake_uniforms *lake, lom_flo
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_lake_uniforms *lake = uniforms;
-    lom_float3 world = { in->varying[WORLD_X], in->varying[WORLD_Y], in->varying[WORLD_Z] };
-    lom_float3 to_eye = lom_normalize3(lom_sub3(lom_uniform3(lake->eye), world));
-    struct surface w = { .depth = lom_splat(1e9f) };
+    lom_float3 offset = { in->varying[X], in->varying[Y], in->varying[Z] };
+    lom_float3 to_eye = lom_normalize3(lom_scale3(offset, lom_splat(-1.0f)));
+    struct surface w = { .depth = lom_splat(endless) };
     if (lake->refraction_depth != NULL)
         w.depth = water_depth(lake, in);
     perturb(lake, in, &w);
@@ -107,8 +110,8 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
         color = lom_mix3(color, lom_uniform3(lake->tint_color), lom_splat(lake->tint_amount));
     if (lake->has_specular) {
         lom_float highlight =
-            lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess) * lom_light_share(&lake->light, world);
-        highlight = highlight * lake->specular_strength * lom_saturate(w.depth * 0.5f);
+            lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess) * lom_light_share(&lake->light, offset);
+        highlight = highlight * lake->specular_strength * lom_saturate(w.depth * lake->inverse_clear);
         color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
     }
     lom_float alpha = lake->has_soft_shore ? lom_saturate(w.depth / lake->shore_depth) : lom_splat(1.0f);

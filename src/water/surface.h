@@ -10,11 +10,11 @@
 
 #include <lom/geometry.h>
 
-/* A picture of the scene with its depth: where a point of the world is in it, and what stands there. It need not show
- * what the frame does: the frame's pixel (x, y) is at (x scale[0] + offset[0], y scale[1] + offset[1]). */
+/* A picture of the scene with its depth: where an offset from the eye is in it, and what stands there. It need not show
+ * what the frame does: the frame's pixel (x, y) is at (x scale[0] + shift[0], y scale[1] + shift[1]). */
 struct lom_picture_uniform {
-    struct lom_matrix_uniform clip_from_world;
-    float scale[2], offset[2];
+    struct lom_matrix_uniform clip_from_offset;
+    float scale[2], shift[2];
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
 };
 
@@ -38,6 +38,7 @@ struct lom_sky_uniform {
 struct lom_foam_uniform {
     const lom_texture *pattern; /* NULL: none */
     float amount, shore_depth, inverse_tile, move;
+    float shift[2]; /* the pattern's coordinates at the eye, less whole repetitions */
 };
 
 /* The mesh: vertex (ring, column) is at apex + radius[ring] (cosine[column], sine[column]), moved into the quad. */
@@ -47,8 +48,9 @@ struct lom_polar_mesh_uniform {
     float apex[2];
 };
 
+/* Places are offsets from the eye. */
 struct lom_surface_uniforms {
-    struct lom_matrix_uniform clip_from_world;
+    struct lom_matrix_uniform clip_from_offset;
     struct lom_waves_uniform waves;
     struct lom_light_uniform light;
     struct lom_picture_uniform mirrored; /* what the surface reflects: the side of the eye, mirrored in the plane */
@@ -57,13 +59,13 @@ struct lom_surface_uniforms {
     struct lom_sky_uniform sky;
     struct lom_foam_uniform foam;
     struct lom_polar_mesh_uniform mesh;
-    float eye[3];
     float side;     /* 1: the eye is above the surface, -1: below */
     float pixel[2]; /* 1 / size of the whole frame */
     float near_plane;
     float ray[3][3]; /* world direction of (ndc x, ndc y, 1), its length along the view axis 1 */
     float pixel_angle;
-    float eta; /* index of the eye's side over that of the other */
+    float eta;   /* index of the eye's side over that of the other */
+    float range; /* metres from the eye within which all of the scene is */
     float roughness, glitter, reach;
     float quad[4]; /* x and z of two corners */
     int fresnel;   /* lom_fresnel */
@@ -72,16 +74,16 @@ struct lom_surface_uniforms {
 };
 
 extern const lom_shader lom_surface_flat_shader, lom_surface_displaced_shader, lom_surface_marched_shader;
-/* Attribute 0 is a point of the world, the colour 1: where the surface may be. */
+/* Attribute 0 is an offset from the eye, the colour 1: where the surface may be. */
 extern const lom_shader lom_surface_bounds_shader;
 
 /* What a polar mesh is made for. */
 struct lom_polar_mesh_desc {
     lom_mat4 projection, view;
-    lom_vec3 eye;
-    double level, lowest, highest, reach; /* of the surface, metres */
-    double quad[4];
-    double cell, pixel_angle; /* pixels between vertices, and radians a pixel */
+    double level, lowest, highest, reach; /* of the surface: y at rest less the eye's; metres */
+    double quad[4];                       /* less the eye */
+    double near_plane;                    /* metres */
+    double cell, pixel_angle;             /* pixels between vertices, and radians a pixel */
 };
 
 /* Rings about a point behind the eye, from below it to the far corner of the quad, in the sector that the view can see.
@@ -89,7 +91,7 @@ struct lom_polar_mesh_desc {
  * where rings may be further apart. One connected mesh: there is no seam to stitch. */
 struct lom_polar_mesh {
     int rings, columns;
-    double apex[2];
+    double apex[2];                          /* less the eye */
     float *radius, *spacing, *cosine, *sine; /* parts of one array */
     uint32_t *indices;
     size_t index_count;

@@ -2,7 +2,7 @@
  * surface, opaque: what is seen through it is part of it. */
 #include "water/surface_light.h"
 
-enum { WORLD = 0, REST_X = 3, REST_Z = 4 };
+enum { OFFSET = 0, REST_X = 3, REST_Z = 4 };
 
 static void store3(lom_float *varying, lom_float3 v)
 {
@@ -26,19 +26,19 @@ static void flat_vertex(lom_vertex *out, const lom_attributes *in, const void *u
 {
     const struct lom_surface_uniforms *u = uniforms;
     lom_mask right = (in->vertex & 1) != 0, low = (in->vertex & 2) != 0;
-    lom_float3 world = { lom_select(right, lom_splat(u->quad[2]), lom_splat(u->quad[0])), lom_splat(u->waves.level),
-                         lom_select(low, lom_splat(u->quad[3]), lom_splat(u->quad[1])) };
-    out->position = lom_transform4(&u->clip_from_world, world);
-    store3(out->varying + WORLD, world);
+    lom_float3 offset = { lom_select(right, lom_splat(u->quad[2]), lom_splat(u->quad[0])), lom_splat(u->waves.level),
+                          lom_select(low, lom_splat(u->quad[3]), lom_splat(u->quad[1])) };
+    out->position = lom_transform4(&u->clip_from_offset, offset);
+    store3(out->varying + OFFSET, offset);
 }
 
 static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_surface_uniforms *u = uniforms;
     struct lom_surface_point p = { .x = in->x, .y = in->y, .w = in->w };
-    struct lom_footprint f = { lom_dx(in, WORLD), lom_dx(in, WORLD + 2), lom_dy(in, WORLD), lom_dy(in, WORLD + 2) };
-    p.world = (lom_float3){ in->varying[WORLD], in->varying[WORLD + 1], in->varying[WORLD + 2] };
-    shade(out, u, &p, p.world.x, p.world.z, &f);
+    struct lom_footprint f = { lom_dx(in, OFFSET), lom_dx(in, OFFSET + 2), lom_dy(in, OFFSET), lom_dy(in, OFFSET + 2) };
+    p.offset = (lom_float3){ in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
+    shade(out, u, &p, p.offset.x, p.offset.z, &f);
 }
 
 /* ---- a mesh ---- */
@@ -55,9 +55,9 @@ static void displaced_vertex(lom_vertex *out, const lom_attributes *in, const vo
     z = lom_clamp(z, lom_splat(u->quad[1]), lom_splat(u->quad[3]));
     struct lom_footprint f = { spacing, { 0 }, { 0 }, spacing };
     struct lom_wave_shift shift = lom_displace(&u->waves, x, z, &f);
-    lom_float3 world = { x + shift.dx, u->waves.level + shift.h, z + shift.dz };
-    out->position = lom_transform4(&u->clip_from_world, world);
-    store3(out->varying + WORLD, world);
+    lom_float3 offset = { x + shift.dx, u->waves.level + shift.h, z + shift.dz };
+    out->position = lom_transform4(&u->clip_from_offset, offset);
+    store3(out->varying + OFFSET, offset);
     out->varying[REST_X] = x;
     out->varying[REST_Z] = z;
 }
@@ -67,7 +67,7 @@ static void displaced_fragment(lom_fragment *out, const lom_varyings *in, const 
     const struct lom_surface_uniforms *u = uniforms;
     struct lom_surface_point p = { .x = in->x, .y = in->y, .w = in->w };
     struct lom_footprint f = { lom_dx(in, REST_X), lom_dx(in, REST_Z), lom_dy(in, REST_X), lom_dy(in, REST_Z) };
-    p.world = (lom_float3){ in->varying[WORLD], in->varying[WORLD + 1], in->varying[WORLD + 2] };
+    p.offset = (lom_float3){ in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
     shade(out, u, &p, in->varying[REST_X], in->varying[REST_Z], &f);
 }
 
@@ -90,15 +90,15 @@ static lom_float3 pixel_ray(const struct lom_surface_uniforms *u, lom_float x, l
                          a * u->ray[2][0] + b * u->ray[2][1] + u->ray[2][2] };
 }
 
-/* Narrows [from, to] to where origin + t direction is in [low, high]; a ray that does not move is in or out for good.
+/* Narrows [from, to] to where t direction is in [low, high]; a ray that does not move is in or out for good.
  */
-static void cut_range(float origin, lom_float direction, float low, float high, lom_float *from, lom_float *to)
+static void cut_range(lom_float direction, float low, float high, lom_float *from, lom_float *to)
 {
     lom_mask moves = lom_abs(direction) > 1e-12f;
     lom_float inverse = 1.0f / lom_select(moves, direction, lom_splat(1.0f));
-    lom_float a = (low - origin) * inverse, b = (high - origin) * inverse;
+    lom_float a = low * inverse, b = high * inverse;
     lom_float nearer = lom_min(a, b), further = lom_max(a, b);
-    lom_float never = lom_splat(origin >= low && origin <= high ? 1e30f : -1e30f);
+    lom_float never = lom_splat(low <= 0 && high >= 0 ? 1e30f : -1e30f);
     *from = lom_max(*from, lom_select(moves, nearer, (lom_float){ 0 }));
     *to = lom_min(*to, lom_select(moves, further, never));
 }
@@ -128,18 +128,18 @@ static lom_float height_over(const struct lom_surface_uniforms *u, lom_float3 po
 static struct meeting meet_surface(const struct lom_surface_uniforms *u, lom_float3 d)
 {
     lom_float from = lom_splat(u->near_plane), to = lom_splat(1e30f);
-    cut_range(u->eye[1], d.y, u->waves.level + u->waves.lowest - 1e-3f, u->waves.level + u->waves.highest + 1e-3f,
-              &from, &to);
-    cut_range(u->eye[0], d.x, u->quad[0], u->quad[2], &from, &to);
-    cut_range(u->eye[2], d.z, u->quad[1], u->quad[3], &from, &to);
+    const float level = u->waves.level, low = level + u->waves.lowest, high = level + u->waves.highest;
+    const float margin = 1e-3f * (u->waves.highest - u->waves.lowest) + 1e-5f * (level < 0 ? -level : level);
+    cut_range(d.y, low - margin, high + margin, &from, &to);
+    cut_range(d.x, u->quad[0], u->quad[2], &from, &to);
+    cut_range(d.z, u->quad[1], u->quad[3], &from, &to);
     struct meeting m = { { 0 }, from, { 0 }, { 0 } };
     lom_mask going = from < to;
     lom_float before = from, flat = lom_sqrt(d.x * d.x + d.z * d.z);
     lom_float2 shift = { { 0 }, { 0 } };
-    lom_float3 eye = lom_uniform3(u->eye);
     for (int i = 0; i < u->surface_steps && lom_any(going); i++) {
         lom_float size = m.t * u->pixel_angle;
-        lom_float gap = u->side * height_over(u, lom_add3(eye, lom_scale3(d, m.t)), size, going, &shift);
+        lom_float gap = u->side * height_over(u, lom_scale3(d, m.t), size, going, &shift);
         lom_mask behind = going & (gap < 0.0f);
         m.found = m.found | behind;
         going = going & ~behind;
@@ -149,16 +149,15 @@ static struct meeting meet_surface(const struct lom_surface_uniforms *u, lom_flo
         going = going & (before < to);
     }
     m.found = m.found | going; /* a ray along the surface: it is there within what its steps can tell */
-    lom_float low = before, high = m.t;
+    lom_float near = before, far = m.t;
     for (int i = 0; i < 5; i++) {
-        lom_float middle = 0.5f * (low + high);
-        lom_float gap =
-            u->side * height_over(u, lom_add3(eye, lom_scale3(d, middle)), middle * u->pixel_angle, m.found, &shift);
-        high = lom_select(gap < 0.0f, middle, high);
-        low = lom_select(gap < 0.0f, low, middle);
+        lom_float middle = 0.5f * (near + far);
+        lom_float gap = u->side * height_over(u, lom_scale3(d, middle), middle * u->pixel_angle, m.found, &shift);
+        far = lom_select(gap < 0.0f, middle, far);
+        near = lom_select(gap < 0.0f, near, middle);
     }
-    m.t = high;
-    lom_float3 point = lom_add3(eye, lom_scale3(d, m.t));
+    m.t = far;
+    lom_float3 point = lom_scale3(d, m.t);
     height_over(u, point, m.t * u->pixel_angle, m.found, &shift);
     m.rest_x = point.x - shift.x;
     m.rest_z = point.z - shift.y;
@@ -170,12 +169,11 @@ static struct meeting meet_surface(const struct lom_surface_uniforms *u, lom_flo
 static void neighbour(const struct lom_surface_uniforms *u, lom_float3 point, lom_float t, lom_float3 d, lom_float *x,
                       lom_float *z)
 {
-    lom_float drop = point.y - u->eye[1];
-    lom_mask meets = drop * d.y > 0.0f;
+    lom_mask meets = point.y * d.y > 0.0f;
     lom_float most = t * 16.0f * u->pixel_angle;
-    lom_float at = lom_select(meets, drop / lom_select(meets, d.y, lom_splat(1.0f)), t + most);
-    *x = lom_clamp(u->eye[0] + d.x * at - point.x, -most, most);
-    *z = lom_clamp(u->eye[2] + d.z * at - point.z, -most, most);
+    lom_float at = lom_select(meets, point.y / lom_select(meets, d.y, lom_splat(1.0f)), t + most);
+    *x = lom_clamp(d.x * at - point.x, -most, most);
+    *z = lom_clamp(d.z * at - point.z, -most, most);
 }
 
 static void marched_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -186,10 +184,10 @@ static void marched_fragment(lom_fragment *out, const lom_varyings *in, const vo
     out->discard = ~m.found;
     out->depth = u->near_plane / m.t;
     struct lom_surface_point p = { .x = in->x, .y = in->y, .w = m.t };
-    p.world = lom_add3(lom_uniform3(u->eye), lom_scale3(d, m.t));
+    p.offset = lom_scale3(d, m.t);
     struct lom_footprint f;
-    neighbour(u, p.world, m.t, pixel_ray(u, in->x + 1.0f, in->y), &f.ax, &f.az);
-    neighbour(u, p.world, m.t, pixel_ray(u, in->x, in->y + 1.0f), &f.bx, &f.bz);
+    neighbour(u, p.offset, m.t, pixel_ray(u, in->x + 1.0f, in->y), &f.ax, &f.az);
+    neighbour(u, p.offset, m.t, pixel_ray(u, in->x, in->y + 1.0f), &f.bx, &f.bz);
     shade(out, u, &p, m.rest_x, m.rest_z, &f);
 }
 
@@ -198,8 +196,8 @@ static void marched_fragment(lom_fragment *out, const lom_varyings *in, const vo
 static void bounds_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_surface_uniforms *u = uniforms;
-    lom_float3 world = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
-    out->position = lom_transform4(&u->clip_from_world, world);
+    lom_float3 offset = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
+    out->position = lom_transform4(&u->clip_from_offset, offset);
 }
 
 static void bounds_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)

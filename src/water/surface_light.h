@@ -14,7 +14,7 @@
 
 struct lom_surface_point {
     lom_float x, y, w;  /* window position and clip w */
-    lom_float3 world;   /* on the surface */
+    lom_float3 offset;  /* on the surface */
     lom_float3 to_eye;  /* unit length */
     lom_float distance; /* to the eye */
     lom_float3 normal;  /* mean, upwards */
@@ -55,22 +55,27 @@ struct lom_lookup {
 
 LOM_INLINE struct lom_lookup lom_project_point(const struct lom_picture_uniform *picture, lom_float3 p)
 {
-    lom_float4 c = lom_transform4(&picture->clip_from_world, p);
-    lom_float w = lom_max(c.w, lom_splat(1e-6f)), half = lom_splat(0.5f) / w;
+    lom_float4 c = lom_transform4(&picture->clip_from_offset, p);
+    lom_float w = lom_max(c.w, lom_splat(1e-25f)), half = lom_splat(0.5f) / w;
     return (struct lom_lookup){ 0.5f + c.x * half, 0.5f - c.y * half, c.w };
 }
+
+/* The least depth that a float holds in full, less than that of any place: it stands for none. */
+static const float nothing_there = 0x1p-100f;
+/* As long as no ray of a scene is. */
+static const float endless = 0x1p100f;
 
 /* The clip w of what a picture shows at (s, t): with reversed infinite depth near / z; huge where there is nothing. */
 LOM_INLINE lom_float lom_picture_w(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                    lom_float s, lom_float t)
 {
-    return u->near_plane / lom_max(lom_sample_depth(picture->depth, s, t), lom_splat(1e-12f));
+    return u->near_plane / lom_max(lom_sample_depth(picture->depth, s, t), lom_splat(nothing_there));
 }
 
 /* Where the picture shows what the fragment hides. */
 LOM_INLINE lom_float2 lom_own_place(const struct lom_picture_uniform *picture, const struct lom_surface_point *p)
 {
-    return (lom_float2){ p->x * picture->scale[0] + picture->offset[0], p->y * picture->scale[1] + picture->offset[1] };
+    return (lom_float2){ p->x * picture->scale[0] + picture->shift[0], p->y * picture->scale[1] + picture->shift[1] };
 }
 
 LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, lom_float2 own, struct lom_lookup at)
@@ -94,13 +99,13 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
                                          lom_float3 d, lom_float range)
 {
     lom_float2 own = lom_own_place(picture, p);
-    struct lom_hit hit = { { 0 }, lom_splat(1e9f), own.x, own.y };
+    struct lom_hit hit = { { 0 }, lom_splat(endless), own.x, own.y };
     lom_mask going = range > 0.0f;
     lom_float before = { 0 }, last = { 0 };
     for (int i = 1; i <= u->steps && lom_any(going); i++) {
         float share = (float)i / (float)u->steps;
         lom_float length = range * (share * share * share);
-        struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
+        struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, length)));
         lom_float over = at.w - lom_picture_w(u, picture, at.s, at.t);
         going = going & lom_within_reach(u, own, at);
         lom_mask met = going & (over > 0.0f) & (over < 1.5f * (length - last));
@@ -115,12 +120,12 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     lom_float low = before, high = hit.length;
     for (int i = 0; i < 6; i++) {
         lom_float middle = 0.5f * (low + high);
-        struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, middle)));
+        struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, middle)));
         lom_mask behind = at.w > lom_picture_w(u, picture, at.s, at.t);
         high = lom_select(behind, middle, high);
         low = lom_select(behind, low, middle);
     }
-    struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, high)));
+    struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, high)));
     hit.length = lom_select(hit.found, high, hit.length);
     hit.s = lom_clamp(at.s, hit.s - u->reach, hit.s + u->reach);
     hit.t = lom_clamp(at.t, hit.t - u->reach, hit.t + u->reach);
@@ -151,7 +156,7 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     lom_float further = lom_picture_w(u, picture, own.x, own.y) / p->w - 1.0f;
     lom_float length = lom_clamp(further, (lom_float){ 0 }, lom_splat(100.0f)) * p->distance;
     length = lom_min(length, longest);
-    struct lom_lookup at = lom_project_point(picture, lom_add3(p->world, lom_scale3(d, length)));
+    struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, length)));
     struct lom_hit hit = { at.w > 0.0f, length, lom_clamp(at.s, own.x - u->reach, own.x + u->reach),
                            lom_clamp(at.t, own.y - u->reach, own.y + u->reach) };
     lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > p->w * 0.98f);
@@ -177,7 +182,7 @@ LOM_INLINE lom_float lom_through_water(float a, float source, float slant, lom_f
 LOM_INLINE lom_float3 lom_cross_water(const struct lom_medium_uniform *m, lom_float3 beyond, lom_float length,
                                       lom_float depth, lom_float down)
 {
-    lom_float d = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(1e6f));
+    lom_float d = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(endless));
     return (lom_float3){ lom_through_water(m->absorption[0], m->source[0], m->slant, beyond.x, l, d, down),
                          lom_through_water(m->absorption[1], m->source[1], m->slant, beyond.y, l, d, down),
                          lom_through_water(m->absorption[2], m->source[2], m->slant, beyond.z, l, d, down) };
@@ -190,12 +195,14 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
                                    lom_float variance)
 {
     lom_float3 color = { { 0 }, { 0 }, { 0 } };
-    lom_float length = lom_splat(1e6f), share = { 0 };
+    lom_float length = lom_splat(endless), share = { 0 };
     if (picture->color != NULL) {
-        /* Under water nothing is seen beyond 10 absorption lengths of the clearest colour. */
-        float clear = lom_max(lom_splat(u->medium.absorption[2]), lom_splat(0.01f))[0];
-        lom_float range = above ? 1.0f * p->distance + 300.0f : lom_min(lom_splat(10.0f / clear), lom_splat(400.0f));
-        struct lom_hit met = { { 0 }, lom_splat(1e9f), { 0 }, { 0 } };
+        /* Nothing of the scene is farther from the point. Under water nothing is seen beyond 10 absorption lengths of
+         * the clearest colour; water that is clearer than its scene is wide needs no more than twice the way. */
+        lom_float range = p->distance + u->range;
+        if (!above)
+            range = lom_min(2.0f * range, lom_splat(10.0f / u->medium.absorption[2]));
+        struct lom_hit met = { { 0 }, lom_splat(endless), { 0 }, { 0 } };
         if (followed)
             met = lom_follow_ray(u, picture, p, d, range);
         lom_float width = above ? lom_blur_width(u, variance) : lom_splat(1.0f);
@@ -325,7 +332,7 @@ LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const st
     lom_float f = lom_surface_fresnel(u, lom_dot3(h, p->to_eye)), square_y = hy * hy;
     lom_float radiance = 3.1415927f * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
     radiance = lom_select(bright, lom_min(radiance, lom_splat(1e4f)), (lom_float){ 0 });
-    return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->world));
+    return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->offset));
 }
 
 /* ---- foam ---- */
@@ -339,14 +346,15 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
     if (foam->shore_depth > 0 && u->behind.depth != NULL && u->side > 0) {
         lom_float2 own = lom_own_place(&u->behind, p);
         lom_float further = lom_picture_w(u, &u->behind, own.x, own.y) / p->w - 1.0f;
-        lom_float depth = lom_max(further, (lom_float){ 0 }) * (u->eye[1] - p->world.y);
+        lom_float depth = lom_max(further, (lom_float){ 0 }) * -p->offset.y;
         lom_float band = lom_saturate(1.0f - lom_abs(depth) / foam->shore_depth);
         lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - 6.2831855f * foam->move);
         cover = cover + band * band * (0.55f + 0.45f * lines);
     }
     if (!lom_any(cover > 0.0f))
         return (lom_float){ 0 };
-    lom_float s = (p->world.x) * foam->inverse_tile, t = p->world.z * foam->inverse_tile;
+    lom_float s = p->offset.x * foam->inverse_tile + foam->shift[0];
+    lom_float t = p->offset.z * foam->inverse_tile + foam->shift[1];
     lom_float lod = lom_wave_lod(foam->pattern, f, foam->inverse_tile);
     lom_float grain = lom_sample(foam->pattern, s, t, lod).x;
     return lom_smoothstep(lom_splat(0.0f), lom_splat(0.45f), lom_min(cover, lom_splat(1.2f)) - 1.0f + grain);
@@ -354,7 +362,7 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
 
 LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
-    lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->world);
+    lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->offset);
     return lom_scale3(lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert)),
                       lom_splat(0.8f));
 }
@@ -364,9 +372,8 @@ LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, co
 /* Fills what follows from the point and its slopes. */
 LOM_INLINE void lom_finish_point(const struct lom_surface_uniforms *u, struct lom_surface_point *p)
 {
-    lom_float3 away = lom_sub3(lom_uniform3(u->eye), p->world);
-    p->distance = lom_sqrt(lom_dot3(away, away));
-    p->to_eye = lom_scale3(away, 1.0f / lom_max(p->distance, lom_splat(1e-6f)));
+    p->distance = lom_sqrt(lom_dot3(p->offset, p->offset));
+    p->to_eye = lom_scale3(p->offset, -1.0f / lom_max(p->distance, lom_splat(1e-30f)));
     p->slopes.vxx = p->slopes.vxx + 0.5f * u->roughness;
     p->slopes.vzz = p->slopes.vzz + 0.5f * u->roughness;
     p->normal = lom_wave_normal(&p->slopes);

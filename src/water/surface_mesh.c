@@ -122,14 +122,14 @@ static bool reserve(struct lom_polar_mesh *mesh, lom_error *error)
 bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error)
 {
     struct sector s = find_sector(desc);
-    double wave = larger(desc->highest, -desc->lowest), height = desc->eye.y - desc->level;
+    double wave = larger(desc->highest, -desc->lowest), height = -desc->level, near = desc->near_plane;
     struct spacing space = { .cell = desc->cell * desc->pixel_angle,
-                             .height = larger(larger(height < 0 ? -height : height, 0.3 * wave), 0.2),
-                             .flat = larger(wave, 1e-3) / desc->pixel_angle };
+                             .height = larger(larger(height < 0 ? -height : height, 0.3 * wave), 2 * near),
+                             .flat = larger(wave, 0.01 * near) / desc->pixel_angle };
     /* Behind the eye by so much, the sector holds everything that waves can move into the view. */
-    space.back = s.whole ? 0 : (desc->reach + wave + 0.5) / lom_double_sin(s.half);
-    mesh->apex[0] = desc->eye.x - space.back * s.forward[0];
-    mesh->apex[1] = desc->eye.z - space.back * s.forward[1];
+    space.back = s.whole ? 0 : (desc->reach + wave + 5 * near) / lom_double_sin(s.half);
+    mesh->apex[0] = -space.back * s.forward[0];
+    mesh->apex[1] = -space.back * s.forward[1];
     space.far = far_corner(mesh->apex, desc->quad);
     double sector = s.whole ? 6.283185307179586 : 2 * s.half;
     for (;; space.cell *= 1.25) {

@@ -22,7 +22,7 @@ static lom_float3 through(const struct lom_underwater_uniforms *u, const lom_var
     lom_float stored = lom_sample_depth(u->depth, (in->x - u->origin[0]) * u->crop_pixel[0],
                                         (in->y - u->origin[1]) * u->crop_pixel[1]);
     lom_float size = lom_sqrt(lom_dot3(ray, ray));
-    lom_float length = lom_min(u->near_plane / lom_max(stored, lom_splat(1e-12f)) * size, lom_splat(1e5f));
+    lom_float length = u->near_plane / lom_max(stored, lom_splat(nothing_there)) * size;
     lom_float down = -ray.y / size, depth = lom_splat(u->depth_of_eye);
     /* Not further than the surface at rest: above it there is no water. */
     lom_mask rises = down < -1e-6f;

@@ -16,7 +16,7 @@ static bool exists(const struct lom_wave_source *source)
     return source->site->waves->kind == LOM_WAVES_FLOW && source->ripples != NULL;
 }
 
-/* The depth of water over a grid: the level less the terrain's vertices. */
+/* The depth of water over a grid: the level less the terrain's vertices; the same everywhere where there is none. */
 static void find_depths(const struct lom_wave_site *site, double *depth)
 {
     const struct lom_bed *bed = &site->bed;
@@ -24,8 +24,7 @@ static void find_depths(const struct lom_wave_site *site, double *depth)
         for (int x = 0; x < CELLS; x++) {
             size_t column = (size_t)(x * bed->columns / (CELLS - 1)), row = (size_t)(y * bed->rows / (CELLS - 1));
             size_t vertex = row * ((size_t)bed->columns + 1) + column;
-            double height = bed->heights != NULL ? (double)bed->heights[vertex] : -1e3;
-            depth[y * CELLS + x] = site->level - height;
+            depth[y * CELLS + x] = bed->heights != NULL ? site->level - bed->base - (double)bed->heights[vertex] : 1;
         }
 }
 
@@ -52,12 +51,12 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     return state->field != NULL || lom_fail(error, failed->code, "%s", failed->text);
 }
 
-void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time)
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, const double origin[2], double time)
 {
     double period = speed > 0 ? tile / (3 * speed) : 1, weight[2];
     for (int i = 0; i < 2; i++) {
         double cycles = time / period + 0.5 * i, whole = lom_double_floor(cycles), share = cycles - whole;
-        double jump[2] = { 0.381966 * whole + 0.5 * i, 0.618034 * whole };
+        double jump[2] = { 0.381966 * whole + 0.5 * i + origin[0] / tile, 0.618034 * whole + origin[1] / tile };
         weight[i] = share < 0.5 ? 2 * share : 2 - 2 * share;
         flow->drift[i] = (float)(speed * period * (share - 0.5));
         for (int k = 0; k < 2; k++)
@@ -77,12 +76,16 @@ static void bound(const void *memory, struct lom_waves_uniform *out, double time
     flow->ripples = state->ripples;
     flow->inverse_tile = (float)(1 / site->tile);
     flow->steepness = (float)(1 / site->ripple_up);
+    const bool has_bed = site->bed.heights != NULL;
+    const double at[2] = { out->origin[0], out->origin[2] }, *size = has_bed ? site->bed.size : site->size;
+    double from_middle[2];        /* of the water */
     for (int i = 0; i < 2; i++) { /* the grid's corners are the middles of its texels */
-        double size = site->bed.heights != NULL ? site->bed.size[i] : site->size[i], step = size / (CELLS - 1);
-        flow->corner[i] = (float)(-size / 2 - step / 2);
+        double step = size[i] / (CELLS - 1);
+        from_middle[i] = at[i] - site->middle[i];
+        flow->corner[i] = (float)(-size[i] / 2 - step / 2 - (has_bed ? at[i] : from_middle[i]));
         flow->scale[i] = (float)(1 / (step * CELLS));
     }
-    lom_fill_flow_phases(flow, site->waves->speed, site->tile, time);
+    lom_fill_flow_phases(flow, site->waves->speed, site->tile, from_middle, time);
 }
 
 const struct lom_wave_kind lom_flow_waves = {

@@ -93,7 +93,11 @@ static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int
         if (held[i] == NULL)
             return lom_fail(error, lom_device_error(state->device)->code, "%s", lom_device_error(state->device)->text);
     }
-    *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], (float)(1 / c.length), 0.5f / (float)c.size };
+    *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], .inverse_length = (float)(1 / c.length) };
+    for (int i = 0; i < 2; i++) {
+        double repetitions = (out->origin[2 * i] - state->site->middle[i]) / c.length;
+        u->shift[i] = (float)(0.5 / c.size + (repetitions - lom_double_floor(repetitions)));
+    }
     return true;
 }
 
@@ -153,7 +157,10 @@ static const float *sample_at(const lom_sea_cascade *c, double x, double z)
 static double height(const void *memory, const struct lom_waves_uniform *waves, double x, double z)
 {
     (void)waves;
-    const lom_sea *sea = ((const struct state *)memory)->sea;
+    const struct state *state = memory;
+    const lom_sea *sea = state->sea;
+    x -= state->site->middle[0];
+    z -= state->site->middle[1];
     double rest_x = x, rest_z = z, height = 0;
     for (int step = 0; step < 4; step++) {
         double dx = 0, dz = 0;

@@ -4,13 +4,13 @@
 
 enum { MOST_STEPS = 10000000 };
 
-/* The height of the terrain between its vertices; deep below the water where there is none. */
+/* The height of the terrain between its vertices over the water's level; deep below it where there is none. */
 static double bed_at(const struct lom_wave_site *site, double x, double z)
 {
     const struct lom_bed *bed = &site->bed;
     const double *size = bed->size;
     if (bed->heights == NULL)
-        return site->level - 100;
+        return -100;
     double u = (x / size[0] + 0.5) * bed->columns, v = (z / size[1] + 0.5) * bed->rows;
     u = u < 0 ? 0 : u > bed->columns ? bed->columns : u;
     v = v < 0 ? 0 : v > bed->rows ? bed->rows : v;
@@ -19,7 +19,8 @@ static double bed_at(const struct lom_wave_site *site, double x, double z)
     const float *h = bed->heights + (size_t)row * ((size_t)bed->columns + 1) + column;
     const float *below = h + bed->columns + 1;
     double s = u - column, t = v - row;
-    return (h[0] + s * ((double)h[1] - h[0])) * (1 - t) + (below[0] + s * ((double)below[1] - below[0])) * t;
+    return (h[0] + s * ((double)h[1] - h[0])) * (1 - t) + (below[0] + s * ((double)below[1] - below[0])) * t +
+           (bed->base - site->level);
 }
 
 bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom_wave_site *site, lom_error *error)
@@ -40,13 +41,12 @@ bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom
     for (size_t i = 0; height != NULL && i < cells; i++) {
         height[i] = bed_at(site, region->corner[0] + ((double)(i % (size_t)region->columns) + 0.5) * cell,
                            region->corner[1] + ((double)(i / (size_t)region->columns) + 0.5) * cell);
-        region->lowest = height[i] - site->level < region->lowest ? height[i] - site->level : region->lowest;
+        region->lowest = height[i] < region->lowest ? height[i] : region->lowest;
     }
     lom_shallow_desc desc = { .columns = region->columns,
                               .rows = region->rows,
                               .cell = cell,
                               .bed = height,
-                              .level = site->level,
                               .step = w->step,
                               .friction = w->friction,
                               .implicitness = w->implicitness };

@@ -67,8 +67,8 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
     if (!lom_advance_shallow_region(&state->region, state->site, time, error))
         return false;
     lom_shallow_view view = lom_view_shallow(region->now);
-    state->wet = lom_fill_shallow_surface(&view, state->site->level, state->site->shallow->edge == LOM_SHALLOW_OPEN,
-                                          state->surface, state->moments, bounds);
+    state->wet = lom_fill_shallow_surface(&view, 0, state->site->shallow->edge == LOM_SHALLOW_OPEN, state->surface,
+                                          state->moments, bounds);
     const void *const pixels[2] = { state->surface, state->moments };
     for (int i = 0; i < 2; i++) {
         lom_release_texture(state->device, state->map[i]);
@@ -79,7 +79,7 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
     }
     out->shallow = (struct lom_shallow_uniform){ .surface = state->map[0], .moments = state->map[1] };
     for (int i = 0; i < 2; i++) {
-        out->shallow.corner[i] = (float)region->corner[i];
+        out->shallow.corner[i] = (float)(region->corner[i] - out->origin[2 * i]);
         out->shallow.scale[i] = (float)(1 / (region->cell * (i == 0 ? region->columns : region->rows)));
     }
     out->lowest += bounds[0];

@@ -43,10 +43,10 @@ double lom_group_velocity(double frequency, double depth);
 bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *desc, lom_error *error);
 void lom_free_surf_map(struct lom_surf_map *map);
 
-/* What the shaders need at a time, but for the textures. */
+/* What the shaders need at a time for places less origin (x, z), but for the textures. */
 void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
-                   double time);
-/* Height over a place, metres, in double, at a time of lom_fill_surf. */
+                   const double origin[2], double time);
+/* Height over a place of the world, metres, in double, at a time of lom_fill_surf. */
 double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z);
 
 #endif

@@ -14,7 +14,7 @@ static double reduced(double phase)
 }
 
 void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
-                   double time)
+                   const double origin[2], double time)
 {
     const double rate = two_pi / surf->period;
     const int size[2] = { map->width, map->height };
@@ -22,15 +22,20 @@ void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map,
     out->rate = (float)rate;
     out->variation = (float)surf->variation;
     for (int i = 0; i < 2; i++) {
-        out->corner[i] = (float)map->corner[i];
-        out->last[i] = (float)(map->corner[i] + map->spacing[i] * (size[i] - 1));
+        out->origin[i] = origin[i];
+        out->corner[i] = (float)(map->corner[i] - origin[i]);
+        out->last[i] = (float)(map->corner[i] + map->spacing[i] * (size[i] - 1) - origin[i]);
         out->scale[i] = (float)(1 / (map->spacing[i] * size[i]));
         out->half[i] = (float)(0.5 / size[i]);
-        out->group_time[i] = (float)reduced(rate * time / group[i]);
         out->group_rate[i] = (float)(1 / group[i]);
         out->group_share[i] = (float)share[i];
-        for (int k = 0; k < 2; k++)
-            out->group_along[i][k] = (float)(map->along[k] * two_pi / (map->length * group[i]) * (i == 0 ? 1 : -1));
+        double phase = reduced(rate * time / group[i]);
+        for (int k = 0; k < 2; k++) {
+            double along = map->along[k] * two_pi / (map->length * group[i]) * (i == 0 ? 1 : -1);
+            out->group_along[i][k] = (float)along;
+            phase += reduced(along * origin[k]);
+        }
+        out->group_time[i] = (float)phase;
     }
 }
 
@@ -65,7 +70,10 @@ double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uni
     const double at[2] = { x, z };
     double outside = 0;
     for (int i = 0; i < 2; i++) {
-        double last = (double)moment->last[i], inside = at[i] < low[i] ? low[i] : at[i] > last ? last : at[i];
+        double last = low[i] + map->spacing[i] * ((i == 0 ? map->width : map->height) - 1),
+               inside = at[i] < low[i] ? low[i]
+                        : at[i] > last ? last
+                                       : at[i];
         outside += v[1 + i] * (at[i] - inside);
     }
     const double theta = v[0] + outside, angle = (double)moment->time - theta, s = lom_double_sin(angle);
@@ -74,6 +82,7 @@ double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uni
     for (int i = 0; i < 2; i++)
         size += (double)moment->variation * share[i] *
                 lom_double_sin((double)moment->group_time[i] - theta / group[i] +
-                               (double)moment->group_along[i][0] * x + (double)moment->group_along[i][1] * z);
+                               (double)moment->group_along[i][0] * (x - moment->origin[0]) +
+                               (double)moment->group_along[i][1] * (z - moment->origin[1]));
     return v[3] * size * root * (s + v[5] / (1 + root)) / (1 - v[4] * c + v[5] * s);
 }

@@ -7,7 +7,7 @@ static double *find_depths(const struct lom_wave_site *site, lom_error *error)
     const size_t count = ((size_t)bed->columns + 1) * ((size_t)bed->rows + 1);
     double *depth = lom_allocate(count, sizeof *depth, error);
     for (size_t i = 0; depth != NULL && i < count; i++)
-        depth[i] = site->level - (double)bed->heights[i];
+        depth[i] = site->level - bed->base - (double)bed->heights[i];
     return depth;
 }
 

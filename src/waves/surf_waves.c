@@ -60,7 +60,7 @@ static void bound(const void *memory, struct lom_waves_uniform *out, double time
 {
     const struct state *state = memory;
     const lom_water_surf *surf = state->site->surf;
-    lom_fill_surf(&out->surf, &state->map, surf, time);
+    lom_fill_surf(&out->surf, &state->map, surf, (double[2]){ out->origin[0], out->origin[2] }, time);
     out->surf.waves = state->texture[0];
     out->surf.shapes = state->texture[1];
     float most = (float)(state->map.highest * (1 + surf->variation) * 1.0001);

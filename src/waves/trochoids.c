@@ -118,7 +118,7 @@ lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, do
 }
 
 void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *waves, const lom_water_foam *foam,
-                        double time)
+                        const double origin[2], double time)
 {
     lom_trochoid trochoids[LOM_MAX_WAVES];
     lom_trochoid_report unread;
@@ -126,11 +126,10 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
     out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER ? make_trochoids(waves, trochoids, &unread) : 0;
     for (int i = 0; i < out->trochoid_count; i++) {
         const lom_trochoid *t = &trochoids[i];
-        double turns = t->phase - t->rate * time / turn, x = t->direction[0], z = t->direction[1];
-        turns -= lom_double_floor(turns + 0.5);
+        double x = t->direction[0], z = t->direction[1];
         out->trochoid[i] = (struct lom_trochoid_uniform){ .kx = (float)(x * t->number),
                                                           .kz = (float)(z * t->number),
-                                                          .phase = (float)(turns * turn),
+                                                          .phase = (float)phase_at(t, origin[0], origin[1], time),
                                                           .amplitude = (float)t->amplitude,
                                                           .across_x = (float)(x * t->across),
                                                           .across_z = (float)(z * t->across),
@@ -186,13 +185,14 @@ static bool load(void *state, const struct lom_wave_source *source, lom_error *e
 static void bound(const void *state, struct lom_waves_uniform *out, double time)
 {
     const struct lom_wave_site *site = ((const struct state *)state)->site;
-    lom_fill_trochoids(out, site->waves, site->foam, time);
+    const double from_middle[2] = { out->origin[0] - site->middle[0], out->origin[2] - site->middle[1] };
+    lom_fill_trochoids(out, site->waves, site->foam, from_middle, time);
 }
 
 static double height(const void *state, const struct lom_waves_uniform *waves, double x, double z)
 {
     (void)state;
-    return lom_trochoid_height(waves, x, z);
+    return lom_trochoid_height(waves, x - waves->origin[0], z - waves->origin[2]);
 }
 
 static void report(const void *state, const struct lom_wave_moment *moment, struct lom_wave_report *out)

@@ -47,25 +47,29 @@ bool lom_waves_advance(const struct lom_wave_field *field)
     return false;
 }
 
-static void begin(const struct lom_wave_field *field, struct lom_waves_uniform *out)
+static void begin(const struct lom_wave_field *field, struct lom_waves_uniform *out, lom_vec3 origin)
 {
-    out->level = (float)field->level;
+    out->origin[0] = origin.x;
+    out->origin[1] = origin.y;
+    out->origin[2] = origin.z;
+    out->level = (float)(field->level - origin.y);
     out->lowest = out->highest = out->reach = 0;
 }
 
-void lom_bound_waves(const struct lom_wave_field *field, struct lom_waves_uniform *out, double time)
+void lom_bound_waves(const struct lom_wave_field *field, struct lom_waves_uniform *out, lom_vec3 origin, double time)
 {
-    begin(field, out);
+    begin(field, out, origin);
     for (int i = 0; i < KINDS; i++)
         if (field->state[i] != NULL)
             kinds[i]->bound(field->state[i], out, time);
 }
 
 /* A kind without a function of its own is placed by its bounds: it is closed in time. */
-bool lom_place_waves(struct lom_wave_field *field, struct lom_waves_uniform *out, double time, lom_error *error)
+bool lom_place_waves(struct lom_wave_field *field, struct lom_waves_uniform *out, lom_vec3 origin, double time,
+                     lom_error *error)
 {
     bool done = true;
-    begin(field, out);
+    begin(field, out, origin);
     for (int i = 0; done && i < KINDS; i++) {
         if (field->state[i] == NULL)
             continue;

@@ -36,7 +36,8 @@ struct lom_wave_report {
 enum lom_wave_stage { LOM_WAVES_AT_FIRST, LOM_WAVES_AT_FILLING, LOM_WAVES_AT_DRAWING };
 
 /* A kind of waves. Its state is `size` bytes, zeros before load, which is called where `exists` says so; free is called
- * after load whether it was successful or not. Functions that are NULL have nothing to do. */
+ * after load whether it was successful or not. Functions that are NULL have nothing to do. They are given the origin of
+ * places in `out`; height is over a place of the world. */
 struct lom_wave_kind {
     const char *step; /* of the plan */
     size_t size;
@@ -61,9 +62,11 @@ struct lom_wave_field *lom_load_wave_field(const struct lom_wave_source *source,
 void lom_free_wave_field(struct lom_wave_field *field); /* NULL is allowed */
 /* Whether placing them at a time is work. */
 bool lom_waves_advance(const struct lom_wave_field *field);
-/* The waves with bounds that hold at any time; placed at a time; the rest, after placing at the same time. */
-void lom_bound_waves(const struct lom_wave_field *field, struct lom_waves_uniform *out, double time);
-bool lom_place_waves(struct lom_wave_field *field, struct lom_waves_uniform *out, double time, lom_error *error);
+/* The waves with bounds that hold at any time; placed at a time; the rest, after placing at the same time. Places are
+ * counted from origin. */
+void lom_bound_waves(const struct lom_wave_field *field, struct lom_waves_uniform *out, lom_vec3 origin, double time);
+bool lom_place_waves(struct lom_wave_field *field, struct lom_waves_uniform *out, lom_vec3 origin, double time,
+                     lom_error *error);
 bool lom_fill_waves(struct lom_wave_field *field, struct lom_waves_uniform *out, double time, lom_error *error);
 /* Over a point of the world, where they were placed last: metres from the level. */
 double lom_wave_height(const struct lom_wave_field *field, const struct lom_waves_uniform *waves, double x, double z);

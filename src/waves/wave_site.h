@@ -7,11 +7,12 @@
 #include <lom/shallow.h>
 #include <lom/waves.h>
 
-/* The terrain's vertices: (columns + 1) x (rows + 1) heights over `size` (x, z) metres about the origin, row by row. */
+/* The terrain's vertices: (columns + 1) x (rows + 1) heights over `base` (y) and over `size` (x, z) metres about the
+ * world's origin, row by row. */
 struct lom_bed {
     const float *heights; /* NULL: the scene has no terrain, and the bed is deep */
     int columns, rows;    /* quads */
-    double size[2];
+    double size[2], base;
 };
 
 struct lom_wave_site {
@@ -20,6 +21,7 @@ struct lom_wave_site {
     const lom_water_surf *surf;
     const lom_shallow_water *shallow;
     double level;           /* of the water at rest, y in metres */
+    double middle[2];       /* of the water, x and z in metres: trochoids, seas and ripples are counted from there */
     double size[2];         /* of the water, metres */
     double tile, ripple_up; /* metres of one repetition of its ripples; the factor on their up component */
     struct lom_bed bed;

@@ -1,6 +1,6 @@
-/* The waves of a surface, over lanes. In: a rest position (x, z) and the size of what is sampled there; out: where the
- * surface is above it, how steep, and how rough below that size. A surface is the sum of trochoids (Gerstner) and of
- * the cascades of a sea; either may be absent.
+/* The waves of a surface, over lanes. In: a rest position (x, z), less an origin, and the size of what is sampled
+ * there; out: where the surface is above it, how steep, and how rough below that size. A surface is the sum of
+ * trochoids (Gerstner) and of the cascades of a sea; either may be absent.
  *
  * A trochoid of wave vector k, amplitude a and phase f, with t = k.(x, z) + f: height a cos t; horizontal displacement
  * -b k/|k| sin t with b <= a, which narrows the crests (Gerstner 1809; Fournier and Reeves 1986). Signs and names of
@@ -19,7 +19,7 @@ enum { LOM_SURFACE_CASCADES = 4 };
 
 struct lom_trochoid_uniform {
     float kx, kz;                        /* rad/m */
-    float phase;                         /* radians at this time */
+    float phase;                         /* radians at the origin at this time */
     float amplitude, across_x, across_z; /* metres: a, and b k/|k| */
     float rate;                          /* rad/s that the phase falls by */
 };
@@ -28,7 +28,7 @@ struct lom_cascade_uniform {
     const lom_texture *displacement; /* dx, h, dz, xz */
     const lom_texture *derivatives;  /* sx, sz, xx, zz */
     const lom_texture *moments;      /* sx^2, sz^2, sx sz, foam */
-    float inverse_length, shift;     /* s = x inverse_length + shift */
+    float inverse_length, shift[2];  /* s = x inverse_length + shift[0], less whole repetitions */
 };
 
 /* Ripples of a normal map that a flow carries, in two phases: each drifts for a period and starts again where its
@@ -55,16 +55,18 @@ struct lom_surf_uniform {
     float scale[2], half[2];   /* a place is at (x - corner) scale + half */
     float time, rate;          /* w t in radians, less whole turns; w in rad/s */
     float variation, group_time[2], group_rate[2], group_share[2], group_along[2][2];
+    double origin[2]; /* of the places */
 };
 
 struct lom_waves_uniform {
+    double origin[3]; /* the place in the world that places are counted from */
     struct lom_flow_uniform flow;
     struct lom_shallow_uniform shallow;
     struct lom_surf_uniform surf;
     int trochoid_count, cascade_count;
     struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
     struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
-    float level;           /* y at rest */
+    float level;           /* y at rest, less the origin's */
     float lowest, highest; /* bounds of h, metres from the level */
     float reach;           /* bound of |(dx, dz)| */
     float foam_threshold;  /* the Jacobian below which trochoids break; 0: they have no foam */
@@ -73,15 +75,17 @@ struct lom_waves_uniform {
 
 enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked at */
 
-/* The trochoids of the water at a time in seconds, exact phases for |time| up to 1e9; and the bounds of their sum. The
- * horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves keep the sum of b k at most 1, which is where the
- * first loop would close: the Jacobian of the displacement never falls below 0. */
+/* The trochoids of the water at a time in seconds, for places less `origin` (x, z): exact phases for |time| and
+ * |origin| up to 1e9; and the bounds of their sum. The horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves
+ * keep the sum of b k at most 1, which is where the first loop would close: the Jacobian of the displacement never
+ * falls below 0. */
 void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *waves, const lom_water_foam *foam,
-                        double time);
-/* Both phases of a flow at a time, for ripples that repeat after `tile` metres: a period is as long as the mean speed
- * takes for a third of it. Closed in time. */
-void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, double time);
-/* The height over the point (x, z) itself, in double: the rest position is found by iteration. */
+                        const double origin[2], double time);
+/* Both phases of a flow at a time, for ripples that repeat after `tile` metres and places less `origin`: a period is as
+ * long as the mean speed takes for a third of it. Closed in time. */
+void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, const double origin[2],
+                          double time);
+/* The height over the point (x, z) itself, less the origin, in double: the rest position is found by iteration. */
 double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z);
 
 struct lom_wave_shift {

@@ -105,8 +105,9 @@ static struct lom_wave_shift find_shift(const struct lom_waves_uniform *waves, l
     }
     for (int i = 0; i < waves->cascade_count; i++) {
         const struct lom_cascade_uniform *c = &waves->cascade[i];
-        lom_float4 d = lom_sample(c->displacement, x * c->inverse_length + c->shift, z * c->inverse_length + c->shift,
-                                  lom_wave_lod(c->displacement, f, c->inverse_length));
+        lom_float4 d =
+            lom_sample(c->displacement, x * c->inverse_length + c->shift[0], z * c->inverse_length + c->shift[1],
+                       lom_wave_lod(c->displacement, f, c->inverse_length));
         p.dx = p.dx + d.x;
         p.h = p.h + d.y;
         p.dz = p.dz + d.z;
@@ -164,7 +165,7 @@ static lom_float trochoid_foam(const struct lom_waves_uniform *waves, lom_float 
 static void add_cascade_slopes(const struct lom_cascade_uniform *c, lom_float x, lom_float z,
                                const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
-    lom_float s = x * c->inverse_length + c->shift, t = z * c->inverse_length + c->shift;
+    lom_float s = x * c->inverse_length + c->shift[0], t = z * c->inverse_length + c->shift[1];
     lom_float lod = lom_wave_lod(c->derivatives, f, c->inverse_length);
     lom_float4 d = lom_sample(c->derivatives, s, t, lod), m = lom_sample(c->moments, s, t, lod);
     w->sx = w->sx + d.x;

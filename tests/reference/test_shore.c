@@ -66,7 +66,7 @@ static void surf_lies_where_its_maps_say(void)
         return;
     CHECK(surface.surf.cells != NULL && surface.shallow.first == NULL);
     struct lom_surf_uniform moment = { .time = 0 };
-    lom_fill_surf(&moment, &surface.surf, &scene->surf, 7.3);
+    lom_fill_surf(&moment, &surface.surf, &scene->surf, (double[2]){ 0, 0 }, 7.3);
     for (int i = 0; i < 200; i++) {
         double x = 60 * lom_random_uniform(4, (uint64_t)i) - 30, z = 60 * lom_random_uniform(5, (uint64_t)i) - 30;
         double height = lom_wave_surface_height(&surface, x, z), expected = 0.5;

@@ -5,8 +5,7 @@
 
 static struct lom_view_uniform view_of(float x, float y, float z, float color)
 {
-    struct lom_view_uniform view = { .light = { .to_light = { x, y, z }, .color = { color, color, color } },
-                                     .eye = { 0, 5, 0 } };
+    struct lom_view_uniform view = { .light = { .to_light = { x, y, z }, .color = { color, color, color } } };
     return view;
 }
 
@@ -17,7 +16,11 @@ static struct lom_material_uniform material_of(float shininess)
     };
 }
 
-static const lom_float3 zero = { { 0 }, { 0 }, { 0 } };
+/* A place 5 m below the eye. */
+static lom_float3 below(void)
+{
+    return lom_splat3(0, -5, 0);
+}
 
 static lom_float3 upwards(void)
 {
@@ -57,12 +60,12 @@ static void l5_normals_of_no_length_take_no_light(void)
     static const float tiny[] = { 0, -0.0f, 1e-30f };
     for (int i = 0; i < 3; i++) {
         lom_float3 normal = lom_normalize3(lom_splat3(tiny[i], tiny[i], tiny[i]));
-        struct lom_lit lit = lom_light_surface(&view, &m, zero, normal, lom_splat(1.0f));
+        struct lom_lit lit = lom_light_surface(&view, &m, below(), normal, lom_splat(1.0f));
         CHECK(lit.textured.x[0] == 0 && lit.highlight.x[0] == 0, "%g: %g %g", tiny[i], lit.textured.x[0],
               lit.highlight.x[0]);
     }
     /* the eye in the surface itself: no direction to it, no highlight */
-    struct lom_lit lit = lom_light_surface(&view, &m, lom_splat3(0, 5, 0), upwards(), lom_splat(1.0f));
+    struct lom_lit lit = lom_light_surface(&view, &m, lom_splat3(0, 0, 0), upwards(), lom_splat(1.0f));
     CHECK(lit.highlight.x[0] == 0 && lit.textured.x[0] == 0.8f, "%g %g", lit.highlight.x[0], lit.textured.x[0]);
 }
 
@@ -72,10 +75,10 @@ static void l7_light_from_the_side_and_from_behind(void)
     struct lom_material_uniform m = material_of(0);
     for (int i = 0; i < 5; i++) {
         struct lom_view_uniform view = view_of(1, heights[i], 0, 1);
-        view.eye[0] = -5; /* where a mirror would send it, behind the surface where the light is */
-        view.eye[1] = 5 * heights[i];
+        /* the eye is where a mirror would send it, behind the surface where the light is */
+        lom_float3 place = lom_splat3(5, -5 * heights[i], 0);
         lom_float lambert = lom_lambert(&view.light, upwards());
-        struct lom_lit lit = lom_light_surface(&view, &m, zero, upwards(), lom_splat(1.0f));
+        struct lom_lit lit = lom_light_surface(&view, &m, place, upwards(), lom_splat(1.0f));
         CHECK(lom_as_int(lambert)[0] == 0, "%g: %g, and its sign", heights[i], lambert[0]);
         CHECK(lit.textured.x[0] == 0 && lit.highlight.x[0] == 0, "%g: %g", heights[i], lit.highlight.x[0]);
     }
@@ -86,9 +89,9 @@ static void l8_colours_beyond_white(void)
 {
     struct lom_view_uniform view = view_of(0, 1, 0, 1e30f), behind = view_of(0, -1, 0, 1e30f);
     struct lom_material_uniform m = material_of(10);
-    struct lom_lit lit = lom_light_surface(&view, &m, zero, upwards(), lom_splat(1.0f));
+    struct lom_lit lit = lom_light_surface(&view, &m, below(), upwards(), lom_splat(1.0f));
     CHECK(lit.textured.x[0] == 1e30f && lit.highlight.x[0] == 1e30f, "%g %g", lit.textured.x[0], lit.highlight.x[0]);
-    lit = lom_light_surface(&behind, &m, zero, upwards(), lom_splat(1.0f));
+    lit = lom_light_surface(&behind, &m, below(), upwards(), lom_splat(1.0f));
     CHECK(lit.textured.x[0] == 0 && lit.highlight.x[0] == 0, "%g %g", lit.textured.x[0], lit.highlight.x[0]);
 }
 

@@ -44,9 +44,9 @@ static void a_narrow_is_fast(void)
 static void phases_do_not_pulse(void)
 {
     struct lom_flow_uniform before, flow;
-    lom_fill_flow_phases(&before, 1.3, 7, 0);
+    lom_fill_flow_phases(&before, 1.3, 7, (double[2]){ 0, 0 }, 0);
     for (int i = 1; i < 5000; i++) {
-        lom_fill_flow_phases(&flow, 1.3, 7, i * 0.002);
+        lom_fill_flow_phases(&flow, 1.3, 7, (double[2]){ 0, 0 }, i * 0.002);
         float sum = flow.weight[0] * flow.weight[0] + flow.weight[1] * flow.weight[1];
         CHECK(sum > 0.9999f && sum < 1.0001f, "the variance is %g", (double)sum);
         for (int k = 0; k < 2; k++)

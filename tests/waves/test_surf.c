@@ -158,7 +158,7 @@ static void phases_grow_to_the_shore_and_around_an_island(void)
 static double height_in(const struct lom_surf_map *map, const lom_water_surf *surf, double x, double z, double time)
 {
     struct lom_surf_uniform moment = { .time = 0 };
-    lom_fill_surf(&moment, map, surf, time);
+    lom_fill_surf(&moment, map, surf, (double[2]){ 0, 0 }, time);
     return lom_surf_height(map, &moment, x, z);
 }
 

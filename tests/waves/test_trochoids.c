@@ -131,7 +131,7 @@ static void the_pipelines_waves_are_these(void)
     struct lom_waves_uniform uniform;
     memset(&uniform, 0, sizeof uniform);
     int count = lom_make_trochoids(&water.waves, trochoids, NULL, NULL);
-    lom_fill_trochoids(&uniform, &water.waves, &water.foam, 0);
+    lom_fill_trochoids(&uniform, &water.waves, &water.foam, (double[2]){ 0, 0 }, 0);
     CHECK(uniform.trochoid_count == count, "%d waves of %d", uniform.trochoid_count, count);
     for (int i = 0; i < count; i++) {
         const struct lom_trochoid_uniform *u = &uniform.trochoid[i];

@@ -23,7 +23,7 @@ static struct lom_waves_uniform waves_at(double height, double steepness, int co
     struct lom_waves_uniform waves;
     lom_water_params water = parameters(height, steepness, count);
     memset(&waves, 0, sizeof waves);
-    lom_fill_trochoids(&waves, &water.waves, &water.foam, time);
+    lom_fill_trochoids(&waves, &water.waves, &water.foam, (double[2]){ 0, 0 }, time);
     return waves;
 }
 
@@ -173,7 +173,8 @@ static void the_mesh_closes_and_reaches_the_corners(void)
         lom_vec3 target = { 10 + lom_double_cos(pitches[i]), 3 + lom_double_sin(pitches[i]), -20 };
         struct lom_polar_mesh_desc desc = { .projection = lom_perspective(0.8, 1.6, 0.1),
                                             .view = lom_look_at(eye, target, (lom_vec3){ 0, 1, 0 }),
-                                            .eye = eye,
+                                            .level = -eye.y,
+                                            .near_plane = 0.1,
                                             .lowest = -1,
                                             .highest = 1,
                                             .reach = 0.8,
