@@ -1,7 +1,21 @@
-# lom: make, make demo, make check, make lint, make install. See README.md.
-#   make CC=clang O=0 BUILD=dir     another compiler, level and folder
-#   make SAN=address check          address, undefined, thread or memory sanitizer
-#   make fuzz SECONDS=60            every fuzz target of tests/fuzz under libFuzzer (clang) for that long
+# lom is built and tested by make: see README.md.
+#
+#   make                        the program build/lom and the library build/liblom.a, build/liblom.so
+#   make demo                   draws the demo scenes, to demo.png and demo-lake.png
+#   make check                  the tests; the last line is "N passed, N failed"
+#   make lint, make format      what the house asks of the source; clang-format over all of it
+#   make install, uninstall     into PREFIX (/usr/local), under DESTDIR
+#   make bench                  milliseconds a frame of every workload; bench-*: the experiments of bench/results
+#   make matrix                 one hash from every compiler and architecture
+#   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
+#   make check-long             every float through every conversion and lane function
+#   make clean, make help
+#
+#   CC=clang O=0 BUILD=dir      another compiler, level and folder
+#   SAN=address                 address, undefined, thread or memory sanitizer
+#   VARIANTS="4 8"              these lane widths alone: quicker to compile, the same pictures
+#   V=1                         whole commands instead of one short line a file
+
 # As many jobs as processors, unless -j says otherwise.
 ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 1)
@@ -13,17 +27,19 @@ O      = 3
 BUILD  = build
 PREFIX = /usr/local
 SAN    =
-SDL    = $(shell pkg-config --exists sdl2 2>/dev/null && echo 1)
 
 VERSION := $(shell sed -n 's/^\#define LOM_VERSION *"\(.*\)"/\1/p' include/lom/base.h)
 MACHINE := $(shell $(CC) -dumpmachine)
+# The number in the name of the shared library and in the version of its symbols: raised when a program that was linked
+# with the one before would not run with this one.
+ABI = 0
 
 # The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc
 # Where variables live is half of the time that vectors as wide as these take to compile; -O0 knows it without.
-CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking -fPIC -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
+CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking -fPIC -fvisibility=hidden -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
 # Sanitized code is optimised little: it compiles many times faster and says more.
 ifneq ($(SAN),)
@@ -64,30 +80,22 @@ cli_sources  := $(filter src/cli/%,$(sources))
 measure_sources := $(filter src/measure/%,$(sources))
 wide_sources := $(filter %.wide.c,$(filter-out src/cli/% src/measure/%,$(sources)))
 lib_sources  := $(filter-out %.wide.c src/cli/% src/measure/%,$(sources))
-ifneq ($(SDL),1)
-cli_sources  := $(filter-out src/cli/view_sdl.c,$(cli_sources))
-else
-$(BUILD)/src/cli/%.o: CPPFLAGS += -DLOM_SDL
-$(BUILD)/src/cli/view_sdl.o: CFLAGS += $(shell pkg-config --cflags sdl2)
-CLI_LIBS = $(shell pkg-config --libs sdl2)
-endif
 objects_of   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c,$(1))) $(foreach v,$(VARIANTS),$(patsubst %.wide.c,$(BUILD)/%.w$(v).o,$(filter %.wide.c,$(1))))
 lib_objects     := $(call objects_of,$(lib_sources) $(wide_sources))
 measure_objects := $(call objects_of,$(measure_sources))
 cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
-# What runs once and briefly is compiled for size.
-brief_sources := $(wildcard src/geometry/build*.c src/geometry/paint_*.c src/geometry/make_*.c src/geometry/shapes.c \
-	src/geometry/obj_*.c src/measure/*.c src/render/load_*.c src/render/frame*.c src/cloud/*_keys.c \
-	src/water/*_keys.c src/water/make_*.c src/waves/*_keys.c src/spray/*_keys.c src/spray/make_*.c)
-# What loops over much is compiled for speed, as all lanes are; the rest of the library in between.
-busy_sources := $(wildcard src/pipeline/*.c src/march/*.c src/base/*.c src/reference/*.c src/geometry/erode_*.c src/render/*.c src/image/compare*.c) \
-	$(addprefix src/,geometry/noise.c image/checksum.c image/inflate_fast.c image/png_filter.c image/mipmap.c image/texture.c \
-	image/convert_rows.c image/convert_image.c waves/fft.c waves/sea_step.c waves/shallow_flow.c)
+# How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
+# speed"; what runs briefly or seldom for size, the rest in between. (The program stays under 3 MB: tests/cli/test_limits.sh.)
+FOR_SPEED = base march pipeline reference
+FOR_SIZE  = cli geometry measure render scene
+within    = $(foreach folder,$(1),$(filter src/$(folder)/%,$(sources)))
+plain_sources := $(filter-out %.wide.c,$(sources))
+speed_sources := $(call within,$(FOR_SPEED)) $(shell grep -l 'Compiled for speed' $(plain_sources))
+size_sources  := $(filter-out %.wide.c $(speed_sources),$(call within,$(FOR_SIZE)))
 ifeq ($(O),3)
-$(BUILD)/src/cli/%.o $(BUILD)/src/scene/%.o: private CFLAGS += -Os
-$(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c $(brief_sources) $(busy_sources) src/cli/% src/scene/%,$(sources))): private CFLAGS += -O2
-$(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c,$(brief_sources))): private CFLAGS += -Os
+$(size_sources:%.c=$(BUILD)/%.o): private CFLAGS += -Os
+$(patsubst %.c,$(BUILD)/%.o,$(filter-out $(speed_sources) $(size_sources),$(plain_sources))): private CFLAGS += -O2
 endif
 
 tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
@@ -96,68 +104,84 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: fuzz all demo check check-long matrix lint format bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds bench-impostors bench-mathematics bench-sampling install clean
+.PHONY: all demo check check-long matrix fuzz lint format install uninstall clean help
+.PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
+	bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
+
+# $(call short,CC) before a command: a short line with the target's name, nothing with make -s, the command with V=1.
+ifneq ($(V),1)
+short = @$(if $(findstring s,$(firstword -$(MAKEFLAGS))),,echo "  $(1)  $@";)
+endif
 
 all: $(BUILD)/lom $(BUILD)/liblom.a $(BUILD)/liblom.so
 
+help:
+	@sed -n '/^#/!q; s/^# \{0,1\}//p' Makefile
+
 $(BUILD)/liblom.a: $(lib_objects)
 	@rm -f $@
-	@echo "  AR  $@"; $(AR) rcs $@ $^
+	$(call short,AR)$(AR) rcs $@ $^
 
-$(BUILD)/liblom.so: $(lib_objects)
-	@echo "  LD  $@"; $(CC) -shared $(LDFLAGS) -Wl,-soname,liblom.so.0 -o $@ $^ $(LDLIBS)
+# Only what the public headers declare is visible (LOM_API_BEGIN in lom/base.h), under a version of its own.
+$(BUILD)/liblom.so: $(lib_objects) $(BUILD)/liblom.map
+	$(call short,LD)$(CC) -shared $(LDFLAGS) -Wl,-soname,liblom.so.$(ABI) -Wl,--version-script=$(BUILD)/liblom.map -o $@ $(lib_objects) $(LDLIBS)
+
+$(BUILD)/liblom.map: Makefile
+	@mkdir -p $(@D)
+	@echo 'LOM_$(ABI) { global: lom_*; local: *; };' >$@
 
 $(BUILD)/measure.a: $(measure_objects)
 	@rm -f $@
-	@echo "  AR  $@"; $(AR) rcs $@ $^
+	$(call short,AR)$(AR) rcs $@ $^
 
 $(BUILD)/lom: $(cli_objects) $(BUILD)/measure.a $(BUILD)/liblom.a
-	$(CC) $(LDFLAGS) -o $@ $^ $(CLI_LIBS) $(LDLIBS)
+	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
-# Rebuilt when the flags change, so that a build folder never mixes two.
+# Rebuilt when the flags change, so that a build folder never mixes two. They are read before any target adds its own.
+build_flags := $(CC) $(CPPFLAGS) $(CFLAGS) $(foreach v,$(VARIANTS),$(FLAGS_$(v)))
 $(BUILD)/flags: FORCE
 	@mkdir -p $(@D)
-	@echo "$(CC) $(CPPFLAGS) $(CFLAGS)" | cmp -s - $@ || echo "$(CC) $(CPPFLAGS) $(CFLAGS)" > $@
+	@echo "$(build_flags)" | cmp -s - $@ || echo "$(build_flags)" > $@
 FORCE:
 
 define wide_rule
 $(BUILD)/src/%.w$(1).o: src/%.wide.c $(BUILD)/flags
 	@mkdir -p $$(@D)
-	$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -MMD -MP -c -o $$@ $$<
+	$$(call short,CC)$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -MMD -MP -c -o $$@ $$<
 
 $(BUILD)/tests/%.w$(1): tests/%.wide.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $$(@D)
-	$$(CC) $$(CPPFLAGS) -Itests $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES -MMD -MP $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
+	$$(call short,CC)$$(CC) $$(CPPFLAGS) -Itests $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES -MMD -MP $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
 
 $(BUILD)/bench/%.w$(1): bench/%.wide.c $(BUILD)/liblom.a
 	@mkdir -p $$(@D)
-	$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
+	$$(call short,CC)$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
 endef
 $(foreach v,$(VARIANTS),$(eval $(call wide_rule,$(v))))
 
 $(BUILD)/src/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # The tests of what the program measures with.
-$(BUILD)/tests/measure/%: LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
+$(BUILD)/tests/measure/%: private LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
 $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
 
 # The calls that tests/faults lets fail in turn.
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
-$(BUILD)/tests/faults/%: LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
+$(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 
 # A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.
 $(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< tests/fuzz/main.c $(BUILD)/liblom.a $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< tests/fuzz/main.c $(BUILD)/liblom.a $(LDLIBS)
 
-$(BUILD)/tests/fuzz/fuzz_%: LDFLAGS += -fsanitize=fuzzer
+$(BUILD)/tests/fuzz/fuzz_%: private LDFLAGS += -fsanitize=fuzzer
 
 SECONDS = 60
 fuzz:
@@ -168,6 +192,7 @@ fuzz:
 	        build-fuzz/corpus/$$target $$(ls -d tests/fuzz/corpus/$$target 2>/dev/null) || exit 1; \
 	done
 
+# Needs the program alone.
 demo: $(BUILD)/lom
 	$(BUILD)/lom render assets/scenes/lake.toml -o demo-lake.png
 	$(BUILD)/lom render assets/scenes/flight.toml -o demo.png
@@ -205,7 +230,7 @@ bench-fft: $(BUILD)/bench/fft
 
 $(BUILD)/bench/fft: bench/fft.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a -lfftw3f $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a -lfftw3f $(LDLIBS)
 
 # Drops of a waterfall: placed, made into sprites, ordered, drawn (bench/results/particles.md).
 bench-particles: $(BUILD)/lom $(BUILD)/bench/particles
@@ -213,7 +238,7 @@ bench-particles: $(BUILD)/lom $(BUILD)/bench/particles
 
 $(BUILD)/bench/particles: bench/particles.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # Steps of shallow water (bench/results/shallow.md).
 bench-shallow: $(BUILD)/bench/shallow
@@ -221,7 +246,7 @@ bench-shallow: $(BUILD)/bench/shallow
 
 $(BUILD)/bench/shallow: bench/shallow.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # Sweeps of a grid of light, towards suns all around (bench/results/light-grid.md).
 bench-light-grid: $(BUILD)/bench/light_grid
@@ -229,7 +254,7 @@ bench-light-grid: $(BUILD)/bench/light_grid
 
 $(BUILD)/bench/light_grid: bench/light_grid.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # The experiments on clouds (bench/results/clouds-*.csv, docs/cloud-experiments.md).
 bench-clouds: $(BUILD)/lom $(BUILD)/bench/next_power.w4
@@ -260,12 +285,18 @@ install: all
 	mkdir -p $(INSTALL_BIN) $(INSTALL_LIB)/pkgconfig $(INSTALL_INC)
 	install -m 755 $(BUILD)/lom $(INSTALL_BIN)/lom
 	install -m 644 $(BUILD)/liblom.a $(INSTALL_LIB)/liblom.a
-	install -m 755 $(BUILD)/liblom.so $(INSTALL_LIB)/liblom.so.0
-	ln -sf liblom.so.0 $(INSTALL_LIB)/liblom.so
+	install -m 755 $(BUILD)/liblom.so $(INSTALL_LIB)/liblom.so.$(ABI)
+	ln -sf liblom.so.$(ABI) $(INSTALL_LIB)/liblom.so
 	install -m 644 include/lom/*.h $(INSTALL_INC)
 	$(FILL) src/lanes/lom.pc.in > $(INSTALL_LIB)/pkgconfig/lom.pc
 	$(FILL) src/lanes/lom-cc > $(INSTALL_BIN)/lom-cc
 	chmod 755 $(INSTALL_BIN)/lom-cc
+
+# What install puts there, and its folder of headers where it is empty then.
+uninstall:
+	rm -f $(INSTALL_BIN)/lom $(INSTALL_BIN)/lom-cc $(INSTALL_LIB)/liblom.a $(INSTALL_LIB)/liblom.so $(INSTALL_LIB)/liblom.so.$(ABI) \
+	    $(INSTALL_LIB)/pkgconfig/lom.pc $(patsubst include/lom/%,$(INSTALL_INC)/%,$(wildcard include/lom/*.h))
+	-rmdir $(INSTALL_INC) 2>/dev/null
 
 # Format, layers, exported names, header files alone in C and C++, cppcheck. Tools that are not installed are named.
 lint: $(BUILD)/liblom.a

@@ -1,7 +1,6 @@
 /* The smallest program with a shader of its own: a triangle with three colours, written to triangle.png.
  *
- *   lom-cc -c triangle.c -o triangle.o
- *   cc triangle.o $(pkg-config --libs --static lom) -o triangle
+ *   lom-cc triangle.c -o triangle
  */
 #include <lom/lom.h>
 

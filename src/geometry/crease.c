@@ -1,6 +1,6 @@
 /* Normals by crease angle. In: the triangles of a builder. Out: a normal for each corner: the sum of the unit normals
  * of the triangles at its position that are within the angle of its own. Summed in the order of the triangles, so that
- * all corners that see the same triangles get the same bits. */
+ * all corners that see the same triangles get the same bits. Compiled for speed. */
 #include "builder.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
 /* Erosion by rain drops and by gravity. In: heights; out: heights with gullies, fans and screes. Invariant: drops run
- * one after the other, each a function of its number and of the ground that the ones before it left. */
+ * one after the other, each a function of its number and of the ground that the ones before it left.
+ * Compiled for speed. */
 #include "geometry/erosion.h"
 
 enum { BRUSH = 3, BRUSH_WIDTH = 2 * BRUSH + 1, LIFETIME = 48 };

@@ -1,6 +1,6 @@
 /* Erosion by rivers. In: heights, and where land rises and how fast; out: heights in which every cell has a way down to
  * open water. Invariant: cells are visited in the order of the flood (height, then index), so each after its receiver.
- */
+ * Compiled for speed. */
 #include "geometry/erosion.h"
 
 lom_field lom_create_field(int size, double cell, lom_error *error)

@@ -1,5 +1,5 @@
 /* Vectors and 4x4 matrices in double. In: numbers. Out: numbers, by + - * / and square root in a fixed order, so that
- * every machine gets the same bits. Column vectors, right-handed, m[row][column]. */
+ * every machine gets the same bits. Column vectors, right-handed, m[row][column]. Compiled for speed. */
 #include <lom/geometry.h>
 
 lom_vec3 lom_vec3_add(lom_vec3 a, lom_vec3 b)

@@ -1,5 +1,5 @@
 /* Meshes as a whole: making, freeing, bounds, transformation. In: lengths, matrices. Out: meshes whose arrays have the
- * stated lengths. */
+ * stated lengths. Compiled for speed. */
 #include <lom/geometry.h>
 
 lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t materials, lom_error *error)

@@ -1,5 +1,5 @@
 /* Coherent noise. In: a seed and a place; out: a number that is a pure function of both. Invariant: f(x + period) =
- * f(x) up to rounding, and no operation beyond + - * / and square root is used. */
+ * f(x) up to rounding, and no operation beyond + - * / and square root is used. Compiled for speed. */
 #include "geometry/noise.h"
 
 void lom_seed_noise(lom_noise *noise, uint64_t seed)

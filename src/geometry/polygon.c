@@ -1,7 +1,7 @@
 /* Ear clipping (Meisters 1975; Eberly, Triangulation by Ear Clipping) in the plane of the polygon. In: corners in
  * order. Out: count - 2 triangles whose areas add up to the polygon's when it is simple, needles of no width that go
  * out or in aside. A polygon that crosses itself or has no area still gives that many triangles, by rules that are
- * weakened only when no corner keeps the strict one. */
+ * weakened only when no corner keeps the strict one. Compiled for speed. */
 #include "polygon.h"
 
 lom_vec3 lom_polygon_area(const struct lom_polygon *polygon)

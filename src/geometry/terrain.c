@@ -1,6 +1,6 @@
 /* Terrain from a height map. In: gray, float or 24-bit RGB pixels. Out: a grid mesh, and the height of its triangles at
  * any place. Heights and normals are computed in double and rounded once to float; both functions use the same heights
- * and the same diagonal. */
+ * and the same diagonal. Compiled for speed. */
 #include "geometry/terrain.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* CRC-32 and Adler-32. In: bytes and the checksum so far; out: the checksum behind them. */
+/* CRC-32 and Adler-32. In: bytes and the checksum so far; out: the checksum behind them. Compiled for speed. */
 #include "zip.h"
 
 #include "bytes.h"

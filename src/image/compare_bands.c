@@ -1,5 +1,5 @@
 /* Rows of pictures on many threads. In: a pool and what to do with a band of rows. Out: its effects. Invariant: every
- * row is in one band, and no band in two slices. */
+ * row is in one band, and no band in two slices. Compiled for speed. */
 #include "compare.h"
 
 #include <stdatomic.h>

@@ -5,7 +5,8 @@
  *
  * The filters are Gaussians, their derivatives and sums of two Gaussians, all separable: a row of each picture is
  * turned into YCxCz and filtered along the row when it is first needed, kept in a ring of 21 rows, and the columns are
- * filtered for one row of the result at a time. So memory is some rows, and the time a pixel is that of 13 filters. */
+ * filtered for one row of the result at a time. So memory is some rows, and the time a pixel is that of 13 filters.
+ * Compiled for speed. */
 #include "compare_flip.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The colour mathematics of LDR FLIP (Andersson et al. 2020). In: samples, filtered colours, feature differences. Out:
  * linear light, opponent colours, perceived colours, the error of a pixel. Invariant: all constants follow from the
- * paper's numbers and the sRGB primaries by arithmetic in double. */
+ * paper's numbers and the sRGB primaries by arithmetic in double. Compiled for speed. */
 #include "compare_flip.h"
 #include "convert.h"
 

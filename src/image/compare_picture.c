@@ -1,6 +1,6 @@
 /* A picture of the differences. In: two images of any sizes. Out: an image as large as both. Invariant: a pixel is
  * black where both are equal, at least 64 in a channel where they differ, and OUTSIDE, which is neither, where one has
- * none. */
+ * none. Compiled for speed. */
 #include "compare.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Rows of two pictures in their common format. In: images of any two formats. Out: doubles, interleaved channels, in
  * steps of the wider unsigned normalised format or as plain numbers. Invariant: a sample becomes the same number
- * whichever picture it stands in, and every format's numbers are held without loss. */
+ * whichever picture it stands in, and every format's numbers are held without loss. Compiled for speed. */
 #include "compare.h"
 #include "convert.h"
 

@@ -3,7 +3,7 @@
  * rows of windows are summed from the top whoever did them; equal pictures give exactly 1.
  *
  * The Gaussian is separable, so rows are filtered as they come and kept in a ring; a window's moments are a weighted
- * sum of WINDOW filtered rows. */
+ * sum of WINDOW filtered rows. Compiled for speed. */
 #include "compare.h"
 #include "convert.h"
 

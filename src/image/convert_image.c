@@ -1,4 +1,5 @@
-/* Whole pictures from one format to another: rows decoded to double, channels matched, rows encoded. */
+/* Whole pictures from one format to another: rows decoded to double, channels matched, rows encoded.
+ * Compiled for speed. */
 #include "convert_rows.h"
 
 #include <string.h>

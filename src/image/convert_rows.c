@@ -1,7 +1,8 @@
 /* Rows of pixels of any format from and to four doubles a pixel. Invariant: a double holds every sample of every format
  * closely enough that the one rounding into the target format is the rounding of the exact value: v / (2^n - 1) has a
  * periodic binary expansion of period n <= 24, so within 53 bits it never looks like a tie; sRGB codes are decoded to
- * the nearest float, from which all targets but 24-bit depth round as from the exact value (tested). */
+ * the nearest float, from which all targets but 24-bit depth round as from the exact value (tested).
+ * Compiled for speed. */
 #include "convert_rows.h"
 #include "convert.h"
 

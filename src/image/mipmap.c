@@ -3,7 +3,7 @@
  * to even, so that no level is brighter on average).
  *
  * An axis of n = 2m texels covers two texels a texel; n = 2m + 1 covers n/m: texel i of m spans the texels 2i, 2i + 1,
- * 2i + 2 by (m - i), m, (i + 1), in units of 1/m; n = 1 stays. */
+ * 2i + 2 by (m - i), m, (i + 1), in units of 1/m; n = 1 stays. Compiled for speed. */
 #include "texture.h"
 #include "convert.h"
 

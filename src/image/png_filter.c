@@ -1,6 +1,6 @@
 /* The filters of PNG's rows, undone. In: a filtered row and the row above it; out: the row, in place. Invariant: a byte
  * is what section 9.2 says, modulo 256; the bytes of a pixel, which do not depend on one another, are taken together.
- */
+ * Compiled for speed. */
 #include "png.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Textures: made from a descriptor, read back, freed. In: tightly packed pixels of any format; out: levels with aprons
  * in one of three storages. Invariant: every index that sample_lanes.h can form lies inside texels[], and every float
- * stored here is finite. */
+ * stored here is finite. Compiled for speed. */
 #include "texture.h"
 #include "convert.h"
 #include "convert_rows.h"

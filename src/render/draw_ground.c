@@ -1,5 +1,5 @@
 /* Terrain in a pass. In: how the pass looks at it and what the frame chose (ground.h). Out: a draw for each block in
- * view, near ones first, so that they hide the ones behind before these are shaded. */
+ * view, near ones first, so that they hide the ones behind before these are shaded. Compiled for speed. */
 #include "render/renderer.h"
 
 static double fraction(double x)

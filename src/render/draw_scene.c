@@ -1,5 +1,5 @@
 /* The scene itself in a pass. In: how the pass looks at it. Out: draws of terrain blocks, entities and sky; what lies
- * outside the view or wholly behind the clip plane is left out, which changes no pixel. */
+ * outside the view or wholly behind the clip plane is left out, which changes no pixel. Compiled for speed. */
 #include "render/renderer.h"
 #include "sky/sky_draw.h"
 

@@ -5,7 +5,7 @@
  * error * scale <= pixels * d, with d to the nearest point of the block's box. Neighbours are kept within one level of
  * each other; the finer one leaves out every second vertex of the edge they share, which then has the same vertices on
  * both sides, so there are no cracks (Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004, section 4, has the other
- * ways). */
+ * ways). Compiled for speed. */
 #include "render/ground.h"
 
 /* ---- levels ---- */

@@ -5,7 +5,8 @@
  * with e the sun's elevation. So the shadow's height is S = max (h - d tan e) over d > 0. The grid is swept away from
  * the sun, one line (a column, or a row where the sun stands more along the columns) after the other: parallel rays
  * carry their S, which takes in the line's heights and sinks by tan e times the way to the next one. A ray moves by
- * `shift` vertices along each line; it never moves to another ray, so nothing is smeared on the way. */
+ * `shift` vertices along each line; it never moves to another ray, so nothing is smeared on the way.
+ * Compiled for speed. */
 #include "render/ground.h"
 
 struct sweep {

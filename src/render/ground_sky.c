@@ -4,7 +4,7 @@
  * Along one azimuth the horizon stands at the largest slope tan h = (height - own height) / distance. A ring of the
  * hemisphere from h to the zenith, weighted by the cosine, holds the share cos^2 h = 1 / (1 + tan^2 h) of the light of
  * a uniform sky; the mean over all azimuths is the visibility (Max, "Horizon mapping", The Visual Computer 4, 1988,
- * has the horizons). Every sum has one order, so the result does not depend on the machine. */
+ * has the horizons). Every sum has one order, so the result does not depend on the machine. Compiled for speed. */
 #include "render/ground.h"
 
 enum { MOST_CELLS = 256, FARTHEST = 48, PAD = FARTHEST };

@@ -1,4 +1,4 @@
-/* The shaders of surfaces by shading frequency. */
+/* The shaders of surfaces by shading frequency. Compiled for speed. */
 #include "render/surface.h"
 
 #include <lom/scene.h>

@@ -1,6 +1,6 @@
 /* Plans of transforms and running them over threads. In: a size, then planes; out: the planes transformed. Invariant:
  * every table is exact to a rounding (cosines of angles in the first octant, mirrored); a group of columns or rows is
- * transformed by one worker, so threads change no bit. */
+ * transformed by one worker, so threads change no bit. Compiled for speed. */
 #include "waves/fft_plan.h"
 
 #include "base/threads.h"

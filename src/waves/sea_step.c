@@ -1,5 +1,5 @@
 /* A step of the sea: spectra at a time, one transform a field, pixels. In: a sea and a time; out: its views. Invariant:
- * nothing of an earlier step is read, so any time can be made in any order. */
+ * nothing of an earlier step is read, so any time can be made in any order. Compiled for speed. */
 #include "waves/sea_state.h"
 
 #include "base/threads.h"

@@ -13,7 +13,7 @@
  * water flows onto dry cells and not out of them. A face carries at most 2 H sqrt(g H), the speed of the front of a
  * broken dam on a dry bed (A. Ritter 1892). Cells whose faces carry off more than they have give each a share.
  *
- * Invariant: what leaves a cell through a face enters the next one, the same number. */
+ * Invariant: what leaves a cell through a face enters the next one, the same number. Compiled for speed. */
 #include "waves/shallow_state.h"
 
 enum { LINES = LOM_SHALLOW_LINES, ARRAYS = 9 };

@@ -16,8 +16,7 @@ below() {
     reference) echo "reference $(below scene)" ;;
     render) echo "render $(below reference)" ;;
     measure) echo "measure $(below render)" ;;
-    inspect) echo "inspect $(below render)" ;;
-    cli) echo "cli measure inspect $(below measure)" ;;
+    cli) echo "cli measure $(below measure)" ;;
     esac
 }
 public() { # the public headers of each layer
@@ -31,7 +30,7 @@ public() { # the public headers of each layer
     *) basename "$1" .h ;;
     esac
 }
-system=' assert errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/stat sys/time sys/types time unistd xmmintrin SDL2/SDL SDL '
+system=' assert errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/stat sys/time sys/types time unistd xmmintrin '
 status=0
 for folder in src/*/; do
     name=$(basename "$folder")

@@ -3,7 +3,7 @@
 # -O3, at 4 and 16 lanes, on x86-64, AArch64 and s390x (big-endian), as far as compilers and qemu are there.
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
-flags="-std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -Isrc/lanes -Itests -Wno-psabi
+flags="-std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -Itests -Wno-psabi
        -ffp-contract=off -fno-math-errno -fno-trapping-math"
 base="src/base/double_*.c src/base/hash.c src/base/random.c"
 

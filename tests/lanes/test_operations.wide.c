@@ -204,6 +204,36 @@ static void definitions_have_their_stated_values(void)
     CHECK(lom_bits(lom_mask_of_bits(0xa5a5u)) == (0xa5a5u & ((1u << LOM_LANES) - 1)));
 }
 
+/* Lane by lane what the same operations give in floats, in their stated order; the fourth component counts. */
+static void matrices_multiply_each_lane(void)
+{
+    lom_matrix_uniform m;
+    float v[4][LOM_LANES];
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++)
+            m.m[row][column] = (float)(lom_random_uniform(1, (uint64_t)(row * 4 + column)) * 20 - 10);
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < LOM_LANES; i++)
+            v[k][i] = (float)(lom_random_uniform(2, (uint64_t)(k * LOM_LANES + i)) * 20 - 10);
+    lom_float3 p = { lom_load(v[0]), lom_load(v[1]), lom_load(v[2]) };
+    lom_float4 q = { p.x, p.y, p.z, lom_load(v[3]) };
+    lom_float4 product = lom_multiply4(&m, q), place = lom_transform4(&m, p);
+    lom_float3 affine = lom_transform3(&m, p), turned = lom_rotate3(&m, p);
+    lom_float products[4] = { product.x, product.y, product.z, product.w };
+    lom_float places[4] = { place.x, place.y, place.z, place.w };
+    lom_float affines[3] = { affine.x, affine.y, affine.z }, turns[3] = { turned.x, turned.y, turned.z };
+    for (int row = 0; row < 4; row++)
+        for (int i = 0; i < LOM_LANES; i++) {
+            const float *r = m.m[row];
+            float sum = v[0][i] * r[0];
+            sum = sum + v[1][i] * r[1];
+            sum = sum + v[2][i] * r[2];
+            float weighted = v[3][i] * r[3];
+            CHECK(products[row][i] == sum + weighted && places[row][i] == sum + r[3], "row %d, lane %d", row, i);
+            CHECK(row == 3 || (affines[row][i] == sum + r[3] && turns[row][i] == sum), "row %d, lane %d", row, i);
+        }
+}
+
 int main(int argc, char **argv)
 {
     RUN(definitions_have_their_stated_values);
@@ -215,6 +245,7 @@ int main(int argc, char **argv)
     RUN(compress_keeps_set_lanes_in_order);
     RUN(gathers_read_what_their_indices_name);
     RUN(rows_are_gathered_and_scattered_in_lane_order);
+    RUN(matrices_multiply_each_lane);
     RUN(halves_come_from_and_go_to_two_places);
     return check_result();
 }
