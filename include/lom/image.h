@@ -78,16 +78,33 @@ lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_erro
  * first: the hash that `lom render --hash` and the golden tests print. */
 uint64_t lom_hash_image(const lom_image *image);
 
-/* Reads a picture from a file, by its content: PNG, PPM/PGM/PBM, PAM, PFM, NRRD (a volume). Colour of 8 and 16 bits is
- * stored as the file has it (the _SRGB formats are never chosen; the caller says what the numbers mean with
- * lom_reinterpret_image).
+/* ---- files: a kind of picture file is a codec; docs/formats.md lists them ---- */
+
+typedef struct lom_codec_info {
+    const char *name;    /* in small letters: "png"; what `kind` is in the functions below */
+    const char *title;   /* as it is spelled: "PNG" */
+    const char *endings; /* of the names of its files, in small letters, separated by '|' */
+    bool reads, writes;  /* lom_read_image takes it, lom_write_image makes it (a video: the functions of its own) */
+    bool is_video;       /* frames one behind the other */
+    bool holds_slices;   /* volumes, too */
+    unsigned bits;       /* which samples it holds: the sum of 8 and 16 (unsigned normalised) and 32 (floats) */
+    int channels[5];     /* [n]: how many n channels become in such a file; [0] is 0 */
+} lom_codec_info;
+
+/* The codecs from 0 on; NULL behind the last. */
+const lom_codec_info *lom_describe_codec(size_t index);
+/* The codec called kind, in capitals or not; the one of the path's ending when kind is NULL. NULL when there is none.
  */
+const lom_codec_info *lom_find_codec(const char *path, const char *kind);
+
+/* Reads a picture from a file, by its content: any codec that reads. Colour of 8 and 16 bits is stored as the file has
+ * it (the _SRGB formats are never chosen; the caller says what the numbers mean with lom_reinterpret_image). */
 lom_image *lom_read_image(const char *path, lom_error *error);
 /* The same from memory; name is used in messages. */
 lom_image *lom_decode_image(const uint8_t *data, size_t size, const char *name, lom_error *error);
-/* Writes by the extension of path, or by kind ("png", "ppm", "pgm", "pam", "pfm", "nrrd") when that is not NULL. 8-bit
- * and 16-bit formats as they are, 32-bit floats only to pfm (others need lom_convert_image first); ppm, pgm and pfm
- * drop alpha, and ppm shows gray as three equal channels. */
+/* Writes by the ending of path, or by the codec called kind when that is not NULL. The samples must be of bits that the
+ * codec holds (else lom_convert_image comes first); alpha is dropped and gray made three equal channels where it has no
+ * others. */
 bool lom_write_image(const char *path, const char *kind, const lom_image *image, lom_error *error);
 /* The same into memory; data is NULL on failure. */
 lom_bytes lom_encode_image(const char *kind, const lom_image *image, lom_error *error);

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "options.h"
 #include "paths.h"
+#include "picture_kinds.h"
 
 #include <lom/geometry.h>
 
@@ -19,7 +20,6 @@ static const lom_option options[] = {
     { .name = "format",
       .kind = LOM_OPTION_CHOICE,
       .field = offsetof(struct values, format),
-      .value = "png|ppm|pgm|pam|pfm|nrrd|obj",
       .help = "the kind of OUT, whatever it is called" },
     { .name = "bits",
       .kind = LOM_OPTION_CHOICE,
@@ -50,41 +50,20 @@ static const lom_command_line line = {
     .name = "convert",
     .arguments = "IN OUT",
     .summary = "Writes an image, a volume or a mesh in another form",
+    .choice = lom_conversion_choice,
     .details =
-        "The kind of OUT is its extension or --format: png, ppm, pgm, pam (8 or 16 bits), pfm (floats), nrrd (volumes "
-        "of\n"
-        "8 or 16 bits or floats), obj. IN is told by its content. Samples keep their value in 0..1, correctly "
-        "rounded;\n"
-        "without --srgb no transfer function is applied. ppm has no alpha, pgm is gray: Rec. 709 luminance of the "
-        "samples\n"
-        "as they are.\n"
+        "The kind of OUT is its ending or --format. IN is told by its content. Samples keep their value in 0..1, "
+        "correctly\n"
+        "rounded; without --srgb no transfer function is applied. Gray of colours is Rec. 709 luminance of the samples "
+        "as\n"
+        "they are.\n"
         "An obj is written with its normals, one triangle a face; its materials go to OUT with the extension mtl.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 2,
     .maximum_arguments = 2,
+    .print_more = lom_print_picture_kinds,
 };
-
-/* What an image file can hold: channels[n] is how many n channels become in it. */
-struct kind {
-    const char *name;
-    bool is_float, is_any; /* holds floats alone; or unorm and floats */
-    int channels[5];
-};
-
-static const struct kind kinds[] = {
-    { "png", false, false, { 0, 1, 2, 3, 4 } }, { "pam", false, false, { 0, 1, 2, 3, 4 } },
-    { "ppm", false, false, { 0, 3, 3, 3, 3 } }, { "pgm", false, false, { 0, 1, 1, 1, 1 } },
-    { "pfm", true, false, { 0, 1, 1, 3, 3 } },  { "nrrd", false, true, { 0, 1, 2, 3, 4 } },
-};
-
-static const struct kind *find_kind(const struct values *values, const char *path)
-{
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
-        if (values->format != NULL ? strcmp(values->format, kinds[i].name) == 0 : lom_path_is(path, kinds[i].name))
-            return &kinds[i];
-    return NULL;
-}
 
 static lom_format file_format(int channels, int bits, bool is_srgb)
 {
@@ -147,20 +126,32 @@ static bool convert_to_gray_alpha(lom_image **image, int bits, bool is_srgb, lom
     return replace(image, regroup(*image, is_srgb, 2, error));
 }
 
-static bool reshape(lom_image **image, const struct kind *kind, const struct values *values, lom_error *error)
+/* The bits of the samples that are written: those that were asked for, else those that are there or the nearest that
+ * the codec holds. 0 after a failure. */
+static int choose_bits(const lom_codec_info *codec, int from, const char *asked, lom_error *error)
+{
+    int bits = asked == NULL ? from : strcmp(asked, "8") == 0 ? 8 : strcmp(asked, "16") == 0 ? 16 : 32;
+    if (codec->bits & (unsigned)bits)
+        return bits;
+    if (asked == NULL)
+        return codec->bits & 8 ? 8 : codec->bits & 16 ? 16 : 32;
+    lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold %s.", codec->name,
+             bits == 32   ? "floats"
+             : bits == 16 ? "16 bits a sample"
+                          : "8 bits a sample");
+    return 0;
+}
+
+static bool reshape(lom_image **image, const lom_codec_info *codec, const struct values *values, lom_error *error)
 {
     const lom_format_info *from = lom_describe_format((*image)->format);
-    int channels = values->channels.given ? (int)values->channels.value[0] : kind->channels[from->channels];
-    if (kind->channels[channels] != channels)
-        return lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold %d channels.", kind->name, channels);
-    int bits = kind->is_float ? 32 : from->is_float && !kind->is_any ? 8 : from->bits;
-    if (values->bits != NULL && !kind->is_float)
-        bits = strcmp(values->bits, "8") == 0 ? 8 : strcmp(values->bits, "16") == 0 ? 16 : 32;
-    if (bits == 32 && !kind->is_float && !kind->is_any)
-        return lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold floats.", kind->name);
-    if (kind->is_float && values->bits != NULL)
-        return lom_fail(error, LOM_ERROR_USAGE, "A pfm file holds floats; --bits does not apply to it.");
-    bool srgb = values->srgb && from->is_float != kind->is_float;
+    int channels = values->channels.given ? (int)values->channels.value[0] : codec->channels[from->channels];
+    if (codec->channels[channels] != channels)
+        return lom_fail(error, LOM_ERROR_USAGE, "A %s file cannot hold %d channels.", codec->name, channels);
+    int bits = choose_bits(codec, from->bits, values->bits, error);
+    if (bits == 0)
+        return false;
+    bool srgb = values->srgb && from->is_float != (bits == 32);
     if (srgb && (from->is_float ? bits : from->bits) != 8)
         return lom_fail(error, LOM_ERROR_USAGE, "--srgb is for samples of 8 bits.");
     bool srgb_in = srgb && !from->is_float, srgb_out = srgb && from->is_float;
@@ -177,14 +168,19 @@ static bool reshape(lom_image **image, const struct kind *kind, const struct val
 
 static bool convert_image(const char *in, const char *out, const struct values *values, lom_error *error)
 {
-    const struct kind *kind = find_kind(values, out);
-    if (kind == NULL)
-        return lom_fail(
-            error, LOM_ERROR_USAGE,
-            "%s: its extension is none of png, ppm, pgm, pam, pfm, nrrd; --format can say what it is to be.", out);
+    const lom_codec_info *codec = lom_find_codec(out, values->format);
+    if (codec == NULL || !codec->writes || codec->is_video) {
+        char names[200] = "";
+        for (size_t i = 0; lom_picture_choice(i) != NULL; i++)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i > 0 ? ", " : "",
+                     lom_picture_choice(i));
+        return lom_fail(error, LOM_ERROR_USAGE, "%s: its extension is none of %s; --format can say what it is to be.",
+                        out, names);
+    }
     const int size[3] = { (int)values->voxels.value[0], (int)values->voxels.value[1], (int)values->voxels.value[2] };
     lom_image *image = values->voxels.given ? lom_read_volume(in, size, error) : lom_read_image(in, error);
-    bool done = image != NULL && reshape(&image, kind, values, error) && lom_write_image(out, kind->name, image, error);
+    bool done =
+        image != NULL && reshape(&image, codec, values, error) && lom_write_image(out, codec->name, image, error);
     lom_free_image(image);
     return done;
 }

@@ -58,7 +58,8 @@ char *lom_name_frame(const char *pattern, int frame, lom_error *error)
 
 static bool is_video(const struct lom_frame_output *o)
 {
-    return o->format != NULL ? strcmp(o->format, "y4m") == 0 : lom_path_is(o->pattern, "y4m");
+    const lom_codec_info *codec = lom_find_codec(o->pattern, o->format);
+    return codec != NULL && codec->is_video;
 }
 
 static const char *kind_of(const struct lom_frame_output *o)

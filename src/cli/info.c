@@ -4,6 +4,7 @@
 #include "json.h"
 #include "options.h"
 #include "paths.h"
+#include "picture_kinds.h"
 
 #include <lom/scene.h>
 
@@ -28,16 +29,16 @@ static const lom_command_line line = {
     .arguments = "FILE...",
     .summary = "Says what is in images, meshes and scenes",
     .details =
-        "Meshes are *.obj, scenes *.toml, anything else is read as an image (PNG, PPM, PGM, PBM, PAM, PFM) or as a\n"
-        "volume (NRRD). Triangles count n - 2 a polygon; vertices are those left after equal corners became one;\n"
-        "their bounds are the lowest and the highest x, y and z. What a lenient reader passed over is told as "
-        "warnings. The\n"
+        "Meshes are *.obj, scenes *.toml, anything else is read as a picture or a volume. Triangles count n - 2 a\n"
+        "polygon; vertices are those left after equal corners became one; bounds are the lowest and the highest x, y\n"
+        "and z. What a lenient reader passed over is told as warnings. The\n"
         "hash of an image covers its size, its format and its samples; that of a mesh its vertices, its triangles and\n"
         "their materials; that of a scene the bytes of all its files.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
     .maximum_arguments = -1,
+    .print_more = lom_print_picture_kinds,
 };
 
 /* What is known of a file; -1 is what its kind does not have. */

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "options.h"
 #include "paths.h"
+#include "picture_kinds.h"
 #include "sky/face_mark.h"
 
 #include <lom/cloud.h>
@@ -223,7 +224,8 @@ static const lom_command_line line = {
         "options a\n"
         "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
         "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.\n"
-        "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file.",
+        "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file, format-docs that of the\n"
+        "kinds of picture files.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
@@ -347,6 +349,8 @@ int lom_command_make(int argc, char **argv)
         return make_all(&v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     if (strcmp(arguments.items[0], "scene-docs") == 0 && arguments.count == 1)
         return make_scene_docs(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
+    if (strcmp(arguments.items[0], "format-docs") == 0 && arguments.count == 1)
+        return lom_write_format_documentation(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     if (strcmp(arguments.items[0], "cloud") == 0 && arguments.count == 2)
         return make_cloud(arguments.items[1], &v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     const recipe *found = find_recipe(&arguments);

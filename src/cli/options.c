@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 64 };
+enum { MAX_OPTIONS = 64, MAX_VALUE = 160 };
 
 int lom_complain(const char *format, ...)
 {
@@ -107,10 +107,24 @@ static bool store_integers(const lom_command_line *line, const lom_option *optio
     return true;
 }
 
+/* How the word after an option is shown. */
+static void show_value(const lom_command_line *line, const lom_option *option, char *text, size_t room)
+{
+    size_t length = 0;
+    if (option->value != NULL)
+        snprintf(text, room, "%s", option->value);
+    for (size_t i = 0; option->value == NULL && line->choice(i) != NULL && length < room; i++) {
+        int added = snprintf(text + length, room - length, "%s%s", i > 0 ? "|" : "", line->choice(i));
+        length += added > 0 ? (size_t)added : 0;
+    }
+}
+
 static bool store_choice(const lom_command_line *line, const lom_option *option, const char *word, void *field)
 {
+    char choices[MAX_VALUE];
     size_t length = strlen(word);
-    for (const char *choice = option->value; *choice != 0;) {
+    show_value(line, option, choices, sizeof choices);
+    for (const char *choice = choices; *choice != 0;) {
         size_t end = strcspn(choice, "|");
         if (end == length && memcmp(choice, word, length) == 0) {
             *(const char **)field = word;
@@ -118,7 +132,7 @@ static bool store_choice(const lom_command_line *line, const lom_option *option,
         }
         choice += end + (choice[end] == '|');
     }
-    return refuse(line, "--%s takes %s, not \"%s\"", option->name, option->value, word);
+    return refuse(line, "--%s takes %s, not \"%s\"", option->name, choices, word);
 }
 
 static bool store(const lom_command_line *line, const lom_option *option, const char *word, void *values)
@@ -208,7 +222,9 @@ static const lom_option *take_option(const lom_command_line *line, int argc, cha
         bool is_option =
             next != NULL && strncmp(next, "--", 2) == 0 && find_long(line, next + 2, strcspn(next + 2, "="));
         if (next == NULL || is_option) { /* what is named like an option takes --name=--value */
-            refuse(line, "--%s needs a value: %s", option->name, option->value);
+            char value[MAX_VALUE];
+            show_value(line, option, value, sizeof value);
+            refuse(line, "--%s needs a value: %s", option->name, value);
             return NULL;
         }
         *word = argv[++*at];
@@ -265,15 +281,16 @@ bool lom_parse_options(const lom_command_line *line, int argc, char **argv, void
     return true;
 }
 
-static void print_option(const lom_option *option, FILE *out)
+static void print_option(const lom_command_line *line, const lom_option *option, FILE *out)
 {
     enum { COLUMN = 32 };
-    char left[128], limits[96] = "";
+    char left[64 + MAX_VALUE], limits[96] = "", value[MAX_VALUE] = "";
     char letter[8] = "    ";
     if (option->letter != 0)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    snprintf(left, sizeof left, "  %s--%s%s%s", letter, option->name, option->kind == LOM_OPTION_FLAG ? "" : " ",
-             option->kind == LOM_OPTION_FLAG ? "" : option->value);
+    if (option->kind != LOM_OPTION_FLAG)
+        show_value(line, option, value, sizeof value);
+    snprintf(left, sizeof left, "  %s--%s%s%s", letter, option->name, value[0] != 0 ? " " : "", value);
     if ((option->kind == LOM_OPTION_NUMBER || option->kind == LOM_OPTION_INTEGER) && has_limits(option))
         snprintf(limits, sizeof limits, " (%.15g to %.15g)", option->minimum, option->maximum);
     fprintf(out, "%-*s", COLUMN, left);
@@ -289,8 +306,10 @@ void lom_print_help(const lom_command_line *line, FILE *out)
     fprintf(out, "usage: lom %s [OPTION]...%s%s\n\n%s.\n\noptions:\n", line->name, has_arguments ? " " : "",
             has_arguments ? line->arguments : "", line->summary);
     for (size_t i = 0; i < line->option_count; i++)
-        print_option(&line->options[i], out);
-    print_option(&help, out);
+        print_option(line, &line->options[i], out);
+    print_option(line, &help, out);
     if (line->details != NULL)
         fprintf(out, "\n%s\n", line->details);
+    if (line->print_more != NULL)
+        line->print_more(out);
 }

@@ -18,7 +18,8 @@ enum {
 typedef enum lom_option_kind {
     LOM_OPTION_FLAG,    /* no word; bool */
     LOM_OPTION_TEXT,    /* any word; const char *, NULL when absent */
-    LOM_OPTION_CHOICE,  /* one of the words of `value`, separated by '|'; const char *, NULL when absent */
+    LOM_OPTION_CHOICE,  /* one of the words of `value`, separated by '|'; of the command line's `choice` when that is
+                         * NULL; const char *, NULL when absent */
     LOM_OPTION_NUMBER,  /* a decimal number in [minimum, maximum]; lom_option_number */
     LOM_OPTION_INTEGER, /* integers in [minimum, maximum], in the pattern of `value`: a capital letter stands for an
                          * integer, anything else for itself ("N", "WxH", "A:B", "X,Y,W,H"); behind a '|' stands a
@@ -54,10 +55,12 @@ typedef struct lom_option {
 } lom_option;
 
 typedef struct lom_command_line {
-    const char *name;      /* "compare" */
-    const char *arguments; /* how the usage line shows what is no option: "A B" */
-    const char *summary;   /* one line */
-    const char *details;   /* paragraphs below the options; may be NULL */
+    const char *name;                    /* "compare" */
+    const char *arguments;               /* how the usage line shows what is no option: "A B" */
+    const char *summary;                 /* one line */
+    const char *(*choice)(size_t index); /* the words of a table to choose from: NULL behind the last */
+    const char *details;                 /* paragraphs below the options; may be NULL */
+    void (*print_more)(FILE *out);       /* what a table says below them; may be NULL */
     const lom_option *options;
     size_t option_count;
     int minimum_arguments, maximum_arguments; /* maximum -1: any number */

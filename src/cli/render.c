@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "frame_output.h"
 #include "frame_stats.h"
+#include "picture_kinds.h"
 #include "progress.h"
 #include "scene_options.h"
 
@@ -35,7 +36,7 @@ static const lom_option options[] = {
       "draw again whenever the scene or one of its files changes" },
     { "check", 0, LOM_OPTION_FLAG, offsetof(struct values, check), NULL, 0, 0,
       "refuse (exit 1) a picture that is one single colour or held NaN" },
-    { "format", 0, LOM_OPTION_CHOICE, offsetof(struct values, format), "png|ppm|pgm|pam|pfm|y4m", 0, 0,
+    { "format", 0, LOM_OPTION_CHOICE, offsetof(struct values, format), NULL, 0, 0,
       "the kind of picture, whatever the name ends in" },
     { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, quiet), NULL, 0, 0, "no progress bar" },
 };
@@ -44,13 +45,15 @@ static const lom_command_line line = {
     .name = "render",
     .arguments = "SCENE -o OUT",
     .summary = "draw a scene",
-    .details = "OUT is png, ppm, pgm, pam, pfm or y4m by its ending. -o may be left out with --hash or --stats.\n"
+    .choice = lom_frame_choice,
+    .details = "The kind of OUT is its ending or --format. -o may be left out with --hash or --stats.\n"
                "Other videos are made of y4m: lom render SCENE --frames all -o - --format y4m | ffmpeg -i - OUT.mp4\n"
                "Any frame alone has the bytes that it has in a run, unless quality.impostors is on.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
     .maximum_arguments = 1,
+    .print_more = lom_print_picture_kinds,
 };
 
 /* What is open while frames are drawn. */

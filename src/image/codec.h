@@ -1,4 +1,4 @@
-/* The picture formats behind lom_decode_image and lom_encode_image, a pair of functions each. `name` is the file's name
+/* The codecs behind lom_decode_image and lom_encode_image, a pair of functions each. `name` is the file's name
  * for messages. Decoders get data that begins with their format's signature and return NULL on failure; encoders get a
  * picture of depth 1 and return data NULL on failure. */
 #ifndef LOM_IMAGE_CODEC_H
@@ -22,6 +22,9 @@ lom_bytes lom_encode_nrrd(const lom_image *image, lom_error *error); /* any dept
 
 /* Whether text is one of the words of a list separated by '|', in capitals or not, whatever the locale. */
 bool lom_is_word(const char *text, size_t length, const char *list);
+
+/* The codec whose file begins like this, NULL for none. */
+const lom_codec_info *lom_recognize_codec(const uint8_t *data, size_t size);
 
 /* The unorm format of 1..4 channels and 8 or 16 bits. */
 lom_format lom_unorm_format(int channels, int bits);

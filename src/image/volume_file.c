@@ -73,8 +73,9 @@ lom_image *lom_read_volume(const char *path, const int size[3], lom_error *error
     if (file.data == NULL)
         return NULL;
     lom_image *image;
-    if (file.size >= 4 && memcmp(file.data, "NRRD", 4) == 0)
-        image = lom_decode_nrrd(file.data, file.size, path, error);
+    const lom_codec_info *codec = lom_recognize_codec(file.data, file.size);
+    if (codec != NULL && codec->holds_slices)
+        image = lom_decode_image(file.data, file.size, path, error);
     else if (size != NULL && size[0] > 0)
         image = lom_decode_raw_volume(file.data, file.size, size[0], size[1], size[2], path, error);
     else {

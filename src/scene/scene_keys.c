@@ -23,7 +23,7 @@ static const lom_key output[] = {
       .text = "`srgb` decodes colour textures to linear light and encodes the picture once. `naive` does neither, as "
               "simple renderers do." },
     { "format", LOM_KEY_CHOICE, AT(lom_output, format), .choices = { "rgb8", "rgb16", "rgb32f" },
-      .text = "Samples of the picture; `rgb32f` is linear and needs a .pfm file." },
+      .text = "Samples of the picture; `rgb32f` is linear and needs a kind of file that holds floats, as .pfm." },
     { "frames", LOM_KEY_INTEGER, AT(lom_output, frames), .minimum = 1, .maximum = 1e6, .initial = { 1 },
       .text = "Length of the animation." },
     { "fps", LOM_KEY_NUMBER, AT(lom_output, fps), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 30 },

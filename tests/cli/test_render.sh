@@ -68,6 +68,9 @@ wrong_files() {
             case $what$file in
             absentbox.mtl | emptybox.mtl) # lenient: the material is the default one, and a warning says so
                 exits 0 "$lom" render scene.toml -o out.png && complains "warning: " && rm out.png || return 1 ;;
+            *skin.ppm) # a mesh's own map: the material without it, and a warning that names it
+                exits 0 "$lom" render scene.toml -o out.png && complains "warning: " && complains skin.ppm && rm out.png ||
+                    return 1 ;;
             garbagebox.mtl) ;; # statements that are not known are passed over, but not a zero byte
             cutbox.mtl) ;;
             *) refuses "$file" render scene.toml -o out.png || { mv kept $file; return 1; } ;;
