@@ -41,6 +41,10 @@ static const struct codec {
       { "NRRD" },
       lom_decode_nrrd,
       lom_encode_nrrd },
+    { { "qoi", "QOI", "qoi", true, true, false, false, 8, { 0, 3, 4, 3, 4 } },
+      { "qoif" },
+      lom_decode_qoi,
+      lom_encode_qoi },
     { { "y4m", "YUV4MPEG2", "y4m", false, true, true, false, 8, { 0, 3, 3, 3, 3 } }, { NULL }, NULL, NULL },
 };
 

@@ -12,6 +12,7 @@ lom_image *lom_decode_pam(const uint8_t *data, size_t size, const char *name, lo
 lom_image *lom_decode_pfm(const uint8_t *data, size_t size, const char *name, lom_error *error);
 
 lom_image *lom_decode_nrrd(const uint8_t *data, size_t size, const char *name, lom_error *error);
+lom_image *lom_decode_qoi(const uint8_t *data, size_t size, const char *name, lom_error *error);
 
 lom_bytes lom_encode_png(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_ppm(const lom_image *image, lom_error *error);
@@ -19,6 +20,7 @@ lom_bytes lom_encode_pgm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pam(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pfm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_nrrd(const lom_image *image, lom_error *error); /* any depth */
+lom_bytes lom_encode_qoi(const lom_image *image, lom_error *error);
 
 /* Whether text is one of the words of a list separated by '|', in capitals or not, whatever the locale. */
 bool lom_is_word(const char *text, size_t length, const char *list);
