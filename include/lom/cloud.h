@@ -52,7 +52,7 @@ lom_image *lom_make_cloud_picture(int size, uint64_t seed, lom_error *error);
 /* ---- [[cloud]] ---- */
 
 typedef struct lom_cloud {
-    uint32_t given;
+    bool present;
     const char *name; /* NULL when it has none; unique in the scene */
     const char *kind; /* one that lom_find_cloud_kind knows; NULL when file is set */
     const char *file; /* a volume of density of the user's, or NULL */
@@ -85,7 +85,7 @@ typedef enum lom_cloud_original_light {
 } lom_cloud_original_light;
 
 typedef struct lom_cloud_wind { /* [[clouds.wind]]: heights rise strictly */
-    uint32_t given;
+    bool present;
     double height;    /* metres */
     double speed;     /* m/s */
     double direction; /* radians, where it blows to: 0 is +x, a quarter turn +z */
@@ -94,7 +94,7 @@ typedef struct lom_cloud_wind { /* [[clouds.wind]]: heights rise strictly */
 } lom_cloud_wind;
 
 typedef struct lom_clouds {
-    uint32_t given;
+    bool present;
     lom_cloud_phase phase;
     double forward, backward, blend;     /* mean cosines of the lobes (-1..1) and the share of the backward one */
     double silver, silver_spread;        /* strength of the silver lining and 1 - mean cosine of its lobe */
@@ -133,7 +133,7 @@ typedef enum lom_impostor_rule {
 } lom_impostor_rule;
 
 typedef struct lom_impostor_dials {
-    uint32_t given;
+    bool present;
     double bound;                    /* pixels; of the bounded rule */
     double scale;                    /* texels a pixel of the frame, of the bounded rule, above 0 to 4 */
     double inside_scale;             /* the same of the plate of a cloud around the eye, above 0 to 1 */

@@ -62,7 +62,7 @@ void lom_order_particles(const float *depth, size_t count, uint32_t *order, uint
 
 /* An emitter whose drops are drawn: each a round, soft spot of light, drawn out along its way. */
 typedef struct lom_spray {
-    uint32_t given;
+    bool present;
     const char *name; /* NULL when it has none; unique in the scene */
     bool visible;
     int seed, count;

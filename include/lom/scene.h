@@ -21,7 +21,7 @@ typedef enum lom_transfer { LOM_TRANSFER_SRGB, LOM_TRANSFER_NAIVE } lom_transfer
 typedef enum lom_output_format { LOM_OUTPUT_RGB8, LOM_OUTPUT_RGB16, LOM_OUTPUT_RGB32F } lom_output_format;
 
 typedef struct lom_output {
-    uint32_t given;
+    bool present;
     int width, height;        /* pixels, 1..LOM_MAX_SIZE */
     lom_transfer transfer;    /* naive: textures are not decoded and the output is not encoded */
     lom_output_format format; /* the samples; the kind of file comes from its extension */
@@ -32,7 +32,7 @@ typedef struct lom_output {
 /* ---- [camera] ---- */
 
 typedef struct lom_camera_key { /* [[camera.key]]; times rise strictly from key to key */
-    uint32_t given;
+    bool present;
     double time; /* seconds */
     lom_vec3 position, target;
     double field_of_view; /* radians, vertical */
@@ -46,7 +46,7 @@ typedef enum lom_person {
 typedef enum lom_interpolation { LOM_INTERPOLATION_LINEAR, LOM_INTERPOLATION_SMOOTH } lom_interpolation;
 
 typedef struct lom_camera {
-    uint32_t given;
+    bool present;
     lom_vec3 position, target, up;   /* up has unit length */
     double yaw, pitch, roll;         /* radians, as in the file; the reader has worked them into target and up */
     double field_of_view;            /* radians, vertical, 0.01 to 179 degrees */
@@ -69,14 +69,14 @@ typedef struct lom_camera_view {
 /* ---- [light] ---- */
 
 typedef struct lom_light_key { /* [[light.key]]; times rise strictly from key to key */
-    uint32_t given;
+    bool present;
     double time;               /* seconds */
     double azimuth, elevation; /* radians */
     double color[3], intensity;
 } lom_light_key;
 
 typedef struct lom_light {
-    uint32_t given;
+    bool present;
     lom_vec3 direction;        /* unit vector, the way the light travels: from the sun towards the scene */
     double azimuth, elevation; /* radians, of the sun as in the file; already worked into direction */
     double color[3];           /* linear; multiplied by intensity it is the light's diffuse and specular colour */
@@ -92,7 +92,7 @@ typedef struct lom_light {
 /* Air that scatters: of a colour at the end of a path, exp(-optical depth) is left, and the air's colour fills the
  * rest. Extinction is density up to the height base, and density exp(-(y - base) / height) above. */
 typedef struct lom_haze {
-    uint32_t given;       /* 0: clear air */
+    bool present;         /* else the air is clear */
     double density[3];    /* 1 / m at base, red, green and blue */
     double color[3];      /* linear */
     double base, height;  /* metres; height 0: the same at every height */
@@ -102,19 +102,12 @@ typedef struct lom_haze {
 
 /* ---- materials ---- */
 
-enum { /* bits of lom_scene_material.given: which values the file names */
-       LOM_MATERIAL_AMBIENT = 1,
-       LOM_MATERIAL_DIFFUSE = 2,
-       LOM_MATERIAL_SPECULAR = 4,
-       LOM_MATERIAL_SHININESS = 8,
-       LOM_MATERIAL_TEXTURE = 16
-};
-
 typedef struct lom_scene_material {
-    uint32_t given;                             /* an entity's mesh keeps its own value where the bit is clear */
-    double ambient[3], diffuse[3], specular[3]; /* linear factors */
-    double shininess;                           /* Phong exponent */
-    const char *texture;                        /* colour texture that multiplies ambient and diffuse, or NULL */
+    bool present;
+    bool has_ambient, has_diffuse, has_specular, has_shininess; /* false: an entity's mesh keeps its own */
+    double ambient[3], diffuse[3], specular[3];                 /* linear factors */
+    double shininess;                                           /* Phong exponent */
+    const char *texture; /* colour texture that multiplies ambient and diffuse; NULL: the mesh's own */
 } lom_scene_material;
 
 /* ---- [terrain] ---- */
@@ -122,7 +115,7 @@ typedef struct lom_scene_material {
 typedef enum lom_mapping { LOM_MAPPING_PLANAR, LOM_MAPPING_TRIPLANAR } lom_mapping;
 
 typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers before it where its ranges hold */
-    uint32_t given;
+    bool present;
     const char *map;
     double tile;                   /* metres of one repetition; 0: once over the whole terrain */
     double from_height, to_height; /* metres above y = 0; -+1e9 when the file names no bound */
@@ -134,7 +127,7 @@ typedef struct lom_terrain_layer { /* [[terrain.layer]]: painted over the layers
 } lom_terrain_layer;
 
 typedef struct lom_terrain {
-    uint32_t given;
+    bool present;
     const char *height_map;
     double size[2];         /* width along x and length along z, metres; the terrain is centred on x = z = 0 */
     double height;          /* metres from black to white */
@@ -152,13 +145,13 @@ typedef struct lom_terrain {
 /* ---- [[entity]] ---- */
 
 typedef struct lom_entity_key { /* [[entity.key]]; times rise strictly from key to key */
-    uint32_t given;
+    bool present;
     double time; /* seconds */
     lom_vec3 position, rotation;
 } lom_entity_key;
 
 typedef struct lom_entity {
-    uint32_t given;
+    bool present;
     const char *name;  /* NULL when it has none; unique in the scene */
     const char *mesh;  /* OBJ file */
     lom_vec3 position; /* metres; y is above the terrain when on_ground is set */
@@ -186,14 +179,14 @@ typedef enum lom_texture_filter {
 } lom_texture_filter;
 
 typedef struct lom_reference_quality { /* [quality.reference] */
-    uint32_t given;
+    bool present;
     int samples; /* of a pixel */
     int depth;   /* crossings of water that a path may have */
     double sun;  /* radians: the radius of the sun's disc as water shows it */
 } lom_reference_quality;
 
 typedef struct lom_quality {
-    uint32_t given;
+    bool present;
     lom_water_model water;
     lom_cloud_model clouds;
     double cloud_error;       /* of an optical depth, in parts of the greatest one of that length: bounds the step */
@@ -220,7 +213,7 @@ typedef struct lom_quality {
 /* ---- the scene ---- */
 
 typedef struct lom_scene {
-    uint32_t given;
+    bool present;
     const char *title; /* or NULL */
     lom_output output;
     lom_camera camera;

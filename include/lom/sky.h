@@ -9,7 +9,7 @@ LOM_API_BEGIN
 /* A box of six pictures when faces[0] is not NULL (then all six are set), else one colour. Strings belong to the
  * scene. */
 typedef struct lom_sky_params {
-    uint32_t given;       /* nonzero when the scene has a [sky] table */
+    bool present;         /* the scene has a [sky] table */
     const char *faces[6]; /* paths: right +x, left -x, top +y, bottom -y, front +z, back -z */
     double rotation;      /* radians about +y, counter-clockwise seen from above */
     double intensity;     /* factor on the pictures and on color */

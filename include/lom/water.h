@@ -27,7 +27,7 @@ typedef enum lom_water_type {
 } lom_water_type;
 
 typedef struct lom_water_optics {
-    uint32_t given;
+    bool present;
     double index; /* of refraction, water against air */
     lom_fresnel fresnel;
     lom_water_type type;
@@ -57,7 +57,7 @@ typedef enum lom_water_model {                       /* from cheap to exact, but
  * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */
 typedef struct lom_water_params {
-    uint32_t given;     /* nonzero when the scene has a [water] table */
+    bool present;       /* the scene has a [water] table */
     bool enabled;       /* false: no water is drawn although there is a table */
     double level;       /* y of the surface, metres */
     double position[2]; /* x, z of the middle of the quad, metres */

@@ -22,7 +22,7 @@ typedef enum lom_waves_kind {
 /* The waves on the surface. Gerstner: `count` trochoids of geometrically spaced lengths about one direction. Sea: the
  * cascades of lom/sea.h. An angle is measured from +x towards +z and says where the waves travel to. */
 typedef struct lom_water_waves {
-    uint32_t given;
+    bool present;
     lom_waves_kind kind;
     double direction; /* radians */
     int seed;
@@ -46,7 +46,7 @@ typedef struct lom_water_waves {
 /* ---- [water.foam]: what waves leave where they break ---- */
 
 typedef struct lom_water_foam {
-    uint32_t given;
+    bool present;
     double amount;      /* 0: no foam .. 1 */
     double threshold;   /* Jacobian below which waves break */
     double window;      /* seconds that foam lasts: it is the decaying sum of what broke in them */
@@ -58,7 +58,7 @@ typedef struct lom_water_foam {
 
 /* Waves that come in to a shore: one period, whose crests turn and rise over the bed and break. */
 typedef struct lom_water_surf {
-    uint32_t given;
+    bool present;
     double height;    /* metres where they reach the terrain; 0: there are none */
     double period;    /* seconds */
     double direction; /* radians, as of lom_water_waves */
@@ -68,13 +68,13 @@ typedef struct lom_water_surf {
 /* ---- [shallow]: the surface as a height field that flows over the terrain (lom/shallow.h) ---- */
 
 typedef struct lom_shallow_spring {
-    uint32_t given;
+    bool present;
     double position[2], radius; /* x and z, metres */
     double rate;                /* m^3/s */
 } lom_shallow_spring;
 
 typedef struct lom_shallow_body {
-    uint32_t given;
+    bool present;
     const char *entity; /* that it goes with, or NULL */
     double position[2], half[2], heading, draft;
     double time, duration, every; /* of dipping in, seconds; duration 0: it is always in the water */
@@ -82,7 +82,7 @@ typedef struct lom_shallow_body {
 } lom_shallow_body;
 
 typedef struct lom_shallow_water {
-    uint32_t given;
+    bool present;
     double position[2], size[2]; /* of the region; the reader has put the water's here when the file gives none */
     int cells;                   /* along the longer side */
     double start;                /* seconds: when it stands still at the level */

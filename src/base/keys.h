@@ -42,14 +42,29 @@ typedef struct lom_key {
     const char *initial_text;          /* what the documentation says of the default when no number can say it */
 } lom_key;
 
+/* What the check of a table asks and says: whether a key stands in the file (in none when the table is not there), and
+ * what is wrong, at the key's place. */
+typedef struct lom_key_check lom_key_check;
+struct lom_key_check {
+    bool (*is_given)(const lom_key_check *check, const char *key);
+    bool (*fail)(const lom_key_check *check, const char *key, const char *sentence); /* false */
+    /* The same of table i of the array of tables under key. */
+    lom_key_check (*element)(const lom_key_check *check, const char *key, size_t i);
+    /* The path of a file that the value of a key leads to; NULL, with a sentence, when it is not there. It lives as
+     * long as the struct. */
+    const char *(*path)(const lom_key_check *check, const char *key, const char *name);
+    void *reader;      /* the scene layer's */
+    const void *table; /* likewise; NULL: not in the file */
+};
+
 typedef struct lom_key_table {
-    size_t size;         /* of the struct; its first member is `uint32_t given`: bit i is set when key i was in the
-                            file, LOM_KEY_PRESENT when the table was */
-    const lom_key *keys; /* at most 31 */
+    size_t size; /* of the struct; its first member is `bool present`: the table was in the file */
+    const lom_key *keys;
     int key_count;
     const char *text; /* the documentation of the table: sentences */
+    /* What concerns several keys of the table, and what is derived from them, once the struct and those inside it are
+     * filled; false when it has failed. NULL: nothing. */
+    bool (*check)(void *members, const lom_key_check *check);
 } lom_key_table;
-
-#define LOM_KEY_PRESENT (UINT32_C(1) << 31)
 
 #endif

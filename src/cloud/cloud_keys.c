@@ -1,8 +1,10 @@
 /* The tables of the scene file's [clouds] and [[cloud]] keys. In: nothing. Out: names, ranges, defaults and
  * documentation of every member of lom_clouds and lom_cloud. */
-#include "cloud_keys.h"
+#include "cloud/cloud_keys.h"
 
 #include <lom/cloud.h>
+
+#include <string.h>
 
 #define AT(member)     offsetof(lom_cloud, member)
 #define OF_ALL(member) offsetof(lom_clouds, member)
@@ -38,8 +40,38 @@ static const lom_key cloud[] = {
       .unit = "m", .text = "Length of one repetition of that noise." },
     { "visible", LOM_KEY_BOOL, AT(visible), .initial = { 1 }, .text = "Whether it is drawn." },
 };
-const lom_key_table lom_cloud_keys = { sizeof(lom_cloud), cloud, sizeof cloud / sizeof *cloud,
-                                       "A cloud: a box of density. Boxes should not overlap." };
+/* What the file leaves to the kind. */
+static bool check_cloud(void *members, const lom_key_check *check)
+{
+    lom_cloud *it = members;
+    if (it->file != NULL && it->kind != NULL)
+        return check->fail(check, "file", "a cloud has either a kind or a file, not both.");
+    if (it->file != NULL)
+        return true;
+    if (it->kind == NULL)
+        it->kind = "cumulus_mediocris";
+    lom_error unknown = { 0 };
+    const lom_cloud_kind *kind = lom_find_cloud_kind(it->kind, &unknown);
+    if (kind == NULL)
+        return check->fail(check, "kind", unknown.text);
+    if (!check->is_given(check, "size"))
+        memcpy(it->size, kind->size, sizeof it->size);
+    if (!check->is_given(check, "extinction"))
+        it->extinction = kind->extinction;
+    for (int i = 0; i < 3; i++) {
+        if (it->voxels[i] != lom_double_floor(it->voxels[i]))
+            return check->fail(check, "voxels", "\"voxels\" must be made of whole numbers.");
+        if (it->voxels[i] == 0)
+            it->voxels[i] = kind->voxels[i];
+    }
+    return true;
+}
+
+const lom_key_table lom_cloud_keys = { .size = sizeof(lom_cloud),
+                                       .keys = cloud,
+                                       .key_count = sizeof cloud / sizeof *cloud,
+                                       .text = "A cloud: a box of density. Boxes should not overlap.",
+                                       .check = check_cloud };
 
 #define OF_WIND(member) offsetof(lom_cloud_wind, member)
 static const lom_key wind[] = {
@@ -53,9 +85,13 @@ static const lom_key wind[] = {
     { "gust_period", LOM_KEY_NUMBER, OF_WIND(gust_period), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 20 },
       .unit = "s", .text = "Period of that sine." },
 };
-static const lom_key_table wind_table = { sizeof(lom_cloud_wind), wind, sizeof wind / sizeof *wind,
-                                          "The wind at a height: it takes the clouds there along. Between two heights "
-                                          "their ways are mixed." };
+static const lom_key_table wind_table = {
+    .size = sizeof(lom_cloud_wind),
+    .keys = wind,
+    .key_count = sizeof wind / sizeof *wind,
+    .text = "The wind at a height: it takes the clouds there along. Between two heights "
+            "their ways are mixed."
+};
 
 static const lom_key clouds[] = {
     { "phase", LOM_KEY_CHOICE, OF_ALL(phase), .choices = { "dual", "henyey_greenstein", "rayleigh", "isotropic" },
@@ -104,5 +140,20 @@ static const lom_key clouds[] = {
     { "swell", LOM_KEY_NUMBER, OF_ALL(swell), .maximum = 1, .initial = { 0.3 },
       .text = "With `evolve`: how much the clouds grow and shrink meanwhile, each in a phase of its own." },
 };
-const lom_key_table lom_clouds_keys = { sizeof(lom_clouds), clouds, sizeof clouds / sizeof *clouds,
-                                        "What all clouds share: how they scatter, and the light of sky and ground." };
+static bool check_clouds(void *members, const lom_key_check *check)
+{
+    const lom_clouds *all = members;
+    for (size_t i = 1; i < all->wind_count; i++)
+        if (!(all->winds[i].height > all->winds[i - 1].height)) {
+            const lom_key_check at = check->element(check, "wind", i);
+            return at.fail(&at, "height", "the heights of winds must rise.");
+        }
+    return true;
+}
+
+const lom_key_table lom_clouds_keys = { .size = sizeof(lom_clouds),
+                                        .keys = clouds,
+                                        .key_count = sizeof clouds / sizeof *clouds,
+                                        .text =
+                                            "What all clouds share: how they scatter, and the light of sky and ground.",
+                                        .check = check_clouds };

@@ -35,5 +35,8 @@ static const lom_key keys[] = {
     { "lod", LOM_KEY_BOOL, AT(lod), .initial = { 1 },
       .text = "The size of a plate follows the cloud's size in the picture. Off, for measuring: the largest always." },
 };
-const lom_key_table lom_impostor_keys = { sizeof(lom_impostor_dials), keys, sizeof keys / sizeof *keys,
-                                          "How long and how finely `quality.impostors` keeps pictures of clouds." };
+const lom_key_table lom_impostor_keys = { .size = sizeof(lom_impostor_dials),
+                                          .keys = keys,
+                                          .key_count = sizeof keys / sizeof *keys,
+                                          .text =
+                                              "How long and how finely `quality.impostors` keeps pictures of clouds." };

@@ -25,7 +25,7 @@ static double mean_profile(const lom_haze *haze, double from, double to)
 lom_vec3 lom_light_through_haze(const lom_reference *world, const struct lom_ray *ray, double far, lom_vec3 light)
 {
     const lom_haze *haze = &world->scene->haze;
-    if (haze->given == 0 || !(far < 1e300))
+    if (!haze->present || !(far < 1e300))
         return light;
     double way = far * mean_profile(haze, ray->origin.y, ray->origin.y + far * ray->direction.y);
     double cosine = at_least(dot(ray->direction, world->to_light), 0);

@@ -127,7 +127,7 @@ static bool read_meshes(struct loader *loader)
     loader->meshes = lom_allocate(scene->entity_count, sizeof(lom_mesh *), loader->error);
     if (loader->meshes == NULL)
         return false;
-    if (t->given != 0) {
+    if (t->present) {
         loader->height_map = lom_read_image(t->height_map, loader->error);
         if (loader->height_map != NULL)
             loader->terrain =
@@ -220,12 +220,11 @@ static bool add_material(lom_reference *world, const lom_entity *entity, const l
     const lom_scene_material *over = &entity->material;
     lom_material base = own != NULL ? *own : lom_default_material("");
     struct lom_ray_material *m = &world->materials[world->material_count++];
-    uint32_t given = over->given;
-    m->ambient = given & LOM_MATERIAL_AMBIENT ? vector(over->ambient) : vector_of_floats(base.ambient);
-    m->diffuse = given & LOM_MATERIAL_DIFFUSE ? vector(over->diffuse) : vector_of_floats(base.diffuse);
-    m->specular = given & LOM_MATERIAL_SPECULAR ? vector(over->specular) : vector_of_floats(base.specular);
-    m->shininess = given & LOM_MATERIAL_SHININESS ? over->shininess : base.shininess;
-    if (given & LOM_MATERIAL_TEXTURE)
+    m->ambient = over->has_ambient ? vector(over->ambient) : vector_of_floats(base.ambient);
+    m->diffuse = over->has_diffuse ? vector(over->diffuse) : vector_of_floats(base.diffuse);
+    m->specular = over->has_specular ? vector(over->specular) : vector_of_floats(base.specular);
+    m->shininess = over->has_shininess ? over->shininess : base.shininess;
+    if (over->texture != NULL)
         return find_picture(world, over->texture, true, &m->picture, error);
     return find_map(world, entity, &base, &m->picture, error);
 }
@@ -306,7 +305,7 @@ static bool load_sky(lom_reference *world, lom_error *error)
     const lom_sky_params *sky = &world->scene->sky;
     world->sky_sine = lom_double_sin(-sky->rotation);
     world->sky_cosine = lom_double_cos(-sky->rotation);
-    if (sky->given == 0 || sky->faces[0] == NULL)
+    if (!sky->present || sky->faces[0] == NULL)
         return true;
     return lom_load_cube(&world->sky, sky->faces, world->scene->output.transfer == LOM_TRANSFER_SRGB, error);
 }
@@ -342,7 +341,7 @@ static bool load_water(lom_reference *world, lom_error *error)
     world->normal_map = world->flow_map = LOM_NO_PICTURE;
     world->slant = 1;
     world->water = (lom_reference_water){ .low = { 1, 1 }, .index = 1 };
-    if (w->given == 0 || !w->enabled)
+    if (!w->present || !w->enabled)
         return true;
     for (int i = 0; i < 2; i++) {
         world->water.low[i] = w->position[i] - w->size[i] / 2;

@@ -55,7 +55,7 @@ bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *w
                         lom_error *error)
 {
     const lom_scene *scene = world->scene;
-    if (scene->shallow.given == 0 && !(scene->surf.height > 0))
+    if (!scene->shallow.present && !(scene->surf.height > 0))
         return true;
     bool ground = world->ground_columns > 0;
     float *heights = ground ? find_heights(world, error) : NULL;

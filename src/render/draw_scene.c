@@ -28,7 +28,7 @@ struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height
     const lom_haze *haze = &scene->haze;
     struct lom_haze_uniform u = { .glow_exponent = (float)haze->glow_exponent,
                                   .base = (float)(haze->base - eye_height) };
-    if (haze->given == 0)
+    if (!haze->present)
         return u;
     for (int i = 0; i < 3; i++) {
         u.density[i] = (float)haze->density[i];

@@ -121,7 +121,7 @@ bool lom_draw_caustics(struct frame *f, lom_error *error)
 bool lom_load_bed(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    if (scene->water.given == 0 || !lom_water_models[scene->quality.water].has_waves ||
+    if (!scene->water.present || !lom_water_models[scene->quality.water].has_waves ||
         !(scene->water.optics.caustics > 0))
         return true;
     renderer->bed = lom_make_texture(

@@ -32,7 +32,7 @@ static bool find_ground(const lom_scene *scene, double extent[4], double *low, d
     extent[0] = extent[2] = 1e300;
     extent[1] = extent[3] = -1e300;
     for (int i = 0; i < 2; i++) {
-        bool is_there = i == 0 ? t->given != 0 : w->given != 0 && w->enabled;
+        bool is_there = i == 0 ? t->present : w->present && w->enabled;
         if (!is_there)
             continue;
         any = true;

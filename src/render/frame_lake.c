@@ -130,7 +130,7 @@ bool lom_draw_lake_stage(struct frame *f, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
     const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
-    if (water->given == 0)
+    if (!water->present)
         return lom_skip_water(f, "the scene has no water");
     if (!water->enabled)
         return lom_skip_water(f, "water.enabled is false");

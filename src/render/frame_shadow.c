@@ -82,7 +82,7 @@ static struct views find_views(const struct frame *f)
     const lom_water_params *water = &f->scene->water;
     lom_mat4 clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
     struct views v = { 1, { lom_view_frustum(&clip_from_world, false) } };
-    if (water->given != 0 && water->enabled) {
+    if (water->present && water->enabled) {
         lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, water->level);
         clip_from_world = lom_multiply(&clip_from_world, &mirror);
         v.frustum[v.count++] = lom_view_frustum(&clip_from_world, false);

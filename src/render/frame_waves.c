@@ -5,7 +5,7 @@
 bool lom_has_waves(const struct frame *f)
 {
     const lom_water_params *water = &f->scene->water;
-    return water->given != 0 && water->enabled && lom_water_models[f->scene->quality.water].has_waves;
+    return water->present && water->enabled && lom_water_models[f->scene->quality.water].has_waves;
 }
 
 /* Whether the eye is below the surface, where it is over or under the quad; a sea that has no places may be anywhere

@@ -30,7 +30,7 @@ static bool find_brightness(const lom_texture *texture, float *mean, lom_error *
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
 {
     const lom_terrain *t = &renderer->scene->terrain;
-    if (t->given == 0)
+    if (!t->present)
         return true;
     lom_image *map = lom_read_image(t->height_map, error);
     if (map == NULL)
@@ -62,7 +62,7 @@ bool lom_load_terrain(lom_renderer *renderer, lom_error *error)
 bool lom_load_water(lom_renderer *renderer, lom_error *error)
 {
     const lom_water_params *w = &renderer->scene->water;
-    if (w->given == 0 || w->normal_map == NULL)
+    if (!w->present || w->normal_map == NULL)
         return true;
     renderer->normal_map = lom_load_texture(renderer, w->normal_map, false, error);
     if (renderer->normal_map == NULL)
@@ -107,7 +107,7 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     const struct lom_ground *ground = &renderer->ground;
-    if (scene->water.given == 0 || !lom_water_models[scene->quality.water].has_waves)
+    if (!scene->water.present || !lom_water_models[scene->quality.water].has_waves)
         return true;
     renderer->wave_site =
         lom_scene_wave_site(scene, &(struct lom_bed){ ground->heights,
@@ -181,15 +181,15 @@ static bool load_material(lom_renderer *renderer, const lom_entity *entity, cons
     memcpy(out->specular, base.specular, sizeof out->specular);
     out->shininess = base.shininess;
     out->texture = NULL;
-    if (over->given & LOM_MATERIAL_AMBIENT)
+    if (over->has_ambient)
         copy3(out->ambient, over->ambient);
-    if (over->given & LOM_MATERIAL_DIFFUSE)
+    if (over->has_diffuse)
         copy3(out->diffuse, over->diffuse);
-    if (over->given & LOM_MATERIAL_SPECULAR)
+    if (over->has_specular)
         copy3(out->specular, over->specular);
-    if (over->given & LOM_MATERIAL_SHININESS)
+    if (over->has_shininess)
         out->shininess = (float)over->shininess;
-    if (over->given & LOM_MATERIAL_TEXTURE)
+    if (over->texture != NULL)
         return load_texture(renderer, over->texture, &out->texture, error);
     return base.diffuse_map[0] == 0 || load_map(renderer, entity, &base, &out->texture, error);
 }
@@ -254,7 +254,7 @@ bool lom_load_entities(lom_renderer *renderer, lom_error *error)
     renderer->entities = lom_allocate(scene->entity_count, sizeof *renderer->entities, error);
     if (renderer->entities == NULL)
         return false;
-    if (scene->terrain.given != 0) {
+    if (scene->terrain.present) {
         ground = lom_read_image(scene->terrain.height_map, error);
         if (ground == NULL)
             return false;

@@ -29,7 +29,7 @@ static bool load(lom_renderer *renderer, lom_error *error)
         return renderer->reference != NULL;
     }
     renderer->sky = lom_load_sky(renderer->device, &scene->sky, scene->output.transfer == LOM_TRANSFER_SRGB, error);
-    if (renderer->sky == NULL && scene->sky.given != 0 && scene->sky.faces[0] != NULL)
+    if (renderer->sky == NULL && scene->sky.present && scene->sky.faces[0] != NULL)
         return false;
     return load_sun(renderer, error) && lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) &&
            lom_load_water(renderer, error) && lom_load_waves(renderer, error) &&

@@ -80,7 +80,7 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, 
     r->depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
     if (r->spray.sprites != NULL)
         r->spray.layer = make_target(r, target_width, target_height, LOM_FORMAT_RGBA32F, LOM_MIPS_NONE);
-    if (r->scene->water.given != 0 && r->scene->water.enabled)
+    if (r->scene->water.present && r->scene->water.enabled)
         make_water_targets(r, width, height);
     const lom_error *failed = lom_device_error(r->device);
     return failed->code == LOM_OK || lom_fail(error, failed->code, "%s", failed->text);
@@ -90,7 +90,7 @@ uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int tar
 {
     uint64_t color = lom_format_size(color_format(scene)), depth = 4;
     uint64_t bytes = (uint64_t)target_width * (uint64_t)target_height * (2 * color + depth); /* and the picture */
-    if (scene->water.given == 0 || !scene->water.enabled)
+    if (!scene->water.present || !scene->water.enabled)
         return bytes;
     const double scales[] = { scene->quality.reflection_scale, scene->quality.refraction_scale };
     for (int i = 0; i < 2; i++)

@@ -19,6 +19,7 @@ typedef struct lom_reader {
     lom_arena *tree;    /* of the TOML values; gone when the scene is read */
     lom_scene *scene;   /* strings and arrays go into its memory */
     const char *folder; /* of the scene file, with its last slash; "" for the working folder */
+    const lom_toml_value *root;
     lom_error *error;
 } lom_reader;
 
@@ -28,10 +29,13 @@ bool lom_read_table(lom_reader *reader, const lom_key_table *table, const lom_to
 const char *lom_read_path(lom_reader *reader, const lom_toml_value *value, const char *name, size_t length);
 bool lom_add_scene_file(lom_scene *scene, const char *path, lom_error *error);
 
+/* key_check.c: what the check of a table that was read from this value (NULL: it is not in the file) asks and says. */
+lom_key_check lom_check_of(lom_reader *reader, const lom_toml_value *table);
+
 /* scene_override.c: puts the value of "KEY=VALUE" into the tree under root. */
 bool lom_apply_override(lom_reader *reader, lom_toml_value *root, const char *text);
 
-/* scene_check.c: what concerns several keys at once; works out what the file leaves to be derived. */
+/* scene_check.c: what concerns several tables at once. */
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root);
 
 /* suggest.c: the name most like an unknown one, NULL when none is near enough. name(context, i) gives name i of count,

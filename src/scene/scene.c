@@ -19,6 +19,7 @@ static bool fill(lom_reader *reader, const lom_toml_source *source, const char *
     lom_toml_value *root = lom_toml_parse(reader->tree, source, reader->error);
     if (root == NULL)
         return false;
+    reader->root = root;
     for (size_t i = 0; i < override_count; i++)
         if (!lom_apply_override(reader, root, overrides[i]))
             return false;

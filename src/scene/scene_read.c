@@ -295,26 +295,33 @@ static int find_key(const lom_key_table *table, const lom_toml_value *value)
     return -1;
 }
 
-bool lom_read_table(lom_reader *reader, const lom_key_table *table, const lom_toml_value *value, void *target)
+static bool read_keys(lom_reader *reader, const lom_key_table *table, const lom_toml_value *value, void *target)
 {
-    for (int i = 0; i < table->key_count; i++)
-        if (!set_default(reader, &table->keys[i], target))
-            return false;
-    if (value == NULL)
-        return true;
-    uint32_t given = LOM_KEY_PRESENT;
+    const bool present = true;
     for (size_t i = 0; i < value->count; i++) {
         int index = find_key(table, value->items[i]);
         if (index < 0)
             return fail_unknown(reader, table, value->items[i]);
         if (!read_value(reader, &table->keys[index], value->items[i], target))
             return false;
-        given |= UINT32_C(1) << index;
     }
-    memcpy(target, &given, sizeof given);
+    memcpy(target, &present, sizeof present);
     for (int i = 0; i < table->key_count; i++)
-        if ((table->keys[i].flags & LOM_KEY_REQUIRED) && !(given >> i & 1))
+        if ((table->keys[i].flags & LOM_KEY_REQUIRED) &&
+            lom_toml_find(value, table->keys[i].name, strlen(table->keys[i].name)) == NULL)
             return lom_toml_fail(value->source, value->offset, LOM_ERROR_INPUT, reader->error,
                                  "the key \"%s\" is missing in this table.", table->keys[i].name);
     return true;
+}
+
+/* Tables that are not in the file are checked when the one that holds them is: defaults are derived there, too. */
+bool lom_read_table(lom_reader *reader, const lom_key_table *table, const lom_toml_value *value, void *target)
+{
+    for (int i = 0; i < table->key_count; i++)
+        if (!set_default(reader, &table->keys[i], target))
+            return false;
+    if (value != NULL && !read_keys(reader, table, value, target))
+        return false;
+    const lom_key_check check = lom_check_of(reader, value);
+    return table->check == NULL || table->check(target, &check);
 }

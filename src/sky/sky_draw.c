@@ -35,7 +35,7 @@ static uint8_t *join_faces(const lom_sky_params *sky, int *size, lom_error *erro
 lom_texture *lom_load_sky(lom_device *device, const lom_sky_params *sky, bool srgb, lom_error *error)
 {
     int size = 0;
-    if (sky->given == 0 || sky->faces[0] == NULL)
+    if (!sky->present || sky->faces[0] == NULL)
         return NULL;
     uint8_t *pixels = join_faces(sky, &size, error);
     if (pixels == NULL)

@@ -2,7 +2,12 @@
  * of lom_sky_params. */
 #include "sky/sky_keys.h"
 
+#include "sky/face_mark.h"
+
 #include <lom/sky.h>
+
+#include <stdio.h>
+#include <string.h>
 
 #define AT(member) offsetof(lom_sky_params, member)
 
@@ -37,5 +42,47 @@ static const lom_key keys[] = {
     { "sun_rays", LOM_KEY_NUMBER, AT(sun_rays), .maximum = 1, .initial = { 0.4 }, .text = "How strong its rays are." },
 };
 
-const lom_key_table lom_sky_keys = { sizeof(lom_sky_params), keys, sizeof keys / sizeof *keys,
-                                     "What is behind everything: a box of six pictures, a gradient, or one colour." };
+/* The pattern with a face's name in the place of its %s, as a path. */
+static const char *face_path(const lom_key_check *check, const char *pattern, const char *name)
+{
+    const char *mark = lom_face_mark(pattern);
+    size_t size = strlen(pattern) + strlen(name);
+    char *text = lom_allocate(size, 1, NULL);
+    if (text == NULL) {
+        check->fail(check, "pattern", "there is no memory for the names of its pictures.");
+        return NULL;
+    }
+    snprintf(text, size, "%.*s%s%s", (int)(mark - pattern), pattern, name, mark + 2);
+    const char *path = check->path(check, "pattern", text);
+    lom_release(text);
+    return path;
+}
+
+static bool check_sky(void *members, const lom_key_check *check)
+{
+    static const char *const names[6] = { "right", "left", "top", "bottom", "front", "back" };
+    lom_sky_params *sky = members;
+    bool has_faces = sky->faces[0] != NULL;
+    for (int i = 1; i < 6; i++)
+        if ((sky->faces[i] != NULL) != has_faces)
+            return check->fail(check, "faces", "\"faces\" must name all six pictures, or be left out.");
+    if (sky->pattern == NULL)
+        return true;
+    if (has_faces)
+        return check->fail(check, "pattern", "the sky has either a pattern or faces, not both.");
+    if (lom_face_mark(sky->pattern) == NULL)
+        return check->fail(check, "pattern", "\"pattern\" must have one %s, for right, left, top, ...");
+    for (int i = 0; i < 6; i++) {
+        sky->faces[i] = face_path(check, sky->pattern, names[i]);
+        if (sky->faces[i] == NULL)
+            return false;
+    }
+    return true;
+}
+
+const lom_key_table lom_sky_keys = { .size = sizeof(lom_sky_params),
+                                     .keys = keys,
+                                     .key_count = sizeof keys / sizeof *keys,
+                                     .text =
+                                         "What is behind everything: a box of six pictures, a gradient, or one colour.",
+                                     .check = check_sky };

@@ -4,6 +4,8 @@
 
 #include <lom/particles.h>
 
+#include <string.h>
+
 #define AT(member) offsetof(lom_spray, member)
 
 static const lom_key keys[] = {
@@ -60,6 +62,24 @@ static const lom_key keys[] = {
       .text = "Share of the sun's light that is thrown forward: how much spray glows before the sun." },
 };
 
-const lom_key_table lom_spray_keys = { sizeof(lom_spray), keys, sizeof keys / sizeof *keys,
-                                       "Drops of spray or of a waterfall, drawn after the water and the clouds. "
-                                       "docs/water.md says how." };
+static bool check_spray(void *members, const lom_key_check *check)
+{
+    lom_spray *spray = members;
+    if (!check->is_given(check, "to"))
+        memcpy(spray->to, spray->from, sizeof spray->to);
+    if (!check->is_given(check, "height"))
+        return true;
+    if (check->is_given(check, "life"))
+        return check->fail(check, "height", "spray has either a life or a height, not both.");
+    spray->life = lom_fall_time(spray->height, spray->drag);
+    return (spray->life >= 0.001 && spray->life <= 3600) ||
+           check->fail(check, "height", "a fall through this height must take from 0.001 to 3600 s.");
+}
+
+const lom_key_table lom_spray_keys = { .size = sizeof(lom_spray),
+                                       .keys = keys,
+                                       .key_count = sizeof keys / sizeof *keys,
+                                       .text =
+                                           "Drops of spray or of a waterfall, drawn after the water and the clouds. "
+                                           "docs/water.md says how.",
+                                       .check = check_spray };

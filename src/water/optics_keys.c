@@ -4,6 +4,8 @@
 
 #include <lom/water.h>
 
+#include <string.h>
+
 #define COUNT(keys) (sizeof(keys) / sizeof *(keys))
 
 #define AT(member) offsetof(lom_water_optics, member)
@@ -40,5 +42,21 @@ static const lom_key optics[] = {
     { "opacity", LOM_KEY_NUMBER, AT(opacity), .maximum = 1, .initial = { 0.75 },
       .text = "Of the tinted quad; its colour is `tint_color`." },
 };
-const lom_key_table lom_water_optics_keys = { sizeof(lom_water_optics), optics, COUNT(optics),
-                                              "What the water does to light." };
+/* What the file leaves to the type of water. */
+static bool check_optics(void *members, const lom_key_check *check)
+{
+    lom_water_optics *it = members;
+    double absorption[3], scatter[3];
+    lom_water_type_optics((lom_water_type)it->type, absorption, scatter);
+    if (!check->is_given(check, "absorption"))
+        memcpy(it->absorption, absorption, sizeof absorption);
+    if (!check->is_given(check, "scatter"))
+        memcpy(it->scatter, scatter, sizeof scatter);
+    return true;
+}
+
+const lom_key_table lom_water_optics_keys = { .size = sizeof(lom_water_optics),
+                                              .keys = optics,
+                                              .key_count = COUNT(optics),
+                                              .text = "What the water does to light.",
+                                              .check = check_optics };

@@ -91,9 +91,13 @@ static const lom_key keys[] = {
 };
 
 const lom_key_table lom_water_keys = {
-    sizeof(lom_water_params), keys, sizeof keys / sizeof *keys,
-    "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water. Richer "
-    "models (`quality.water`) read the tables inside this one, and of these keys `enabled`, `level`, `position`, "
-    "`size` "
-    "and `tint_color`."
+    .size = sizeof(lom_water_params),
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .text =
+        "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water. "
+        "Richer "
+        "models (`quality.water`) read the tables inside this one, and of these keys `enabled`, `level`, `position`, "
+        "`size` "
+        "and `tint_color`."
 };

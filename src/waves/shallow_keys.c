@@ -2,6 +2,7 @@
  * lom_shallow_water, its springs and its bodies. */
 #include "waves/wave_keys.h"
 
+#include <lom/shallow.h>
 #include <lom/waves.h>
 
 #define COUNT(keys) (int)(sizeof(keys) / sizeof *(keys))
@@ -15,8 +16,10 @@ static const lom_key spring[] = {
     { "rate", LOM_KEY_NUMBER, AT(rate), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6, .unit = "m^3/s",
       .text = "How much; below 0 it is a drain, which takes what there is." },
 };
-static const lom_key_table spring_table = { sizeof(lom_shallow_spring), spring, COUNT(spring),
-                                            "Where water comes up or runs out." };
+static const lom_key_table spring_table = { .size = sizeof(lom_shallow_spring),
+                                            .keys = spring,
+                                            .key_count = COUNT(spring),
+                                            .text = "Where water comes up or runs out." };
 
 #undef AT
 #define AT(member) offsetof(lom_shallow_body, member)
@@ -39,8 +42,20 @@ static const lom_key body[] = {
     { "every", LOM_KEY_NUMBER, AT(every), .maximum = 1e6, .unit = "s",
       .text = "With `duration`: after which time it dips in again; 0: once." },
 };
-static const lom_key_table body_table = { sizeof(lom_shallow_body), body, COUNT(body),
-                                          "Something in the water that pushes it aside." };
+static bool check_body(void *members, const lom_key_check *check)
+{
+    const lom_shallow_body *it = members;
+    if (it->entity == NULL && !check->is_given(check, "position"))
+        return check->fail(check, "entity", "a body needs a position or an entity.");
+    return !(it->every > 0) || (it->duration > 0 && it->duration <= it->every) ||
+           check->fail(check, "every", "it dips in again after its duration, which is above 0.");
+}
+
+static const lom_key_table body_table = { .size = sizeof(lom_shallow_body),
+                                          .keys = body,
+                                          .key_count = COUNT(body),
+                                          .text = "Something in the water that pushes it aside.",
+                                          .check = check_body };
 
 #undef AT
 #define AT(member) offsetof(lom_shallow_water, member)
@@ -67,9 +82,22 @@ static const lom_key keys[] = {
     { "body", LOM_KEY_TABLES, AT(bodies), .table = &body_table, .length_offset = AT(body_count),
       .text = "What pushes the water aside." },
 };
+static bool check_shallow(void *members, const lom_key_check *check)
+{
+    const lom_shallow_water *it = members;
+    if (it->spring_count > LOM_SHALLOW_SOURCES)
+        return check->fail(check, "spring", "there are at most 64 springs.");
+    return it->body_count <= LOM_SHALLOW_OBSTACLES || check->fail(check, "body", "there are at most 64 bodies.");
+}
+
 const lom_key_table lom_shallow_keys = {
-    sizeof(lom_shallow_water), keys, COUNT(keys),
-    "Shallow water: the surface of `[water]` flows over the terrain, floods and dries it. At `start` it stands at "
-    "`water.level`. A frame needs all the steps before it. Of `quality.water`, `normal_map`, `displaced` and `marched` "
-    "show it. docs/water.md says how."
+    .size = sizeof(lom_shallow_water),
+    .keys = keys,
+    .key_count = COUNT(keys),
+    .text =
+        "Shallow water: the surface of `[water]` flows over the terrain, floods and dries it. At `start` it stands at "
+        "`water.level`. A frame needs all the steps before it. Of `quality.water`, `normal_map`, `displaced` and "
+        "`marched` "
+        "show it. docs/water.md says how.",
+    .check = check_shallow
 };

@@ -27,7 +27,7 @@ bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom
 {
     const lom_shallow_water *w = site->shallow;
     *region = (struct lom_shallow_region){ .first = NULL };
-    if (w->given == 0)
+    if (!w->present)
         return true;
     double longer = w->size[0] > w->size[1] ? w->size[0] : w->size[1], cell = longer / w->cells;
     int columns = (int)(w->size[0] / cell + 0.5), rows = (int)(w->size[1] / cell + 0.5);

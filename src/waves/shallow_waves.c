@@ -16,7 +16,7 @@ struct state {
 
 static bool exists(const struct lom_wave_source *source)
 {
-    return source->site->shallow->given != 0;
+    return source->site->shallow->present;
 }
 
 static bool load(void *memory, const struct lom_wave_source *source, lom_error *error)

@@ -2,6 +2,8 @@
  * documentation of the members of lom_water_waves, lom_water_surf and lom_water_foam. */
 #include "waves/wave_keys.h"
 
+#include "waves/sea_desc.h"
+
 #include <lom/waves.h>
 
 #define COUNT(keys) (sizeof(keys) / sizeof *(keys))
@@ -61,8 +63,28 @@ static const lom_key waves[] = {
     { "patch", LOM_KEY_NUMBER, AT(patch), .maximum = 1e6, .unit = "m", .initial_text = "six of the longest waves",
       .text = "Sea: side of the largest patch." },
 };
-const lom_key_table lom_water_waves_keys = { sizeof(lom_water_waves), waves, COUNT(waves),
-                                             "The waves of every model but `tinted` and `planar`." };
+/* A sea has to be one that can be made: what no key's range says is where its description fails. */
+static bool check_waves(void *members, const lom_key_check *check)
+{
+    const lom_water_waves *it = members;
+    if (it->length[0] < it->length[1])
+        return check->fail(check, "length", "the longest wave comes first, then the shortest.");
+    if (it->kind != LOM_WAVES_SEA)
+        return true;
+    lom_error error = { 0 };
+    lom_sea_desc desc = lom_scene_sea(it), resolved;
+    if (it->wind_level != NULL && lom_find_wind_level(it->wind_level, &error) == NULL)
+        return check->fail(check, "wind_level", error.text);
+    if ((it->size & (it->size - 1)) != 0)
+        return check->fail(check, "size", "the samples a side of a patch are a power of two.");
+    return lom_resolve_sea(&desc, &resolved, &error) || check->fail(check, "patch", error.text);
+}
+
+const lom_key_table lom_water_waves_keys = { .size = sizeof(lom_water_waves),
+                                             .keys = waves,
+                                             .key_count = COUNT(waves),
+                                             .text = "The waves of every model but `tinted` and `planar`.",
+                                             .check = check_waves };
 
 #undef AT
 #define AT(member) offsetof(lom_water_surf, member)
@@ -77,9 +99,11 @@ static const lom_key surf[] = {
       .text = "How much higher and lower than the mean crests are, in groups and along each of them." },
 };
 const lom_key_table lom_water_surf_keys = {
-    sizeof(lom_water_surf), surf, COUNT(surf),
-    "Waves of `[water]` that come in from the open water to the terrain's shore, over the "
-    "other waves: they rise, turn and break over the bed."
+    .size = sizeof(lom_water_surf),
+    .keys = surf,
+    .key_count = COUNT(surf),
+    .text = "Waves of `[water]` that come in from the open water to the terrain's shore, over the "
+            "other waves: they rise, turn and break over the bed."
 };
 
 #undef AT
@@ -95,5 +119,7 @@ static const lom_key foam[] = {
     { "tile", LOM_KEY_NUMBER, AT(tile), .flags = LOM_KEY_ABOVE, .maximum = 1e4, .initial = { 6 }, .unit = "m",
       .text = "Length that one repetition of its pattern covers." },
 };
-const lom_key_table lom_water_foam_keys = { sizeof(lom_water_foam), foam, COUNT(foam),
-                                            "Foam on breaking waves and at the shore." };
+const lom_key_table lom_water_foam_keys = { .size = sizeof(lom_water_foam),
+                                            .keys = foam,
+                                            .key_count = COUNT(foam),
+                                            .text = "Foam on breaking waves and at the shore." };

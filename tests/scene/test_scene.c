@@ -33,10 +33,10 @@ static void defaults(void)
     if (s == NULL)
         return;
     CHECK(s->output.width == 1280 && s->output.height == 720 && s->output.transfer == LOM_TRANSFER_SRGB);
-    CHECK(s->output.format == LOM_OUTPUT_RGB8 && s->output.frames == 1 && s->output.fps == 30 && s->output.given == 0);
+    CHECK(s->output.format == LOM_OUTPUT_RGB8 && s->output.frames == 1 && s->output.fps == 30 && !s->output.present);
     CHECK(is_vector(s->camera.position, 0, 2, 10) && is_vector(s->camera.target, 0, 0, 0));
     CHECK(is_vector(s->camera.up, 0, 1, 0) && near(s->camera.field_of_view, PI / 4) && s->camera.near_plane == 0.1);
-    CHECK(s->camera.key_count == 0 && s->entity_count == 0 && s->terrain.given == 0 && s->water.given == 0);
+    CHECK(s->camera.key_count == 0 && s->entity_count == 0 && !s->terrain.present && !s->water.present);
     double half = 0.70710678118654752440; /* the sun in the south-east, 45 degrees high: light goes to -x, -y, -z... */
     CHECK(is_vector(s->light.direction, -half * half, -half, -half * half), "%g %g %g", s->light.direction.x,
           s->light.direction.y, s->light.direction.z);
@@ -80,21 +80,22 @@ static void everything(void)
     CHECK(is_vector(s->camera.up, 0, 1, 0) && near(s->camera.field_of_view, PI / 3) && s->camera.near_plane == 0.5);
     CHECK(is_vector(s->light.direction, 0, -0.6, 0.8) && s->light.color[1] == 0.5 && s->light.intensity == 2);
     const lom_terrain *t = &s->terrain;
-    CHECK(t->given != 0 && strcmp(t->height_map, "a") == 0 && t->size[0] == 200 && t->size[1] == 300);
+    CHECK(t->present && strcmp(t->height_map, "a") == 0 && t->size[0] == 200 && t->size[1] == 300);
     CHECK(t->height == 40 && t->base == -5 && strcmp(t->texture, "b") == 0 && t->layer_count == 2);
     CHECK(t->material.specular[2] == 0.5 && t->material.diffuse[0] == 1 && t->material.shininess == 3);
     CHECK(t->layers[0].from_height == 2 && t->layers[0].to_height == 1e9 && near(t->layers[1].to_slope, PI / 4));
     CHECK(t->layers[1].tile == 7 && t->layers[1].from_height == -1e9 && near(t->layers[1].slope_blend, PI / 36));
     CHECK(strcmp(s->sky.faces[0], "sky_right") == 0 && strcmp(s->sky.faces[5], "sky_back") == 0);
     CHECK(near(s->sky.rotation, PI / 2));
-    CHECK(s->water.given != 0 && s->water.enabled && s->water.level == 3.5 && !s->water.fresnel && s->water.flow);
+    CHECK(s->water.present && s->water.enabled && s->water.level == 3.5 && !s->water.fresnel && s->water.flow);
     CHECK(s->water.size[0] == 200 && s->water.size[1] == 300, "the terrain's size");
     CHECK(s->entity_count == 2 && strcmp(s->entities[0].name, "boat") == 0 && s->entities[1].name == NULL);
     CHECK(is_vector(s->entities[0].scale, 2, 2, 2) && is_vector(s->entities[1].scale, 1, 2, 3));
     CHECK(is_vector(s->entities[0].rotation, 0, PI, 0) && s->entities[0].on_ground && s->entities[0].visible);
-    CHECK(s->entities[0].material.given == 0 && !s->entities[1].visible && !s->entities[1].on_ground);
-    uint32_t bits = s->entities[1].material.given & 31;
-    CHECK(bits == (LOM_MATERIAL_DIFFUSE | LOM_MATERIAL_TEXTURE), "%u", (unsigned)bits);
+    CHECK(!s->entities[0].material.present && !s->entities[1].visible && !s->entities[1].on_ground);
+    const lom_scene_material *given = &s->entities[1].material;
+    CHECK(!given->has_ambient && given->has_diffuse && !given->has_specular && !given->has_shininess);
+    CHECK(given->present && given->texture != NULL);
     CHECK(s->quality.shading == LOM_SHADING_FLAT && s->quality.texture_filter == LOM_TEXTURE_NEAREST);
     CHECK(!s->quality.mipmaps && s->quality.reflection_scale == 0.25 && s->quality.refraction_scale == 1);
     static const char *const files[] = { "lake.toml", "a",       "b",          "./b",       "sky_right",
@@ -111,20 +112,23 @@ static void everything(void)
     lom_free_scene(s);
 }
 
-static void material_bits(void)
+static void a_material_says_which_of_the_meshs_values_it_replaces(void)
 {
     static const struct {
         const char *value;
-        unsigned bit;
-    } cases[] = { { "entity.1.material={ambient=1}", LOM_MATERIAL_AMBIENT },
-                  { "entity.1.material={diffuse=1}", LOM_MATERIAL_DIFFUSE },
-                  { "entity.1.material={specular=1}", LOM_MATERIAL_SPECULAR },
-                  { "entity.1.material={shininess=1}", LOM_MATERIAL_SHININESS },
-                  { "entity.1.material={texture='a'}", LOM_MATERIAL_TEXTURE } };
+        bool has[5]; /* ambient, diffuse, specular, shininess, texture */
+    } cases[] = { { "entity.1.material={ambient=1}", { true } },
+                  { "entity.1.material={diffuse=1}", { [1] = true } },
+                  { "entity.1.material={specular=1}", { [2] = true } },
+                  { "entity.1.material={shininess=1}", { [3] = true } },
+                  { "entity.1.material={texture='a'}", { [4] = true } } };
     for (size_t i = 0; i < 5; i++) {
         lom_error error;
         lom_scene *s = decode(full, cases[i].value, &error);
-        CHECK(s != NULL && (s->entities[1].material.given & 31) == cases[i].bit, "%s: %s", cases[i].value, error.text);
+        CHECK(s != NULL, "%s: %s", cases[i].value, error.text);
+        const lom_scene_material *m = s != NULL ? &s->entities[1].material : &(lom_scene_material){ false };
+        const bool has[5] = { m->has_ambient, m->has_diffuse, m->has_specular, m->has_shininess, m->texture != NULL };
+        CHECK(memcmp(has, cases[i].has, sizeof has) == 0, "%s", cases[i].value);
         lom_free_scene(s);
     }
 }
@@ -330,7 +334,7 @@ static void overrides(void)
     CHECK(s->water.normal_map == NULL && is_vector(s->light.direction, -1, 0, 0));
     lom_free_scene(s);
     s = decode("", "water.level=3", &error);
-    CHECK(s != NULL && s->water.given != 0 && s->water.level == 3, "an override may bring a table: %s", error.text);
+    CHECK(s != NULL && s->water.present && s->water.level == 3, "an override may bring a table: %s", error.text);
     lom_free_scene(s);
 }
 
@@ -405,7 +409,7 @@ int main(int argc, char **argv)
     }
     RUN(defaults);
     RUN(everything);
-    RUN(material_bits);
+    RUN(a_material_says_which_of_the_meshs_values_it_replaces);
     RUN(unknown_keys);
     RUN(wrong_values);
     RUN(wrong_files);

@@ -47,7 +47,7 @@ static void check_key(const lom_key_table *table, int index)
 {
     const lom_key *key = &table->keys[index];
     size_t end = key->offset + member_size(key);
-    CHECK(key->offset >= sizeof(uint32_t) && end <= table->size, "%s lies outside its struct", key->name);
+    CHECK(key->offset >= sizeof(bool) && end <= table->size, "%s lies outside its struct", key->name);
     CHECK(key->minimum <= key->maximum, "%s", key->name);
     CHECK(key->type != LOM_KEY_COLOR || key->count == 3, "%s", key->name);
     CHECK(key->count <= 3 || key->type == LOM_KEY_FILE, "%s: no room for the defaults", key->name);
