@@ -14,6 +14,7 @@ struct lom_device {
     lom_texture **textures;
     size_t texture_count, texture_capacity;
 
+    bool one_by_one; /* small triangles are drawn by themselves: the specification of what packs them, for tests */
     bool in_pass;
     struct lom_pass pass;
     struct lom_tile *worker_tiles;   /* one for each worker */

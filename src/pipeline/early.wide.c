@@ -92,9 +92,8 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
     if (draw->desc.shader->fragment[draw->variant] == NULL)
         return;
     struct lom_fragments f;
-    f.number = at->number;
-    f.base = at->base;
-    f.part = at->part;
+    f.triangle = lom_splat_int(at->number);
+    f.pixel = lom_load_int(tile->offset + at->part * LOM_LANES) + at->base;
     f.covered = covered;
     f.depth = z;
     for (int k = 0; k < 3; k++)

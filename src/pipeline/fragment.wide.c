@@ -9,9 +9,14 @@
 struct rows { /* the vertices of the packet's triangles */
     const float *base;
     int32_t row[3][LOM_LANES]; /* of each triangle */
+    lom_int lane[3];           /* of each lane, where the packet has several */
     lom_int which;
     int triangles;
 };
+
+/* Few rows that many lanes share go to them by permutations; else every lane loads its own, from a place that is looked
+ * up once a packet. */
+enum { PICKS = LOM_LANES == 16 };
 
 /* What lom_pick_rows reads past the last triangle is the first one's. */
 static void find_rows(const struct lom_chunk *chunk, const struct lom_packet *packet, struct rows *rows)
@@ -27,12 +32,15 @@ static void find_rows(const struct lom_chunk *chunk, const struct lom_packet *pa
     for (int i = packet->triangles; (i & 3) != 0; i++)
         for (int k = 0; k < 3; k++)
             rows->row[k][i] = rows->row[k][0];
+    for (int k = 0; k < 3 && packet->triangles > 1 && !PICKS; k++)
+        rows->lane[k] = lom_gather_int(rows->row[k], packet->which);
 }
 
 LOM_INLINE lom_float4 load_rows(const struct rows *rows, int k, int offset)
 {
     if (rows->triangles > 1)
-        return lom_pick_rows(rows->base + offset, rows->row[k], rows->triangles, rows->which);
+        return PICKS ? lom_pick_rows(rows->base + offset, rows->row[k], rows->triangles, rows->which)
+                     : lom_gather_rows(rows->base + offset, rows->lane[k]);
     const float *row = rows->base + rows->row[k][0] + offset;
     return (lom_float4){ lom_splat(row[0]), lom_splat(row[1]), lom_splat(row[2]), lom_splat(row[3]) };
 }
@@ -107,23 +115,38 @@ static void interpolate_varyings(const lom_shader *shader, const struct rows *ro
             continue;
         int offset = ROW_HEADER + v;
         lom_float4 f0 = load_rows(rows, 0, offset), f1 = load_rows(rows, 1, offset), f2 = load_rows(rows, 2, offset);
-        interpolate(f0.x, f1.x, f2.x, p, v, shader->differentiates >> v & 1, in);
-        interpolate(f0.y, f1.y, f2.y, p, v + 1, shader->differentiates >> v & 2, in);
-        interpolate(f0.z, f1.z, f2.z, p, v + 2, shader->differentiates >> v & 4, in);
-        interpolate(f0.w, f1.w, f2.w, p, v + 3, shader->differentiates >> v & 8, in);
+        uint32_t reads = shader->reads >> v, slopes = shader->differentiates >> v;
+        if (reads & 1)
+            interpolate(f0.x, f1.x, f2.x, p, v, slopes & 1, in);
+        if (reads & 2)
+            interpolate(f0.y, f1.y, f2.y, p, v + 1, slopes & 2, in);
+        if (reads & 4)
+            interpolate(f0.z, f1.z, f2.z, p, v + 2, slopes & 4, in);
+        if (reads & 8)
+            interpolate(f0.w, f1.w, f2.w, p, v + 3, slopes & 8, in);
     }
+}
+
+/* A value of each triangle of the packet to the lanes that are of it. */
+LOM_INLINE lom_int spread(const struct lom_packet *packet, const int32_t *value)
+{
+    return packet->triangles == 1 ? lom_splat_int(value[0]) : lom_gather_int(value, packet->which);
 }
 
 static void copy_flat_varyings(const lom_shader *shader, const struct lom_chunk *chunk, const struct lom_packet *packet,
                                lom_varyings *in)
 {
-    for (int v = 0; v < shader->varyings; v++) {
-        if (!(shader->flat >> v & 1))
-            continue;
-        for (int i = 0; i < LOM_LANES; i++) {
-            const lom_triangle *t = &chunk->triangles[packet->triangle[packet->which[i]]];
-            in->varying[v][i] = chunk->rows[t->row[t->state >> TRIANGLE_PROVOKING & 3] + ROW_HEADER + (uint32_t)v];
-        }
+    const float *row[LOM_LANES];
+    for (int i = 0; i < packet->triangles; i++) {
+        const lom_triangle *t = &chunk->triangles[packet->triangle[i]];
+        row[i] = chunk->rows + t->row[t->state >> TRIANGLE_PROVOKING & 3] + ROW_HEADER;
+    }
+    for (uint32_t flat = shader->flat & ((UINT32_C(1) << shader->varyings) - 1); flat != 0; flat &= flat - 1) {
+        int v = __builtin_ctz(flat);
+        int32_t value[LOM_LANES];
+        for (int i = 0; i < packet->triangles; i++)
+            memcpy(&value[i], row[i] + v, sizeof value[i]);
+        in->varying[v] = lom_as_float(spread(packet, value));
         in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
     }
 }
@@ -140,10 +163,10 @@ static void find_position(const struct lom_tile *tile, const struct lom_packet *
     in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
     in->z = packet->depth;
     in->w = 1.0f / p->sum;
-    for (int i = 0; i < LOM_LANES; i++) {
-        const lom_triangle *t = &tile->chunk->triangles[packet->triangle[packet->which[i]]];
-        in->front[i] = -(int32_t)(t->state >> TRIANGLE_FRONT & 1);
-    }
+    int32_t front[LOM_LANES];
+    for (int i = 0; i < packet->triangles; i++)
+        front[i] = -(int32_t)(tile->chunk->triangles[packet->triangle[i]].state >> TRIANGLE_FRONT & 1);
+    in->front = spread(packet, front);
 }
 
 /* The lanes of pending that are the first at their pixel. */

@@ -22,18 +22,20 @@ struct lom_packet {
     lom_mask covered;
 };
 
-/* A part of a window on its way to the queue. */
+/* Fragments on their way to the queue: LOM_LANES of any triangles, in order. */
 struct lom_fragments {
-    int32_t number; /* of the triangle in the chunk */
-    int base;       /* place of the window in tile memory */
-    int part;       /* of the window: its pixels from part * LOM_LANES on */
-    lom_mask covered;
+    lom_int pixel, triangle; /* place in tile memory; number in the chunk */
+    lom_mask covered, taken; /* taken: covered, or a helper that goes with it */
     lom_float l[3], depth;
 };
 
-/* On to the fragment stage, or into the queue on the way there. `alone`: the queue holds no fragment of an earlier
- * triangle. */
-void LOM_WIDE(lom_deliver)(struct lom_tile *tile, const struct lom_fragments *fragments, bool alone);
+/* Adds the lanes that are taken to the queue; shades it when it is full. */
+void LOM_WIDE(lom_enqueue)(struct lom_tile *tile, const struct lom_fragments *fragments);
+/* A part of a window of one triangle on to the fragment stage, or into the queue on the way there. `alone`: the queue
+ * holds no fragment of an earlier triangle. */
+void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *fragments, bool alone);
+/* Tests and delivers what the tile's list holds (pack.wide.c). */
+void LOM_WIDE(lom_drain_list)(struct lom_tile *tile);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
 /* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */

@@ -162,6 +162,7 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
     if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 &&
           pass->desc.max_depth <= 1))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A depth range lies within 0 to 1.");
+    pass->one_by_one = device->one_by_one;
     pass->streams = exceeds_caches(pass);
     return resolve_rects(device) && lay_tiles(device);
 }

@@ -17,9 +17,10 @@ static void raster_window(struct lom_tile *tile, const lom_triangle *t, int32_t 
         if (bits == 0)
             continue;
         lom_float x = lom_to_float(lane_x(at.part)), y = lom_to_float(lane_y(at.part));
-        lom_float e1 = x * t->step_x1 + y * t->step_y1 + t->window.start[0];
-        lom_float e2 = x * t->step_x2 + y * t->step_y2 + t->window.start[1];
-        lom_float l[3] = { (t->window.area - e1 - e2) * t->inverse_area, e1 * t->inverse_area, e2 * t->inverse_area };
+        lom_float e1 = x * t->step_x1 + y * t->step_y1 + (float)t->small.start[0];
+        lom_float e2 = x * t->step_x2 + y * t->step_y2 + (float)t->small.start[1];
+        lom_float l[3] = { ((float)t->small.area - e1 - e2) * t->inverse_area, e1 * t->inverse_area,
+                           e2 * t->inverse_area };
         lom_mask covered = lom_mask_of_bits(bits);
         LOM_WIDE(lom_emit)(tile, &at, &covered, l, false);
     }
@@ -41,7 +42,7 @@ LOM_INLINE lom_int small_lanes(const struct small_edge *e, int part)
 static void find_small_edges(const struct lom_tile *tile, const lom_triangle *t, const struct lom_bounds *b,
                              struct small_edge e[3])
 {
-    int x = (b->left & ~3) - tile->x, y = (b->top & ~3) - tile->y; /* where the starts are valid */
+    int x = (b->left & ~1) - tile->x, y = (b->top & ~1) - tile->y; /* where the starts are valid */
     for (int i = 1; i < 3; i++) {
         e[i].dx = (int32_t)(i == 1 ? t->step_x1 : t->step_x2);
         e[i].dy = (int32_t)(i == 1 ? t->step_y1 : t->step_y2);
@@ -83,9 +84,139 @@ static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t n
     }
 }
 
+/* ---- small triangles to the list ---- */
+
+/* The codes of the pixels of a 2x2 block whose bits are set, less that of its first. */
+#define CODE(k) ((k) | ((k)&1) << CODE_X | ((k) >> 1) << CODE_Y)
+static const int32_t block_codes[16][4] = {
+    { 0 },
+    { CODE(0) },
+    { CODE(1) },
+    { CODE(0), CODE(1) },
+    { CODE(2) },
+    { CODE(0), CODE(2) },
+    { CODE(1), CODE(2) },
+    { CODE(0), CODE(1), CODE(2) },
+    { CODE(3) },
+    { CODE(0), CODE(3) },
+    { CODE(1), CODE(3) },
+    { CODE(0), CODE(1), CODE(3) },
+    { CODE(2), CODE(3) },
+    { CODE(0), CODE(2), CODE(3) },
+    { CODE(1), CODE(2), CODE(3) },
+    { CODE(0), CODE(1), CODE(2), CODE(3) },
+};
+
+/* Adds the pixels of a part of a window whose lanes are set; `codes` are those of all its pixels. Without a branch: one
+ * that depends on a mask is guessed wrong too often. */
+LOM_INLINE void list_part(struct lom_list *list, lom_mask covered, lom_int codes)
+{
+    int32_t *to = list->code + list->count;
+    if (LOM_LANES == 4) /* a block, and the baseline has no permutation that a compression could use */
+        lom_store_int(to, lom_load_int(block_codes[lom_bits(covered)]) + codes[0]);
+    else
+        lom_compress((float *)to, covered, lom_as_float(codes));
+    list->count += (int)lom_count(covered);
+}
+
+/* The code of pixel (x, y) of the tile, both even, of the list's next triangle. */
+LOM_INLINE int32_t code_of(const struct lom_tile *tile, int x, int y)
+{
+    uint32_t next = (uint32_t)tile->list.triangles << CODE_TRIANGLE;
+    return (int32_t)(next + (uint32_t)(memory_index(tile, x, y) + (x << CODE_X) + (y << CODE_Y)));
+}
+
+LOM_INLINE lom_int window_codes(const struct lom_tile *tile, int part)
+{
+    return lom_load_int(tile->offset + part * LOM_LANES) + (lane_x(part) << CODE_X) + (lane_y(part) << CODE_Y);
+}
+
+static void list_window(struct lom_tile *tile, const lom_triangle *t)
+{
+    int left = (int)(t->first & 0xfffe) - tile->x, top = (int)(t->first >> 16 & 0xfffe) - tile->y;
+    int32_t code = code_of(tile, left, top);
+    for (int part = 0; part < PARTS; part++) {
+        uint32_t bits = (t->state & 0xffff) >> part * LOM_LANES & ((1u << LOM_LANES) - 1);
+        list_part(&tile->list, lom_mask_of_bits(bits), window_codes(tile, part) + code);
+    }
+}
+
+/* The same windows as raster_small, from one to the next by the steps of two edges; the third is what they leave of the
+ * area. The biases of the top-left rule are part of all of them. */
+static void list_small(struct lom_tile *tile, const lom_triangle *t, const struct window_range *r)
+{
+    struct lom_bounds b = lom_bounds_of(t);
+    struct small_edge e[3];
+    bool cut = t->state >> TRIANGLE_CUT & 1;
+    find_small_edges(tile, t, &b, e);
+    lom_int whole = lom_splat_int(t->small.area + e[0].bias + e[1].bias + e[2].bias);
+    lom_int right1 = lom_splat_int(4 * e[1].dx), right2 = lom_splat_int(4 * e[2].dx);
+    for (int part = 0; part < PARTS; part++) {
+        lom_int first1 = small_lanes(&e[1], part) + (e[1].start + e[1].bias + e[1].dx * r->x0);
+        lom_int first2 = small_lanes(&e[2], part) + (e[2].start + e[2].bias + e[2].dx * r->x0);
+        for (int y = r->y0; y <= r->y1; y += 4) {
+            lom_int e1 = first1 + e[1].dy * y, e2 = first2 + e[2].dy * y;
+            lom_int codes = window_codes(tile, part) + code_of(tile, r->x0, y);
+            for (int x = r->x0; x <= r->x1; x += 4) {
+                lom_mask covered = (e1 | e2 | (whole - e1 - e2)) >= 0;
+                if (cut)
+                    covered &= inside_bounds(tile, &b, x, y, part);
+                list_part(&tile->list, covered, codes);
+                e1 += right1;
+                e2 += right2;
+                codes += 8 + (4 << CODE_X); /* a window is two blocks of four words wide */
+            }
+        }
+    }
+}
+
+/* Whether the fragments of the draw's small triangles can be computed together, from their records alone. */
+static bool packs(const struct lom_draw *draw)
+{
+    return !draw->constant && !draw->biased && !draw->desc.shader->quads;
+}
+
+/* False where the triangle has to be drawn by itself: it is large, crosses a clip distance, or has many windows, which
+ * are mostly packets by themselves. */
+static bool list_triangle(struct lom_tile *tile, const lom_triangle *t, int32_t number)
+{
+    struct lom_list *list = &tile->list;
+    struct lom_bounds b = lom_bounds_of(t);
+    struct window_range r = windows_of(tile, &b);
+    bool window = lom_kind_of(t) == TRIANGLE_WINDOW;
+    int windows = window ? 1 : ((r.x1 - r.x0) / 4 + 1) * ((r.y1 - r.y0) / 4 + 1), before = list->count;
+    if (lom_kind_of(t) == TRIANGLE_LARGE || t->state >> TRIANGLE_CLIP != 0 || windows > LIST_WINDOWS)
+        return false;
+    if (window)
+        list_window(tile, t);
+    else
+        list_small(tile, t, &r);
+    list->row[list->triangles] = number * (int32_t)(sizeof *t / sizeof(float));
+    list->triangles += list->count > before;
+    if (list->count >= LIST_SIZE || list->triangles == LIST_TRIANGLES)
+        LOM_WIDE(lom_drain_list)(tile);
+    return true;
+}
+
+static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t number)
+{
+    switch (lom_kind_of(t)) {
+    case TRIANGLE_WINDOW:
+        raster_window(tile, t, number);
+        break;
+    case TRIANGLE_SMALL:
+        raster_small(tile, t, number);
+        break;
+    case TRIANGLE_LARGE:
+        LOM_WIDE(lom_raster_large)(tile, t, number);
+        break;
+    }
+}
+
 void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count)
 {
     const struct lom_draw *draw = chunk->draw;
+    bool together = packs(draw) && !tile->pass->one_by_one;
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
@@ -97,16 +228,10 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
     for (size_t i = folded; i < count; i++) {
         const lom_triangle *t = &chunk->triangles[list[i]];
         __builtin_prefetch(&chunk->triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]]);
-        switch (lom_kind_of(t)) {
-        case TRIANGLE_WINDOW:
-            raster_window(tile, t, (int32_t)list[i]);
-            break;
-        case TRIANGLE_SMALL:
-            raster_small(tile, t, (int32_t)list[i]);
-            break;
-        case TRIANGLE_LARGE:
-            LOM_WIDE(lom_raster_large)(tile, t, (int32_t)list[i]);
-            break;
-        }
+        if (together && list_triangle(tile, t, (int32_t)list[i]))
+            continue;
+        LOM_WIDE(lom_drain_list)(tile);
+        raster_alone(tile, t, (int32_t)list[i]);
     }
+    LOM_WIDE(lom_drain_list)(tile);
 }

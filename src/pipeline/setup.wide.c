@@ -194,18 +194,15 @@ static lom_int crossing_distances(const struct lom_chunk *chunk, const uint32_t 
     return lom_load_int(crossing);
 }
 
-/* The third row of the record: what each kind keeps of the area and the edge functions, and the first pixel. */
+/* The third row of the record: the area and the edge functions, or where a large triangle ends; and the first pixel. */
 LOM_INLINE lom_float4 pack_edges(const struct packet *p, const struct edge_lanes *e)
 {
-    lom_mask window = p->kind == TRIANGLE_WINDOW, large = p->kind == TRIANGLE_LARGE;
-    lom_int area = e->start[0] + e->start[1] + e->start[2], back_x = p->left & 2, back_y = p->top & 2;
-    lom_int word[3] = { area, e->start[1] - e->dx[1] * back_x - e->dy[1] * back_y,
-                        e->start[2] - e->dx[2] * back_x - e->dy[2] * back_y };
+    lom_mask large = p->kind == TRIANGLE_LARGE;
+    lom_int area = e->start[0] + e->start[1] + e->start[2];
     const lom_int exact[3] = { area, e->start[1], e->start[2] }, ends[3] = { p->right, p->bottom, { 0 } };
-    for (int i = 0; i < 3; i++) {
-        word[i] = lom_select_int(window, lom_as_int(lom_to_float(exact[i])), word[i]);
-        word[i] = lom_select_int(large, ends[i], word[i]);
-    }
+    lom_int word[3];
+    for (int i = 0; i < 3; i++)
+        word[i] = lom_select_int(large, ends[i], exact[i]);
     return (lom_float4){ lom_as_float(word[0]), lom_as_float(word[1]), lom_as_float(word[2]),
                          lom_as_float(p->left | p->top << 16) };
 }

@@ -53,10 +53,7 @@ typedef struct lom_triangle {
     float inverse_area;                       /* 1 / |twice the area|, both in units^2 */
     float depth[3];                           /* of vertex 0, then differences of 1 and 2 to it */
     union {
-        struct { /* TRIANGLE_WINDOW: twice the area, edge functions 1 and 2 at the window's first pixel; exact */
-            float area, start[2];
-        } window;
-        struct { /* TRIANGLE_SMALL: the same at pixel (left & ~3, top & ~3) */
+        struct { /* else: twice the area, edge functions 1 and 2 at pixel (left & ~1, top & ~1) */
             int32_t area, start[2];
         } small;
         struct { /* TRIANGLE_LARGE: the last pixel, inclusive */
@@ -163,14 +160,30 @@ struct lom_chunk {
 };
 
 /* Fragments on their way into packets; all of one draw and chunk. Entry i of every array is one fragment. */
-enum { QUEUE_SIZE = 64 };
+enum { QUEUE_SIZE = 64, QUEUE_ROOM = QUEUE_SIZE + 2 * 16 };
 struct lom_queue {
-    float l[3][QUEUE_SIZE];       /* screen-space barycentric weights */
-    float depth[QUEUE_SIZE];      /* only with draw->queues_depth */
-    int32_t pixel[QUEUE_SIZE];    /* index into the tile's memory */
-    int32_t covered[QUEUE_SIZE];  /* -1, or 0 for a helper; only in shaders that ask for quads */
-    int32_t which[QUEUE_SIZE];    /* place of the fragment's triangle in `triangle` */
-    int32_t triangle[QUEUE_SIZE]; /* number in the chunk's triangles, `triangles` of them */
+    float l[3][QUEUE_ROOM];       /* screen-space barycentric weights */
+    float depth[QUEUE_ROOM];      /* only with draw->queues_depth */
+    int32_t pixel[QUEUE_ROOM];    /* index into the tile's memory */
+    int32_t covered[QUEUE_ROOM];  /* -1, or 0 for a helper; only in shaders that ask for quads */
+    int32_t triangle[QUEUE_ROOM]; /* number of the fragment's triangle in the chunk's */
+    int count;
+};
+
+/* Pixels that small triangles cover, before anything is computed for them: a code is the index into the tile's memory,
+ * the pixel of the tile, and which of the list's triangles. */
+enum {
+    CODE_X = 12,
+    CODE_Y = 18,
+    CODE_TRIANGLE = 24,
+    LIST_SIZE = 512,      /* codes after which it is drained */
+    LIST_WINDOWS = 16,    /* that one triangle may have */
+    LIST_TRIANGLES = 256, /* what a code can tell apart */
+    LIST_ROOM = LIST_SIZE + LIST_WINDOWS * 16 + 16
+};
+struct lom_list {
+    int32_t code[LIST_ROOM];
+    int32_t row[LIST_TRIANGLES + 4]; /* where the triangles' records begin, in words */
     int count, triangles;
 };
 
@@ -193,6 +206,7 @@ struct lom_tile {
     bool is_whole; /* tile memory holds nothing yet: every pixel of the only colour target is `whole` */
     uint32_t whole;
     struct lom_queue queue;
+    struct lom_list list;
     uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
                                  write often lies far apart */
 };
@@ -220,6 +234,7 @@ struct lom_pass {
     double depth_scale;                           /* 65535, 16777215, or 0 for float depth */
     float clear_depth;                            /* in tile units */
     bool uses_depth;                              /* a draw tests or writes depth */
+    bool one_by_one;                              /* small triangles are drawn by themselves, for tests */
     bool streams;                                 /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
     size_t tile_bytes;

@@ -1,0 +1,100 @@
+/* Proves that small triangles whose fragments are computed together end as those drawn one by one, bit for bit: random
+ * heaps of them, drawn by both paths, with every comparison of depths, with and without writing them, in every depth
+ * format, blended and opaque, shaders that read everything or nothing at all. */
+#include "pipeline/device.h"
+#include "stage.h"
+
+enum { WIDTH = 150, HEIGHT = 90, TRIANGLES = 700 };
+
+static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    place_values(out, in, uniforms);
+    out->varying[4] = in->attribute[2].x;
+    out->distance[0] = in->attribute[3].x;
+}
+
+static void show_all(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->color[0] = (lom_float4){ in->varying[0] + lom_dx(in, 1), in->varying[1] * in->z,
+                                  in->varying[4] + in->w * 0x1p-4f, lom_select(in->front, in->x, in->y) * 0x1p-8f };
+    out->discard = in->varying[2] > 0.7f;
+}
+
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 5, .clip_distances = 1, .reads = 0x1f,
+           .differentiates = 2, .flat = 16, .reads_position = true, .discards = true, .colors = 1)
+LOM_SHADER(early, place, show_values, .attributes = 4, .varyings = 5, .clip_distances = 1, .reads = 15, .colors = 1)
+LOM_DEPTH_SHADER(depth_only, place_values, .attributes = 2, .varyings = 4)
+
+static vertex vertices[3 * TRIANGLES];
+
+/* Heaps of triangles of up to a dozen pixels, a few larger; depths of few values, so that many are equal. */
+static void make_heap(void)
+{
+    for (size_t t = 0; t < TRIANGLES; t++) {
+        float reach = t % 50 == 0 ? 1.5f : t % 7 == 0 ? 0.3f : 0.05f;
+        float x = random_float(-0.6f, 0.6f), y = random_float(-0.6f, 0.6f), z = (float)random_whole(0, 7) / 8;
+        for (size_t k = 0; k < 3; k++) {
+            vertex *v = &vertices[3 * t + k];
+            float w = t % 2 == 0 ? 1.0f : random_float(0.5f, 2);
+            v->position[0] = (x + random_float(-reach, reach)) * w;
+            v->position[1] = (y + random_float(-reach, reach)) * w;
+            v->position[2] = (t % 3 == 0 ? random_float(0, 1) : z) * w;
+            v->position[3] = w;
+            for (int i = 0; i < 8; i++)
+                v->value[i] = random_float(0, 1);
+            v->distance[0] = t % 9 == 0 ? random_float(-1, 1) : 1.0f;
+        }
+    }
+}
+
+static uint64_t draw_heap(stage *s, const lom_draw_desc *draw)
+{
+    uint64_t before = lom_device_counters(s->device).fragments;
+    begin(s, (lom_pass_desc){ .clear_color = { { 0.1f, 0.2f, 0.3f, 0.4f } }, .clear_depth = 0.5f });
+    lom_draw(s->device, draw);
+    finish(s);
+    return lom_device_counters(s->device).fragments - before;
+}
+
+static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth)
+{
+    static const lom_shader *const shaders[] = { &values, &everything, &early, &depth_only };
+    stage alone = open_stage(desc, WIDTH, HEIGHT, color, depth), packed = open_stage(desc, WIDTH, HEIGHT, color, depth);
+    alone.device->one_by_one = true;
+    for (int compare = LOM_COMPARE_DEFAULT; compare <= LOM_COMPARE_ALWAYS; compare++)
+        for (int kind = 0; kind < 8; kind++) {
+            make_heap();
+            lom_draw_desc draw = draw_of(shaders[kind % 4], vertices, 3 * TRIANGLES);
+            draw.depth_compare = (lom_compare)compare;
+            draw.depth_write_off = compare % 3 == 0 && kind >= 4;
+            draw.blend[0] = kind >= 4 ? adding() : (lom_blend){ .enabled = false };
+            draw.cull = (lom_cull)(compare % 3);
+            if (kind == 6)
+                draw.scissor = (lom_rect){ 31, 17, 83, 54 };
+            uint64_t fragments[2] = { draw_heap(&alone, &draw), draw_heap(&packed, &draw) };
+            CHECK(same_images(alone.image, packed.image), "compare %d, kind %d, tile %d, format %d", compare, kind,
+                  desc.tile, (int)color);
+            CHECK(depth == LOM_FORMAT_NONE || same_images(alone.depths, packed.depths), "depths: compare %d, kind %d",
+                  compare, kind);
+            CHECK(fragments[0] == fragments[1], "compare %d, kind %d: %llu fragments alone, %llu packed", compare, kind,
+                  (unsigned long long)fragments[0], (unsigned long long)fragments[1]);
+        }
+    close_stage(&alone);
+    close_stage(&packed);
+}
+
+static void packed_triangles_end_as_those_drawn_one_by_one(void)
+{
+    heaps_in((lom_device_desc){ .tile = 64, .threads = 2 }, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH32F);
+    heaps_in((lom_device_desc){ .tile = 16, .threads = 1, .chunk = 100 }, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH16);
+    heaps_in((lom_device_desc){ .tile = 32, .threads = 1, .batch = 1 }, LOM_FORMAT_RGBA16F, LOM_FORMAT_DEPTH24);
+    heaps_in((lom_device_desc){ .threads = 1 }, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_NONE);
+}
+
+int main(int argc, char **argv)
+{
+    RUN(packed_triangles_end_as_those_drawn_one_by_one);
+    return check_result();
+}
