@@ -8,6 +8,7 @@
 #   make bench                  milliseconds a frame of every workload; bench-*: the experiments of bench/results
 #   make matrix                 one hash from every compiler and architecture
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
+#   make coverage               lines and branches of src/ that make check executes, a file a line
 #   make check-long             every float through every conversion and lane function
 #   make clean, make help
 #
@@ -47,6 +48,13 @@ O       = 1
 BUILD   = build-$(SAN)
 CFLAGS += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
 LDFLAGS += -fsanitize=$(SAN)
+endif
+
+# What is executed is counted beside the objects (make coverage).
+ifneq ($(COVERAGE),)
+CFLAGS += --coverage -fprofile-update=atomic
+LDFLAGS += --coverage
+COUNTING = $(BUILD)/tests/house/coverage.o
 endif
 
 AVX512 = -mavx2 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd
@@ -104,7 +112,7 @@ test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: all demo check check-long matrix fuzz lint format install uninstall clean help
+.PHONY: all demo check check-long coverage matrix fuzz lint format install uninstall clean help
 .PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
 	bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
@@ -135,7 +143,7 @@ $(BUILD)/measure.a: $(measure_objects)
 	@rm -f $@
 	$(call short,AR)$(AR) rcs $@ $^
 
-$(BUILD)/lom: $(cli_objects) $(BUILD)/measure.a $(BUILD)/liblom.a
+$(BUILD)/lom: $(cli_objects) $(COUNTING) $(BUILD)/measure.a $(BUILD)/liblom.a
 	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 # Rebuilt when the flags change, so that a build folder never mixes two. They are read before any target adds its own.
@@ -177,11 +185,18 @@ FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 
 # A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.
-$(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c $(BUILD)/liblom.a
+$(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c tests/fuzz/bytes.h $(BUILD)/liblom.a
 	@mkdir -p $(@D)
-	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< tests/fuzz/main.c $(BUILD)/liblom.a $(LDLIBS)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< tests/fuzz/main.c $(PROGRAM_PART) $(BUILD)/liblom.a $(LDLIBS)
 
-$(BUILD)/tests/fuzz/fuzz_%: private LDFLAGS += -fsanitize=fuzzer
+$(BUILD)/tests/fuzz/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/bytes.h $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -fsanitize=fuzzer -o $@ $< $(PROGRAM_PART) $(BUILD)/liblom.a $(LDLIBS)
+
+# The command line belongs to the program, not to the library.
+OPTIONS_FUZZERS = $(BUILD)/tests/fuzz/run_fuzz_options $(BUILD)/tests/fuzz/fuzz_options
+$(OPTIONS_FUZZERS): private PROGRAM_PART = $(BUILD)/src/cli/options.o
+$(OPTIONS_FUZZERS): $(BUILD)/src/cli/options.o
 
 SECONDS = 60
 fuzz:
@@ -189,6 +204,7 @@ fuzz:
 	for target in $(fuzz_targets); do \
 	    mkdir -p build-fuzz/corpus/$$target; \
 	    build-fuzz/tests/fuzz/$$target -max_total_time=$(SECONDS) -artifact_prefix=build-fuzz/ -print_final_stats=1 \
+	        -close_fd_mask=2 \
 	        build-fuzz/corpus/$$target $$(ls -d tests/fuzz/corpus/$$target 2>/dev/null) || exit 1; \
 	done
 
@@ -199,6 +215,16 @@ demo: $(BUILD)/lom
 
 check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
+
+# Tests that fail are shown and are no reason to stop: what they executed counts.
+LEAST = 98
+coverage:
+	-$(MAKE) COVERAGE=1 O=1 BUILD=build-coverage check
+	@BUILD=build-coverage LEAST=$(LEAST) tests/house/coverage.sh
+
+$(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # Every float through every conversion (a minute) and every unary lane function (a quarter of an hour).
 LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4

@@ -246,7 +246,8 @@ bool lom_compare_flip_on(lom_pool *pool, const lom_image *a, const lom_image *b,
     struct errors errors = { .work = lom_allocate(workers, sizeof *errors.work, error),
                              .sums = lom_allocate((size_t)a->height * (size_t)a->depth, sizeof *errors.sums, error) };
     double *memory = lom_allocate(workers * memory_each, sizeof *memory, error);
-    lom_flip_constants *constants = lom_create_flip_constants(&common, error);
+    size_t samples = (size_t)a->width * (size_t)a->height * (size_t)a->depth * (size_t)common.colors;
+    lom_flip_constants *constants = lom_create_flip_constants(&common, samples, error);
     bool good = errors.work != NULL && errors.sums != NULL && memory != NULL && constants != NULL;
     for (size_t i = 0; good && i < workers; i++) {
         errors.work[i] = (struct work){ .common = &common,

@@ -18,11 +18,11 @@ typedef struct lom_flip_constants {
     double smooth[LOM_FLIP_TAPS];                              /* feature filters: the Gaussian, summing to 1, ... */
     double edge[LOM_FLIP_TAPS], point[LOM_FLIP_TAPS];          /* its derivatives, positive part 1 and negative -1 */
     double largest;                                            /* c_max of section 4.3, already raised to q_c */
-    double *decoded; /* linear light of every step, NULL for floats and for more than 16 bits */
+    double *decoded; /* linear light of every step; NULL for floats, for more than 16 bits, and for few samples */
 } lom_flip_constants;
 
-/* Freed with lom_free_flip_constants, which allows NULL. */
-lom_flip_constants *lom_create_flip_constants(const lom_common_format *common, lom_error *error);
+/* For so many samples. Freed with lom_free_flip_constants, which allows NULL. */
+lom_flip_constants *lom_create_flip_constants(const lom_common_format *common, size_t samples, lom_error *error);
 void lom_free_flip_constants(lom_flip_constants *constants);
 
 /* A sample of the common format as linear light in 0..1; NaN gives 0. */

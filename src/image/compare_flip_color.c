@@ -102,7 +102,7 @@ static double color_distance(const double a[3], const double b[3])
     return lom_double_pow(__builtin_fabs(a[0] - b[0]) + __builtin_sqrt(da * da + db * db), 0.7);
 }
 
-lom_flip_constants *lom_create_flip_constants(const lom_common_format *common, lom_error *error)
+lom_flip_constants *lom_create_flip_constants(const lom_common_format *common, size_t samples, lom_error *error)
 {
     lom_flip_constants *constants = lom_allocate(1, sizeof *constants, error);
     if (constants == NULL)
@@ -120,8 +120,8 @@ lom_flip_constants *lom_create_flip_constants(const lom_common_format *common, l
     lom_flip_opponent(constants, blue, opponent);
     lom_flip_perceived(constants, opponent, lab_blue);
     constants->largest = color_distance(lab_green, lab_blue);
-    if (!common->is_float && common->bits <= 16) {
-        size_t steps = (size_t)common->peak + 1;
+    size_t steps = common->is_float || common->bits > 16 ? SIZE_MAX : (size_t)1 << common->bits;
+    if (steps <= samples) {
         constants->decoded = lom_allocate(steps, sizeof *constants->decoded, error);
         if (constants->decoded == NULL) {
             lom_release(constants);

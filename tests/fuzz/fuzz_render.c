@@ -1,0 +1,229 @@
+/* A tiny scene made of parts and of any keys at any values, drawn at 16 x 9. The first bytes choose the parts, the rest
+ * sets keys of the table: to their ends, next to them, or somewhere between. A scene that is refused says why in a
+ * line; one that is drawn holds no NaN, and a part of it drawn alone, by other threads and tiles, is the same part.
+ *
+ * Integers stay small and a few keys are left alone: they choose how much is computed, which is not what this looks
+ * for. */
+#include <lom/render.h>
+
+#include "../small_scene.h"
+#include "bytes.h"
+#include "scene/scene_keys.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerInitialize(int *argc, char ***argv);
+
+enum { WIDTH = 16, HEIGHT = 9, MOST_OVERRIDES = 16, MOST_TEXT = 256 };
+
+static const char start[] = "[output]\nwidth = 16\nheight = 9\n[camera]\nposition = [0, 3, 12]\ntarget = [0, 1, 0]\n"
+                            "[quality]\nentity_shadows = 16\ncloud_jitter = false\n";
+/* TOML lets tables follow one another in any order, so any of these may be there. */
+static const char *const parts[] = {
+    "[terrain]\nheight_map = \"height.png\"\nsize = 40\nheight = 6\nbase = -3\ntexture = \"color.png\"\ntile = 5\n"
+    "[[terrain.layer]]\nmap = \"layer.ppm\"\nfrom_height = 0\n",
+    "[water]\nlevel = 0\nsize = 40\nnormal_map = \"normal.png\"\n[water.waves]\nsize = 16\ncascades = 1\ncount = 4\n"
+    "[water.optics]\ncaustics_texels = 16\n",
+    "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n[[entity.key]]\ntime = 1\n",
+    "[sky]\npattern = \"sky_%s.png\"\n",
+    "[[clouds.wind]]\nheight = 0\nspeed = 3\n[[cloud]]\nkind = \"cumulus_mediocris\"\n"
+    "voxels = [8, 8, 8]\nsize = 20\nposition = [0, 5, -20]\n",
+    "[[spray]]\ncount = 20\nfrom = [-1, 1, 0]\nto = [1, 1, 0]\nsize = 0.3\n",
+    "[haze]\ndensity = 0.01\n",
+    "[surf]\nheight = 1\n",
+};
+static const char shallow[] = "[shallow]\ncells = 8\nstep = 0.02\n[[shallow.spring]]\nposition = [0, 0]\nrate = 1\n"
+                              "[[shallow.body]]\nhalf = 2\n";
+enum { PARTS = sizeof parts / sizeof *parts };
+
+/* Keys that choose how much is computed, by the end of their path; and files. */
+static const char *const left_alone[] = { "output.width",  "output.height", "output.frames", "output.fps",
+                                          "shallow.start", "shallow.step",  ".voxels",       ".file",
+                                          ".kind",         ".pattern" };
+
+static bool is_left_alone(const char *path)
+{
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof left_alone / sizeof *left_alone; i++) {
+        size_t end = strlen(left_alone[i]);
+        if (length >= end && strcmp(path + length - end, left_alone[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+static double take_number(fuzz_bytes *in, const lom_key *key)
+{
+    bool free = key->minimum == 0 && key->maximum == 0;
+    double low = free ? -1e9 : key->minimum, high = free ? 1e9 : key->maximum;
+    double tiny = key->flags & LOM_KEY_ABOVE ? low + 1e-300 : low;
+    switch (take_choice(in, 8)) {
+    case 0:
+        return tiny;
+    case 1:
+        return high;
+    case 2:
+        return high * (1 - 0x1p-53);
+    case 3:
+        return key->initial[0] + 1e-12;
+    case 4:
+        return low < 0 && high > 0 ? 1e-300 : low + (high - low) / 1e6;
+    case 5:
+        return low + (high - low) * take_byte(in) / 255;
+    default:
+        return key->initial[0] * (1 + take_byte(in) / 64.0);
+    }
+}
+
+/* Appends what the key is set to; false when it has no such value. */
+static bool take_value(fuzz_bytes *in, const lom_key *key, char *text, size_t room)
+{
+    int choices = 0;
+    size_t used;
+    switch (key->type) {
+    case LOM_KEY_BOOL:
+        snprintf(text, room, take_bool(in) ? "true" : "false");
+        return true;
+    case LOM_KEY_INTEGER: {
+        int value = (int)key->minimum + take_choice(in, 33);
+        snprintf(text, room, "%d", value > key->maximum && key->maximum > key->minimum ? (int)key->maximum : value);
+        return true;
+    }
+    case LOM_KEY_CHOICE:
+        while (choices < 12 && key->choices[choices] != NULL)
+            choices++;
+        snprintf(text, room, "\"%s\"", key->choices[take_choice(in, choices)]);
+        return true;
+    case LOM_KEY_NUMBER:
+    case LOM_KEY_ANGLE:
+    case LOM_KEY_COLOR:
+        used = (size_t)snprintf(text, room, key->count > 1 ? "[" : "");
+        for (int i = 0; i < key->count || i == 0; i++)
+            used += (size_t)snprintf(text + used, room - used, "%s%.17g", i > 0 ? ", " : "", take_number(in, key));
+        snprintf(text + used, room - used, key->count > 1 ? "]" : "");
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* "water.waves.height=0.5", by a walk from the root of the table. */
+static bool take_override(fuzz_bytes *in, char text[MOST_TEXT])
+{
+    const lom_key_table *table = &lom_scene_keys;
+    size_t used = 0;
+    for (;;) {
+        const lom_key *key = &table->keys[take_choice(in, table->key_count)];
+        used += (size_t)snprintf(text + used, MOST_TEXT - used, "%s%s", used == 0 ? "" : ".", key->name);
+        if (key->type == LOM_KEY_TABLE || key->type == LOM_KEY_TABLES) {
+            table = key->table;
+            used += (size_t)snprintf(text + used, MOST_TEXT - used, key->type == LOM_KEY_TABLES ? ".0" : "");
+            continue;
+        }
+        if (is_left_alone(text))
+            return false;
+        used += (size_t)snprintf(text + used, MOST_TEXT - used, "=");
+        return take_value(in, key, text + used, MOST_TEXT - used);
+    }
+}
+
+static lom_scene *take_scene(fuzz_bytes *in, bool *runs_on, lom_error *error)
+{
+    static char overrides[MOST_OVERRIDES][MOST_TEXT];
+    const char *items[MOST_OVERRIDES];
+    char text[4096];
+    unsigned chosen = take_byte(in);
+    *runs_on = take_choice(in, 4) == 1 && (chosen & 3) == 3;
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", start);
+    for (int i = 0; i < PARTS; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s", chosen >> i & 1 ? parts[i] : "");
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s", *runs_on ? shallow : "");
+    size_t count = 0;
+    while (in->size > 1 && count < MOST_OVERRIDES) {
+        items[count] = overrides[count];
+        count += take_override(in, overrides[count]);
+    }
+    if (getenv("LOM_FUZZ_SHOW") != NULL) {
+        fwrite(text, 1, used, stderr);
+        for (size_t i = 0; i < count; i++)
+            fprintf(stderr, "--set '%s'\n", items[i]);
+    }
+    return lom_decode_scene(text, used, small_path("scene.toml"), items, count, error);
+}
+
+static void require(bool condition)
+{
+    if (!condition)
+        abort();
+}
+
+/* One frame, whole or a part, by one of two devices. */
+static lom_image *draw(const lom_scene *scene, int frame, lom_rect crop, lom_error *error)
+{
+    lom_device_desc device = { .threads = crop.width != 0 ? 2 : 1, .lanes = 4, .tile = crop.width != 0 ? 16 : 64 };
+    lom_renderer *renderer = lom_create_renderer(scene, &device, error);
+    lom_frame drawn = { .image = NULL };
+    bool done =
+        renderer != NULL &&
+        lom_render_frame(renderer, &(lom_frame_desc){ .width = WIDTH, .height = HEIGHT, .frame = frame, .crop = crop },
+                         &drawn, error);
+    require(done == (drawn.image != NULL) && done == (error->code == LOM_OK) && done == (error->text[0] == 0));
+    lom_free_renderer(renderer);
+    return drawn.image;
+}
+
+static void check_pixels(const lom_image *image)
+{
+    const lom_format_info *info = lom_describe_format(image->format);
+    for (size_t i = 0; info->is_float && i < lom_image_size(image); i += 4) {
+        float value;
+        memcpy(&value, image->pixels + i, sizeof value);
+        require(value - value == 0);
+    }
+}
+
+static void check_part(const lom_image *whole, const lom_image *part, lom_rect crop)
+{
+    size_t bytes = (size_t)crop.width * lom_format_size(whole->format);
+    require(part->width == crop.width && part->height == crop.height);
+    for (int y = 0; y < crop.height; y++)
+        require(memcmp(lom_image_pixel(whole, crop.x, crop.y + y, 0), lom_image_pixel(part, 0, y, 0), bytes) == 0);
+}
+
+int LLVMFuzzerInitialize(int *argc, char ***argv)
+{
+    (void)argc;
+    (void)argv;
+    if (!make_small_scene())
+        exit(1);
+    atexit(remove_small_scene);
+    return 0;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const int frames[] = { 0, 1, 7, 100000 };
+    fuzz_bytes in = { data, size };
+    lom_error error = { 0 };
+    bool runs_on;
+    if (small_folder[0] == 0) /* without libFuzzer nobody calls it */
+        LLVMFuzzerInitialize(NULL, NULL);
+    int frame = frames[take_choice(&in, 4)];
+    lom_rect crop = { take_choice(&in, 9), take_choice(&in, 5), 0, 0 };
+    crop.width = 1 + take_choice(&in, WIDTH - crop.x);
+    crop.height = 1 + take_choice(&in, HEIGHT - crop.y);
+    bool has_part = take_bool(&in);
+    lom_scene *scene = take_scene(&in, &runs_on, &error);
+    require((scene != NULL) == (error.code == LOM_OK) && strchr(error.text, '\n') == NULL);
+    lom_image *whole = scene == NULL ? NULL : draw(scene, runs_on ? frame % 7 : frame, (lom_rect){ 0 }, &error);
+    if (whole != NULL) {
+        check_pixels(whole);
+        lom_image *part = has_part ? draw(scene, runs_on ? frame % 7 : frame, crop, &error) : NULL;
+        require(!has_part || part != NULL);
+        if (part != NULL)
+            check_part(whole, part, crop);
+        lom_free_image(part);
+    }
+    lom_free_image(whole);
+    lom_free_scene(scene);
+    return 0;
+}
