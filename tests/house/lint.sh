@@ -24,11 +24,13 @@ if have objdump "the instructions"; then
         grep -cE 'v?f(n?m)(add|sub|addsub|subadd)[0-9]*[ps][sd]|[[:space:]]v?rcp[0-9]*[ps]s|[[:space:]]v?rsqrt[0-9]*[ps]s')
     [ "$fused" -eq 0 ] || found "$fused fused or approximate instructions in $BUILD/liblom.a"
 fi
-for header in include/lom/*.h; do
+headers=$(ls include/lom/*.h)
+case $($CC -dumpmachine) in x86_64*) ;; *) headers=$(echo "$headers" | grep -v _x86) ;; esac
+for header in $headers; do
     $CC -std=c11 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only -x c "$header" || found "$header alone in C"
 done
 if have g++ "the headers in C++"; then
-    for header in include/lom/*.h; do
+    for header in $headers; do
         g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only -x c++ "$header" ||
             found "$header alone in C++"
     done
