@@ -15,7 +15,7 @@ enum { LOM_MAX_PARTICLES = 1000000 };
 typedef struct lom_emitter {
     uint64_t seed;
     size_t count;       /* 0..LOM_MAX_PARTICLES */
-    double from[3];     /* the two ends of the segment on which lives begin, |coordinate| <= 1e7 */
+    double from[3];     /* the two ends of the segment on which lives begin, |coordinate| <= 1e9 */
     double to[3];       /* (the lip of a fall) */
     double velocity[3]; /* mean at the start, m/s, |component| <= 1000 */
     double spread;      /* standard deviation of each horizontal component of it, m/s, 0..100 */

@@ -48,7 +48,7 @@ static const lom_key haze[] = {
               "turns warm and distant woods blue." },
     { "color", LOM_KEY_COLOR, AT(lom_haze, color), 3, .maximum = 1000, .initial = { 0.5, 0.6, 0.7 },
       .text = "Colour of the air: what a path without end would show. Pictures of the sky have their own haze." },
-    { "base", LOM_KEY_NUMBER, AT(lom_haze, base), .minimum = -1e6, .maximum = 1e6, .unit = "m",
+    { "base", LOM_KEY_NUMBER, AT(lom_haze, base), .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Height (y) above which the air gets thinner." },
     { "height", LOM_KEY_NUMBER, AT(lom_haze, height), .maximum = 1e6, .unit = "m",
       .text = "Height over which it falls to 1/e; 0: the same everywhere." },

@@ -72,7 +72,7 @@ static const lom_key terrain[] = {
       .text = "Width along x and length along z; the middle is at x = z = 0." },
     { "height", LOM_KEY_NUMBER, AT(lom_terrain, height), .minimum = -1e6, .maximum = 1e6, .initial = { 20 },
       .unit = "m", .text = "Difference between black and white." },
-    { "base", LOM_KEY_NUMBER, AT(lom_terrain, base), .minimum = -1e6, .maximum = 1e6, .unit = "m",
+    { "base", LOM_KEY_NUMBER, AT(lom_terrain, base), .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Height (y) of black." },
     { "texture", LOM_KEY_FILE, AT(lom_terrain, texture), .text = "Colour picture under all layers." },
     { "tile", LOM_KEY_NUMBER, AT(lom_terrain, tile), .maximum = 1e6, .unit = "m",

@@ -66,8 +66,8 @@ static bool check_emitter(const lom_emitter *e, double time, lom_error *error)
         return lom_fail(error, LOM_ERROR_LIMIT, "An emitter of %zu particles is beyond the limit of %d.", e->count,
                         LOM_MAX_PARTICLES);
     for (int i = 0; i < 3; i++) {
-        if (!is_within(e->from[i], -1e7, 1e7) || !is_within(e->to[i], -1e7, 1e7))
-            return lom_fail(error, LOM_ERROR_USAGE, "The ends of an emitter must be within 1e7 m of the origin.");
+        if (!is_within(e->from[i], -1e9, 1e9) || !is_within(e->to[i], -1e9, 1e9))
+            return lom_fail(error, LOM_ERROR_USAGE, "The ends of an emitter must be within 1e9 m of the origin.");
         if (!is_within(e->velocity[i], -1000, 1000) || !is_within(e->wind[i], -1000, 1000))
             return lom_fail(error, LOM_ERROR_USAGE, "Velocity and wind of an emitter must be within 1000 m/s.");
     }

@@ -10,10 +10,10 @@
 
 static const lom_key keys[] = {
     { "enabled", LOM_KEY_BOOL, AT(enabled), .initial = { 1 }, .text = "Whether the water is drawn at all." },
-    { "level", LOM_KEY_NUMBER, AT(level), .minimum = -1e6, .maximum = 1e6, .unit = "m",
+    { "level", LOM_KEY_NUMBER, AT(level), .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Height (y) of the surface." },
-    { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -1e6, .maximum = 1e6, .unit = "m",
-      .text = "x and z of the middle of the quad." },
+    { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .text = "x and z of the middle of the quad; waves, ripples and foam move with it." },
     { "size",
       LOM_KEY_NUMBER,
       AT(size),
