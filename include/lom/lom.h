@@ -1,4 +1,13 @@
-/* lom/lom.h - the whole library. */
+/* lom/lom.h - the whole library.
+ *
+ * Descriptors: NULL is the zero descriptor wherever a function takes one; numbers that are NaN or out of the range that
+ * a descriptor states are an error with a sentence. A NULL device is one that has failed.
+ *
+ * Threads: one thread at a time calls an object; different devices (and renderers) run at once. Workers ask for the
+ * stack they need.
+ *
+ * Forks: a device outlives a fork that happens while no call of it runs. In the child it goes on with the one thread
+ * there is, draws the same bytes, and can be closed. */
 #ifndef LOM_H
 #define LOM_H
 

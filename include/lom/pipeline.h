@@ -44,7 +44,7 @@ lom_device_desc lom_describe_device(const lom_device *device);
 
 /* lom_create_texture, owned by the device and freed with it; NULL (error on the device) on failure. */
 lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc);
-/* Frees one texture before the device; NULL is allowed. */
+/* Frees one texture before the device; NULL is allowed, one that the device did not make is an error on the device. */
 void lom_release_texture(lom_device *device, lom_texture *texture);
 
 /* Work done since the device was opened: what is not needed must show as zero here. */
@@ -278,7 +278,7 @@ typedef struct lom_pass_desc {
     float clear_depth;                    /* 0 is the far plane of reversed depth */
 } lom_pass_desc;
 
-/* Begins a pass; ends with lom_end_pass. One pass at a time a device. */
+/* Begins a pass, ended by lom_end_pass; one at a time a device. A texture of another device is no attachment of it. */
 void lom_begin_pass(lom_device *device, const lom_pass_desc *desc);
 /* Runs the pass: when it returns the attachments are complete and their mip levels built. False when the device holds
  * an error; attachments are then unspecified. */
@@ -358,7 +358,7 @@ typedef struct lom_draw_desc {
     const lom_shader *shader;
     const void *uniforms; /* uniforms_size bytes, copied */
     lom_attribute attribute[LOM_MAX_ATTRIBUTES];
-    const void *indices; /* NULL: 0, 1, 2 ...; not copied: stays valid until lom_end_pass */
+    const void *indices; /* NULL: 0, 1, 2 ..., all of them vertices that exist; not copied: valid until lom_end_pass */
     int index_bits;      /* 16 or 32; 0: 32 */
     size_t count;        /* indices (or vertices) to draw; a rest that makes no triangle is ignored */
     size_t first;        /* first index (or vertex) */

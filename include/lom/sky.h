@@ -23,16 +23,16 @@ typedef struct lom_sky_params {
     double sun_rays;                                /* 0..1, how strong its rays are */
 } lom_sky_params;
 
-/* The picture of the sun, R32F: 1 is the light's colour, 0 at the edge. NULL on failure. */
+/* The picture of the sun, R32F: 1 is the light's colour, 0 at the edge; rays 0..1. NULL on failure. */
 lom_image *lom_make_sun_picture(int size, double rays, lom_error *error);
 
 /* ---- made: a sky box ---- */
 
 typedef struct lom_sky_box_desc {
     int size;                          /* pixels a side of a face, 8..4096; 0: 1024 */
-    double sun_azimuth, sun_elevation; /* radians: 0 is north (-z), pi/2 east (+x); above the horizon */
-    double haziness;                   /* 0 is clean air, 1 a fine day */
-    double cloudiness;                 /* 0 is a clear sky, 1 many clouds */
+    double sun_azimuth, sun_elevation; /* radians: 0 is north (-z), pi/2 east (+x); -pi/2..pi/2 above the horizon */
+    double haziness;                   /* 0..100: 0 is clean air, 1 a fine day */
+    double cloudiness;                 /* 0..1: 0 is a clear sky, 1 many clouds */
     uint64_t seed;
 } lom_sky_box_desc;
 /* Six pictures (RGB8 sRGB; right, left, top, bottom, front, back) that belong to the caller. On failure false, and all

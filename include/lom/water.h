@@ -106,7 +106,7 @@ void lom_water_type_optics(lom_water_type type, double absorption[3], double sca
 typedef struct lom_normal_map_desc {
     int size; /* pixels a side, 128..4096, a multiple of 4; 0: 512 */
     uint64_t seed;
-    double roughness; /* root of the mean squared slope; 0: 0.42 */
+    double roughness; /* root of the mean squared slope, 0..1000; 0: 0.42 */
 } lom_normal_map_desc;
 /* Waves with a wind, which repeat without a seam, RGB8: red and green are the normal's components along x (right) and z
  * (down the picture) * 0.5 + 0.5, blue the one that points up. */

@@ -1,8 +1,11 @@
 /* Errors and warnings as values. In: a code and a sentence. Out: a lom_error that keeps the first failure; warnings
- * that keep the first sentences and count them all. Invariant: of a sentence that is too long (paths have up to 4095
- * bytes) the beginning and the end stay, which name the file and the reason. */
+ * that keep the first sentences and count them all. Invariant: an error has a code and a sentence, or neither; of a
+ * sentence that is too long (paths have up to 4095 bytes) the beginning and the end stay, which name the file and the
+ * reason. */
+#include "base/pass_error.h"
 #include <lom/base.h>
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -37,6 +40,7 @@ static void shorten(char *to, size_t room, const char *text)
 
 bool lom_fail(lom_error *error, lom_code code, const char *format, ...)
 {
+    assert(code != LOM_OK);
     if (error == NULL || error->code != LOM_OK)
         return false;
     char text[LONGEST];
@@ -45,8 +49,14 @@ bool lom_fail(lom_error *error, lom_code code, const char *format, ...)
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     shorten(error->text, sizeof error->text, text);
+    assert(error->text[0] != 0);
     error->code = code;
     return false;
+}
+
+bool lom_pass_error(const lom_error *from, lom_error *to)
+{
+    return from->code == LOM_OK || lom_fail(to, from->code, "%s", from->text);
 }
 
 /* A sentence and its newline, when there is room for both. */

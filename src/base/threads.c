@@ -1,13 +1,22 @@
 /* The pool: in, a function; out, its effects on every worker. A waiting worker spins briefly (a pass has many short
- * phases) and then sleeps (spinning on a shared core costs whole scheduler quanta). */
+ * phases) and then sleeps (spinning on a shared core costs whole scheduler quanta).
+ *
+ * A child that is forked has one thread, the one that forked (POSIX.1-2017, fork): none of the pool's workers. There
+ * the pool is one of the caller alone, and neither joins threads nor destroys conditions that it believes are waited
+ * for. */
 #include "base/threads.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <unistd.h>
 
 enum { SPINS = 2000 };
 
+/* Bytes that a worker needs at most, at every level of optimisation; systems give as little as 128 KiB (musl). */
+static const size_t worker_stack = (size_t)1 << 20;
+
 struct lom_pool {
+    pid_t process; /* that the workers belong to */
     int size;
     pthread_t *threads;
     pthread_mutex_t mutex;
@@ -72,10 +81,18 @@ static bool start_worker(lom_pool *pool, int number)
     if (worker == NULL)
         return false;
     *worker = (struct worker){ pool, number };
-    if (pthread_create(&pool->threads[number], NULL, run_worker, worker) == 0)
-        return true;
-    lom_release(worker);
-    return false;
+    pthread_attr_t attributes;
+    size_t stack;
+    bool started = false;
+    if (pthread_attr_init(&attributes) == 0) {
+        started = pthread_attr_getstacksize(&attributes, &stack) == 0 &&
+                  (stack >= worker_stack || pthread_attr_setstacksize(&attributes, worker_stack) == 0) &&
+                  pthread_create(&pool->threads[number], &attributes, run_worker, worker) == 0;
+        pthread_attr_destroy(&attributes);
+    }
+    if (!started)
+        lom_release(worker);
+    return started;
 }
 
 lom_pool *lom_create_pool(int threads, lom_error *error)
@@ -91,6 +108,7 @@ lom_pool *lom_create_pool(int threads, lom_error *error)
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pthread_cond_init(&pool->finished, NULL);
+    pool->process = getpid();
     pool->size = 1;
     while (pool->size < threads && start_worker(pool, pool->size))
         pool->size++;
@@ -109,32 +127,35 @@ void lom_free_pool(lom_pool *pool)
 {
     if (pool == NULL)
         return;
-    pool->ending = true;
-    advance_generation(pool);
-    for (int i = 1; i < pool->size; i++)
-        pthread_join(pool->threads[i], NULL);
-    pthread_cond_destroy(&pool->finished);
-    pthread_cond_destroy(&pool->wake);
-    pthread_mutex_destroy(&pool->mutex);
+    if (pool->process == getpid()) {
+        pool->ending = true;
+        advance_generation(pool);
+        for (int i = 1; i < pool->size; i++)
+            pthread_join(pool->threads[i], NULL);
+        pthread_cond_destroy(&pool->finished);
+        pthread_cond_destroy(&pool->wake);
+        pthread_mutex_destroy(&pool->mutex);
+    }
     lom_release(pool->threads);
     lom_release(pool);
 }
 
 int lom_pool_size(const lom_pool *pool)
 {
-    return pool->size;
+    return pool->process == getpid() ? pool->size : 1;
 }
 
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
 {
-    if (pool->size > 1) {
+    const int size = lom_pool_size(pool);
+    if (size > 1) {
         pool->work = work;
         pool->context = context;
-        atomic_store_explicit(&pool->running, pool->size - 1, memory_order_relaxed);
+        atomic_store_explicit(&pool->running, size - 1, memory_order_relaxed);
         advance_generation(pool);
     }
     work(context, 0);
-    if (pool->size == 1)
+    if (size == 1)
         return;
     for (int i = 0; i < SPINS; i++) {
         if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0)

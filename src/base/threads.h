@@ -8,9 +8,10 @@ typedef struct lom_pool lom_pool;
 typedef void lom_work(void *context, int worker);
 
 /* A pool of `threads` workers, of which the caller is number 0; each has the default float state. When the system gives
- * fewer threads the pool is that much smaller: results never depend on it. NULL when memory runs out. */
+ * fewer threads the pool is that much smaller: results never depend on it. In a forked child the pool is the caller
+ * alone. NULL when memory runs out. */
 lom_pool *lom_create_pool(int threads, lom_error *error);
-/* Ends the workers and frees the pool; NULL is allowed. */
+/* Ends the workers and frees the pool, or in a forked child its memory; NULL is allowed. */
 void lom_free_pool(lom_pool *pool);
 /* Workers of the pool, the caller included. */
 int lom_pool_size(const lom_pool *pool);

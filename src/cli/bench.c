@@ -1,5 +1,6 @@
 /* `lom bench`. In: names of workloads and what to draw them with; out: a line for each with its time a frame and the
  * hash of its picture. Invariant: the hash depends on the workload and the size alone. */
+#include "pipeline/check_device.h"
 #include "commands.h"
 #include "options.h"
 
@@ -103,10 +104,7 @@ static lom_device *open_device(const bench_options *o, lom_error *error)
         if (o->lanes != NULL && strcmp(o->lanes, widths[i].word) == 0)
             desc.lanes = widths[i].lanes;
     lom_device *device = lom_open_device(&desc);
-    if (device == NULL)
-        lom_fail(error, LOM_ERROR_MEMORY, "There is no memory for a device.");
-    else if (lom_device_error(device)->code != LOM_OK)
-        *error = *lom_device_error(device);
+    lom_check_device(device, error);
     return device;
 }
 

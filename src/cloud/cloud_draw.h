@@ -51,9 +51,9 @@ struct lom_cloud_set {
     float *jitter;                        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 
-/* Makes or reads the volumes of the visible clouds. NULL and no failure when there are none, or the model is off. */
-struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                                      const struct lom_cloud_quality *quality, lom_error *error);
+/* Makes or reads the volumes of the visible clouds. *loaded is NULL when there are none, or the model is off. */
+bool lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
+                     const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error);
 void lom_free_clouds(struct lom_cloud_set *set);
 
 /* cloud_wind.c: how far the wind has taken a cloud at a time; puts all clouds there. */

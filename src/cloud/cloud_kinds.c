@@ -180,7 +180,11 @@ void lom_store_density(lom_image *volume, int x, int y, int z, double density)
 
 lom_image *lom_make_cloud(const lom_cloud_desc *desc, lom_error *error)
 {
-    const struct row *row = find_row(desc->kind != NULL ? desc->kind : "", error);
+    if (desc == NULL || desc->kind == NULL) {
+        lom_fail(error, LOM_ERROR_USAGE, "A cloud that is made has a kind.");
+        return NULL;
+    }
+    const struct row *row = find_row(desc->kind, error);
     if (row == NULL)
         return NULL;
     const int asked[3] = { desc->width, desc->height, desc->depth };

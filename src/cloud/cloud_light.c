@@ -113,10 +113,30 @@ static bool light_in_advance(const struct lom_cloud_set *set, struct lom_placed_
     to_box(cloud, to_light, false, along);
     lom_image *lit = lom_light_cloud_in_advance(cloud->density->image, along, in_advance ? set->params->lighter : 0,
                                                 set->params->dark_light, error);
-    lom_free_volume(cloud->original);
-    cloud->original = lit != NULL ? lom_create_volume(lit, error) : NULL;
+    lom_volume *original = lit != NULL ? lom_create_volume(lit, error) : NULL;
     lom_free_image(lit);
-    return cloud->original != NULL;
+    if (original == NULL)
+        return false;
+    lom_free_volume(cloud->original);
+    cloud->original = original;
+    return true;
+}
+
+/* The other models: a grid of light, which the other clouds shadow. */
+static bool sweep_sun(const struct lom_cloud_set *set, struct lom_placed_cloud *cloud, struct shadowing *s,
+                      lom_error *error)
+{
+    lom_light_desc desc = { .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density),
+                            .beyond = s->other_count != 0 ? depth_beyond : NULL,
+                            .context = s };
+    for (int i = 0; i < 3; i++) {
+        desc.size[i] = (float)cloud->cloud->size[i];
+        desc.to_light[i] = (float)(cloud->axes[i][0] * s->to_light[0] + cloud->axes[i][1] * s->to_light[1] +
+                                   cloud->axes[i][2] * s->to_light[2]);
+    }
+    if (set->quality.model == LOM_CLOUDS_FORWARD)
+        desc.forward = (float)(set->params->albedo * (set->params->forward > 0 ? set->params->forward : 0));
+    return lom_sweep_sun(cloud->light, &desc, error);
 }
 
 static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], size_t *others, int *swept,
@@ -137,22 +157,9 @@ static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to
     hash |= 1;
     if (cloud->lit_for == hash)
         return true;
-    if (set->quality.model == LOM_CLOUDS_ORIGINAL) {
-        cloud->lit_for = hash;
-        ++*swept;
-        return light_in_advance(set, cloud, to_light, error);
-    }
-    lom_light_desc desc = { .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density),
-                            .beyond = s.other_count != 0 ? depth_beyond : NULL,
-                            .context = &s };
-    for (int i = 0; i < 3; i++) {
-        desc.size[i] = (float)cloud->cloud->size[i];
-        desc.to_light[i] = (float)(cloud->axes[i][0] * to_light[0] + cloud->axes[i][1] * to_light[1] +
-                                   cloud->axes[i][2] * to_light[2]);
-    }
-    if (set->quality.model == LOM_CLOUDS_FORWARD)
-        desc.forward = (float)(set->params->albedo * (set->params->forward > 0 ? set->params->forward : 0));
-    if (!lom_sweep_sun(cloud->light, &desc, error))
+    bool done = set->quality.model == LOM_CLOUDS_ORIGINAL ? light_in_advance(set, cloud, to_light, error)
+                                                          : sweep_sun(set, cloud, &s, error);
+    if (!done)
         return false;
     cloud->lit_for = hash;
     ++*swept;

@@ -123,17 +123,18 @@ static bool load_shared(struct lom_cloud_set *set, lom_error *error)
     return set->jitter != NULL || !set->quality.jitter;
 }
 
-struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                                      const struct lom_cloud_quality *quality, lom_error *error)
+bool lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
+                     const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error)
 {
     size_t visible = 0;
+    *loaded = NULL;
     for (size_t i = 0; i < count; i++)
         visible += clouds[i].visible;
     if (visible == 0 || quality->model == LOM_CLOUDS_OFF)
-        return NULL;
+        return true;
     struct lom_cloud_set *set = lom_allocate(1, sizeof *set, error);
     if (set == NULL)
-        return NULL;
+        return false;
     *set = (struct lom_cloud_set){ .params = params, .quality = *quality };
     set->densities = lom_allocate(visible, sizeof *set->densities, error);
     set->clouds = lom_allocate(visible, sizeof *set->clouds, error);
@@ -142,7 +143,8 @@ struct lom_cloud_set *lom_load_clouds(const lom_cloud *clouds, size_t count, con
         if (clouds[i].visible)
             done = place_cloud(set, &clouds[i], error);
     if (done)
-        return set;
-    lom_free_clouds(set);
-    return NULL;
+        *loaded = set;
+    else
+        lom_free_clouds(set);
+    return done;
 }

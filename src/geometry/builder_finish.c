@@ -1,5 +1,7 @@
 /* Makes the mesh of a builder. In: its triangles and a crease angle. Out: a mesh whose triangles are grouped by
  * material and whose vertices (builder vertex and normal) are numbered by first use. */
+#include "base/pass_error.h"
+#include "base/range.h"
 #include "builder.h"
 
 #include <string.h>
@@ -135,9 +137,7 @@ lom_mesh *lom_finish_mesh(lom_mesh_builder *builder, double crease, lom_error *e
     lom_mesh *mesh = NULL;
     lom_float_state state;
     lom_enter_float_state(&state);
-    if (builder->error.code != LOM_OK)
-        lom_fail(error, builder->error.code, "%s", builder->error.text);
-    else
+    if (lom_pass_error(&builder->error, error) && lom_check_range(crease, 0, 1000, error, "The crease of a mesh"))
         mesh = finish_builder(builder, crease, error);
     lom_leave_float_state(&state);
     lom_free_mesh_builder(builder);

@@ -125,6 +125,10 @@ static lom_image *round_canvas(const lom_canvas *canvas, lom_error *error)
 
 lom_image *lom_make_albedo(const lom_albedo_desc *desc, lom_error *error)
 {
+    if (desc == NULL || desc->name == NULL) {
+        lom_fail(error, LOM_ERROR_USAGE, "A texture that is made has a name.");
+        return NULL;
+    }
     const struct albedo *albedo = find_albedo(desc->name);
     if (albedo == NULL) {
         lom_fail(error, LOM_ERROR_USAGE, "There is no texture named \"%s\".", desc->name);

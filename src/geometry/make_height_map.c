@@ -277,7 +277,7 @@ static bool form_land(landscape *l, const lom_height_map_desc *desc, lom_error *
 
 lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error)
 {
-    lom_height_map_desc d = *desc;
+    lom_height_map_desc d = desc != NULL ? *desc : (lom_height_map_desc){ .size = 0 };
     if (d.size == 0)
         d.size = 1024;
     if (d.size != 256 && d.size != 512 && d.size != 1024 && d.size != 2048) {

@@ -1,6 +1,7 @@
 /* Reads Wavefront OBJ (Advanced Visualizer manual, appendix B1), stage 1 of 2: text to arrays. In: bytes, and material
  * files from a callback. Out: struct lom_obj: every number finite, negative indices resolved, v flipped; positive
  * indices may still be out of range, since they may point forward. */
+#include "base/pass_error.h"
 #include "obj.h"
 #include "array.h"
 #include "polygon.h"
@@ -340,8 +341,7 @@ lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, l
     lom_release(obj.corners);
     lom_release(obj.faces);
     lom_free_materials(&obj.materials);
-    if (mesh == NULL)
-        lom_fail(error, own.code, "%s", own.text);
+    lom_pass_error(&own, error);
     return mesh;
 }
 

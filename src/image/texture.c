@@ -257,6 +257,8 @@ static void fill_decoded(lom_texture *texture)
 
 static lom_texture *create(const lom_texture_desc *desc, lom_error *error)
 {
+    static const lom_texture_desc none = { .width = 0 };
+    desc = desc != NULL ? desc : &none;
     if (!check_desc(desc, error))
         return NULL;
     lom_texture *texture = lom_allocate(1, sizeof *texture, error);

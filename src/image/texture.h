@@ -43,6 +43,7 @@ struct lom_texture {
      * indices; NULL where the samplers decode as they go. The results are the same bits. */
     float *decoded;
     size_t texel_count; /* in texels[] */
+    const void *owner;  /* the device that it was made with; NULL: none, it belongs to the caller */
     /* For the samplers: */
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */

@@ -1,5 +1,7 @@
 /* Workloads: their table and what each needs. In: a name and a size; out: meshes, textures and targets, ready to be
  * drawn any number of times. Invariant: nothing here depends on a device, so that every device draws the same data. */
+#include "pipeline/check_device.h"
+#include "base/pass_error.h"
 #include "workload.h"
 
 #include "peer_pictures.h"
@@ -215,14 +217,6 @@ void lom_free_workload(lom_workload *w)
     lom_release(w);
 }
 
-static bool device_failed(const lom_device *device, lom_error *error)
-{
-    const lom_error *held = lom_device_error(device);
-    if (held->code != LOM_OK)
-        lom_fail(error, held->code, "%s", held->text);
-    return held->code != LOM_OK;
-}
-
 bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error *error)
 {
     const lom_workload_task *task = workload->kind->task;
@@ -232,9 +226,7 @@ bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error 
 bool lom_draw_prepared(lom_workload *workload, lom_device *device, lom_error *error)
 {
     workload->kind->draw(workload, device);
-    if (workload->error.code != LOM_OK)
-        return lom_fail(error, workload->error.code, "%s", workload->error.text);
-    return !device_failed(device, error);
+    return lom_pass_error(&workload->error, error) && lom_check_device(device, error);
 }
 
 bool lom_draw_workload(lom_workload *workload, lom_device *device, lom_error *error)
@@ -248,5 +240,5 @@ lom_image *lom_workload_picture(lom_workload *workload, lom_device *device, lom_
         return workload->kind->task->picture(workload, error);
     if (workload->kind->show_depth)
         lom_show_depth(workload, device);
-    return device_failed(device, error) ? NULL : lom_read_texture(workload->color[LOM_MAIN], 0, 0, error);
+    return lom_check_device(device, error) ? lom_read_texture(workload->color[LOM_MAIN], 0, 0, error) : NULL;
 }

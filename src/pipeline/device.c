@@ -1,4 +1,6 @@
 /* Opening and closing a device, and what it owns. In: a descriptor. Out: a device whose first error stays with it. */
+#include "pipeline/check_device.h"
+#include "base/pass_error.h"
 #include "pipeline/device.h"
 
 #include "lanes/variants.h"
@@ -36,6 +38,8 @@ static bool resolve_desc(lom_device *device, const lom_device_desc *desc)
 
 lom_device *lom_open_device(const lom_device_desc *desc)
 {
+    static const lom_device_desc defaults = { .threads = 0 };
+    desc = desc != NULL ? desc : &defaults;
     lom_device *device = lom_allocate(1, sizeof *device, NULL);
     if (device == NULL)
         return NULL;
@@ -89,22 +93,28 @@ void lom_close_device(lom_device *device)
 
 const lom_error *lom_device_error(const lom_device *device)
 {
-    return &device->error;
+    static const lom_error missing = { LOM_ERROR_MEMORY, "The system gave no memory for a device." };
+    return device != NULL ? &device->error : &missing;
+}
+
+bool lom_check_device(const lom_device *device, lom_error *error)
+{
+    return lom_pass_error(lom_device_error(device), error);
 }
 
 lom_device_desc lom_describe_device(const lom_device *device)
 {
-    return device->desc;
+    return device != NULL ? device->desc : (lom_device_desc){ .threads = 0 };
 }
 
 lom_counters lom_device_counters(const lom_device *device)
 {
-    return device->counters;
+    return device != NULL ? device->counters : (lom_counters){ .passes = 0 };
 }
 
 lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
 {
-    if (device->error.code != LOM_OK)
+    if (!lom_check_device(device, NULL))
         return NULL;
     if (!lom_reserve((void **)&device->textures, &device->texture_capacity, device->texture_count + 1,
                      sizeof *device->textures)) {
@@ -112,17 +122,22 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
         return NULL;
     }
     lom_texture *texture = lom_create_texture(desc, &device->error);
-    if (texture != NULL)
-        device->textures[device->texture_count++] = texture;
+    if (texture == NULL)
+        return NULL;
+    texture->owner = device;
+    device->textures[device->texture_count++] = texture;
     return texture;
 }
 
 void lom_release_texture(lom_device *device, lom_texture *texture)
 {
+    if (device == NULL || texture == NULL)
+        return;
     for (size_t i = 0; i < device->texture_count; i++)
         if (device->textures[i] == texture) {
             device->textures[i] = device->textures[--device->texture_count];
             lom_free_texture(texture);
             return;
         }
+    lom_fail(&device->error, LOM_ERROR_USAGE, "A device was asked to free a texture that is not one of its own.");
 }

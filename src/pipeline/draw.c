@@ -63,6 +63,18 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
     return true;
 }
 
+/* A draw without indices takes the vertices first .. first + count - 1, moved by base_vertex: all must be there. */
+static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
+{
+    size_t held = count_vertices(desc);
+    held = desc->vertex_count != 0 && desc->vertex_count < held ? desc->vertex_count : held;
+    int64_t from = (int64_t)desc->first + desc->base_vertex, to = from + (int64_t)desc->count - 1;
+    if (desc->indices != NULL || desc->count == 0 || (from >= 0 && to < (int64_t)held))
+        return true;
+    return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of %s takes the vertices %lld to %lld, but there are %zu.",
+                    desc->shader->name, (long long)from, (long long)to, held);
+}
+
 /* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. */
 static int choose_shader_variant(const lom_device *device, const lom_shader *shader)
 {
@@ -126,7 +138,7 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
-    if (!check_shader(device, desc) || !check_geometry(device, desc))
+    if (!check_shader(device, desc) || !check_geometry(device, desc) || !check_vertices(device, desc))
         return false;
     if (!lom_reserve((void **)&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");

@@ -1,6 +1,7 @@
 /* A pass from begin to end. In: attachments and draws. Out: the attachments' texels. Draws are cut into chunks, chunks
  * run in batches: every chunk to its bins, then every tile through the batch's bins; at the end every tile is resolved.
  */
+#include "pipeline/check_device.h"
 #include "image/convert.h"
 #include "pipeline/device.h"
 
@@ -21,6 +22,9 @@ lom_rect lom_intersect_rects(lom_rect a, lom_rect b)
 static bool check_attachment(lom_device *device, const lom_texture *texture, bool depth)
 {
     struct lom_pass *pass = &device->pass;
+    if (texture->owner != NULL && texture->owner != device)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's %s attachment is a texture of another device.",
+                        depth ? "depth" : "colour");
     if (texture->kind != LOM_TEXTURE_2D || lom_describe_format(texture->format)->is_depth != depth)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's %s attachment is not a 2D texture of a %s format.",
                         depth ? "depth" : "colour", depth ? "depth" : "colour");
@@ -169,7 +173,9 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
 
 void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
 {
-    if (device->error.code != LOM_OK)
+    static const lom_pass_desc none = { .samples = 0 };
+    desc = desc != NULL ? desc : &none;
+    if (!lom_check_device(device, NULL))
         return;
     if (device->in_pass) {
         lom_fail(&device->error, LOM_ERROR_USAGE, "A pass was begun inside another one.");
@@ -185,7 +191,9 @@ void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
 
 void lom_draw(lom_device *device, const lom_draw_desc *desc)
 {
-    if (device->error.code != LOM_OK)
+    static const lom_draw_desc none = { .shader = NULL };
+    desc = desc != NULL ? desc : &none;
+    if (!lom_check_device(device, NULL))
         return;
     if (!device->in_pass)
         lom_fail(&device->error, LOM_ERROR_USAGE, "A draw was made outside a pass.");
@@ -195,6 +203,8 @@ void lom_draw(lom_device *device, const lom_draw_desc *desc)
 
 bool lom_end_pass(lom_device *device)
 {
+    if (device == NULL)
+        return false;
     if (device->error.code == LOM_OK && !device->in_pass)
         lom_fail(&device->error, LOM_ERROR_USAGE, "A pass was ended that had not begun.");
     device->in_pass = false;

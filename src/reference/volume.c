@@ -22,10 +22,11 @@ static float read_voxel(const lom_image *image, size_t i)
 
 static bool check_volume(const lom_reference_volume_desc *d, lom_error *error)
 {
-    const lom_image *image = d->density;
+    const lom_image *image = d != NULL ? d->density : NULL;
+    if (image == NULL)
+        return lom_fail(error, LOM_ERROR_USAGE, "A volume of the reference has a density.");
     double x = d->high.x - d->low.x, y = d->high.y - d->low.y, z = d->high.z - d->low.z;
-    if (image == NULL ||
-        (image->format != LOM_FORMAT_R8 && image->format != LOM_FORMAT_R16 && image->format != LOM_FORMAT_R32F))
+    if (image->format != LOM_FORMAT_R8 && image->format != LOM_FORMAT_R16 && image->format != LOM_FORMAT_R32F)
         return lom_fail(error, LOM_ERROR_USAGE, "A volume's density is one channel of 8 or 16 bits or floats.");
     if (!(x > 0 && y > 0 && z > 0) || !(x + y + z < __builtin_inf()))
         return lom_fail(error, LOM_ERROR_USAGE, "A volume's box of %g x %g x %g m has no extent.", x, y, z);

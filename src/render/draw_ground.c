@@ -21,12 +21,6 @@ static struct lom_laid_uniform lay(const lom_texture *map, double tile, const do
     return laid;
 }
 
-/* Textures were loaded with the renderer: this only finds them. */
-static const lom_texture *find_texture(lom_renderer *renderer, const char *path, bool color)
-{
-    return path == NULL ? NULL : lom_load_texture(renderer, path, color, NULL);
-}
-
 void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_vec3 eye, float scale[2], float shift[2])
 {
     const double quads[2] = { ground->columns, ground->rows }, at[2] = { eye.x, eye.z };
@@ -40,12 +34,13 @@ void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_v
 /* A bound that lies so little beyond a height that this is a step: 1 / it is a float. */
 static const double least_blend = 1e-30;
 
-static struct lom_layer_uniform layer_uniform(lom_renderer *renderer, size_t number, const double eye[3])
+static struct lom_layer_uniform layer_uniform(const lom_renderer *renderer, size_t number, const double eye[3])
 {
     const lom_terrain *t = &renderer->scene->terrain;
     const lom_terrain_layer *from = &t->layers[number];
     const double height = t->base + eye[1];
-    return (struct lom_layer_uniform){ .laid = lay(find_texture(renderer, from->map, true), from->tile, t->size, eye),
+    return (struct lom_layer_uniform){ .laid =
+                                           lay(lom_find_texture(renderer, from->map, true), from->tile, t->size, eye),
                                        .from_height = (float)(from->from_height - height),
                                        .to_height = (float)(from->to_height - height),
                                        .from_slope = (float)from->from_slope,
@@ -57,7 +52,7 @@ static struct lom_layer_uniform layer_uniform(lom_renderer *renderer, size_t num
                                        .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
 }
 
-static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, const struct lom_view_uniform *view,
+static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer, const struct lom_view_uniform *view,
                                                     lom_vec3 place)
 {
     const lom_terrain *t = &renderer->scene->terrain;
@@ -65,9 +60,9 @@ static struct lom_terrain_uniforms terrain_uniforms(lom_renderer *renderer, cons
     struct lom_terrain_uniforms u = {
         .view = *view,
         .surface = renderer->ground.surface,
-        .base = lay(find_texture(renderer, t->texture, true), t->tile, t->size, eye),
-        .detail = lay(find_texture(renderer, t->detail_map, false), t->detail_tile, t->size, eye),
-        .normals = lay(find_texture(renderer, t->normal_map, false), t->detail_tile, t->size, eye),
+        .base = lay(lom_find_texture(renderer, t->texture, true), t->tile, t->size, eye),
+        .detail = lay(lom_find_texture(renderer, t->detail_map, false), t->detail_tile, t->size, eye),
+        .normals = lay(lom_find_texture(renderer, t->normal_map, false), t->detail_tile, t->size, eye),
         .layer_count = (int)t->layer_count
     };
     lom_map_ground(&renderer->ground, t->size, place, u.surface_scale, u.surface_shift);

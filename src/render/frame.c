@@ -2,10 +2,13 @@
  * left out and why. The table of stages below is the order of the frame; each stage is one function (frame.h).
  *
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
+#include "pipeline/check_device.h"
+#include "base/pass_error.h"
 #include "render/frame.h"
 
 #include "base/cpu.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <time.h>
@@ -117,18 +120,17 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
     for (size_t i = 0; done && i < count; i++) {
         f->done = (double)i / (double)(count + 1);
         done = stages[i].run(f, error);
+        done = lom_check_device(r->device, error) && done;
         double now = milliseconds();
         times[i] = (lom_stage_time){ stages[i].name, now - before };
         before = now;
     }
     f->done = (double)count / (double)(count + 1);
     report(f, "output");
-    if (done)
-        return lom_read_texture(r->color, 0, 0, error);
-    const lom_error *failed = lom_device_error(r->device);
-    lom_fail(error, failed->code, "%s", failed->text);
-    return NULL;
+    return done ? lom_read_texture(r->color, 0, 0, error) : NULL;
 }
+
+static const lom_frame_desc defaults = { .frame = 0 };
 
 /* The picture is read back with alpha as one image, and those have a limit. */
 static bool check_picture(const struct frame *f, lom_error *error)
@@ -171,11 +173,12 @@ static bool find_sizes(struct frame *f, lom_error *error)
 
 bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_error *error)
 {
-    return find_sizes(&(struct frame){ .scene = scene, .desc = desc }, error);
+    return find_sizes(&(struct frame){ .scene = scene, .desc = desc != NULL ? desc : &defaults }, error);
 }
 
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
+    desc = desc != NULL ? desc : &defaults;
     const lom_scene *scene = renderer->scene;
     struct frame f = { .renderer = renderer,
                        .scene = scene,
@@ -194,13 +197,16 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     f.wave_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) : 0;
     lom_move_scene(renderer, f.time);
     look(&f);
-    lom_image *drawn = renderer->reference != NULL ? lom_draw_reference(&f, error) : draw_stages(&f, out->stage, error);
+    lom_error failed = { 0 };
+    lom_image *drawn =
+        renderer->reference != NULL ? lom_draw_reference(&f, &failed) : draw_stages(&f, out->stage, &failed);
     double start = milliseconds();
-    out->image = lom_output_image(scene, drawn, error);
+    out->image = lom_output_image(scene, drawn, &failed);
     if (drawn != NULL)
         out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
     lom_leave_float_state(&state);
     out->shallow_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) - f.wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);
-    return out->image != NULL;
+    assert((out->image != NULL) == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
+    return lom_pass_error(&failed, error);
 }

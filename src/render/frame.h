@@ -53,12 +53,12 @@ bool lom_draw_spray_stage(struct frame *f, lom_error *error);
 
 /* frame_impostor.c: whether this frame goes on with the run's impostors; then lom_draw_clouds by them. */
 bool lom_begin_impostors(struct frame *f, lom_error *error);
-size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
-                          const lom_pass_desc *pass, lom_error *error);
+bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
+                        const lom_pass_desc *pass, size_t *count, lom_error *error);
 
 /* frame_cloud.c: draws the clouds that this view sees over a picture that is finished, in a pass like `pass`; depth is
- * the picture's. The renderer has clouds. Returns how many are in view. */
-size_t lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
-                       lom_error *error);
+ * the picture's. The renderer has clouds. *count: how many are in view. */
+bool lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
+                     size_t *count, lom_error *error);
 
 #endif

@@ -1,6 +1,7 @@
 /* Caustics of a frame. In: the waves at its time, the sun, the bed. Out: a texture of the light on the bed, which the
  * shaders of terrain and entities look up below the water's level. Invariant: a function of the whole frame's camera,
  * never of a crop. */
+#include "pipeline/check_device.h"
 #include "render/frame_water.h"
 #include "water/caustics.h"
 
@@ -130,6 +131,5 @@ bool lom_load_bed(lom_renderer *renderer, lom_error *error)
                                                .format = LOM_FORMAT_R32F,
                                                .pixels = renderer->ground.heights,
                                                .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
-    const lom_error *failed = lom_device_error(renderer->device);
-    return renderer->bed != NULL || lom_fail(error, failed->code, "%s", failed->text);
+    return lom_check_device(renderer->device, error);
 }

@@ -1,5 +1,6 @@
 /* The clouds of a frame. In: the frame whose scene and water are drawn. Out: clouds over them, the farthest first, each
  * marched up to what the depth holds. Invariant: a cloud that is out of view, or hidden, changes no byte. */
+#include "pipeline/check_device.h"
 #include "render/frame.h"
 
 #include "cloud/cloud_draw.h"
@@ -131,14 +132,16 @@ static bool draw_ground_shadow(struct frame *f, const double to_light[3])
         lom_add_step(f, "cloud shadow", false, "neither the sun nor a cloud has moved");
         return true;
     }
-    shadow->made_for = hash;
     lom_step *step = lom_add_step(f, "cloud shadow", true, "what clouds let through of the sun, over %.0f x %.0f m",
                                   plane[2], plane[3]);
     step->width = step->height = SHADOW_SIZE;
     lom_begin_pass(r->device, &(lom_pass_desc){ .color = { shadow->texture }, .clear_color = { { 1, 1, 1, 1 } } });
     for (size_t i = 0; i < r->clouds->count; i++)
         lom_draw_cloud_shadow(r->device, r->clouds, &r->clouds->clouds[i], plane, y, to_light);
-    return lom_end_pass(r->device);
+    if (!lom_end_pass(r->device))
+        return false;
+    shadow->made_for = hash;
+    return true;
 }
 
 bool lom_prepare_clouds(struct frame *f, lom_error *error)
@@ -163,8 +166,8 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     return draw_ground_shadow(f, to_light);
 }
 
-size_t lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
-                       lom_error *error)
+bool lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
+                     size_t *count, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     int height = pass.frame_height != 0 ? pass.frame_height : lom_texture_height(pass.color[0]);
@@ -175,19 +178,19 @@ size_t lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_p
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
     if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
-        return lom_draw_impostors(f, view, &seen, &pass, error);
+        return lom_draw_impostors(f, view, &seen, &pass, count, error);
     size_t *order = lom_allocate(r->clouds->count, sizeof *order, error);
     if (order == NULL)
-        return 0;
-    size_t count = lom_order_clouds(r->clouds, &seen, f->scene->quality.impostor.culling, order);
-    if (count != 0) {
+        return false;
+    *count = lom_order_clouds(r->clouds, &seen, f->scene->quality.impostor.culling, order);
+    if (*count != 0) {
         lom_begin_pass(r->device, &pass);
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < *count; i++)
             lom_draw_placed_cloud(r->device, r->clouds, &r->clouds->clouds[order[i]], &seen);
         lom_end_pass(r->device);
     }
     lom_release(order);
-    return count;
+    return lom_check_device(r->device, error);
 }
 
 static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_impostor_counters *before)
@@ -233,11 +236,13 @@ bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
         return true;
     }
     lom_impostor_counters before = *f->impostors;
-    size_t count = lom_draw_clouds(f, &f->view, lom_frame_pass(f, r->color), r->depth, error);
+    size_t count;
+    if (!lom_draw_clouds(f, &f->view, lom_frame_pass(f, r->color), r->depth, &count, error))
+        return false;
     lom_step *step = add_cloud_step(f, count, &before);
     if (count != 0)
         add_capped(r->clouds, step);
     step->width = f->crop.width;
     step->height = f->crop.height;
-    return lom_device_error(r->device)->code == LOM_OK;
+    return true;
 }

@@ -1,6 +1,7 @@
 /* Clouds by impostors. In: the clouds of the set, an eye, what the frames of the run before left. Out: plates, made
  * anew where the rule says so and shown the farthest first. Invariant: which plates are made anew, and from where,
  * follows from the places of eye, sun and clouds in the frames of the run; not from crops, tiles, threads or lanes. */
+#include "pipeline/check_device.h"
 #include "cloud/impostor_draw.h"
 #include "render/frame.h"
 
@@ -310,8 +311,8 @@ static struct lom_impostor *provide_impostors(lom_renderer *r, bool mirrored, lo
     return *all;
 }
 
-size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
-                          const lom_pass_desc *pass, lom_error *error)
+bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
+                        const lom_pass_desc *pass, size_t *count, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     int width = pass->frame_width != 0 ? pass->frame_width : lom_texture_width(pass->color[0]);
@@ -332,17 +333,17 @@ size_t lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, co
     size_t *order = lom_allocate(r->clouds->count, sizeof *order, error);
     struct lom_impostor *all = provide_impostors(r, view->mirrored, error);
     bool done = order != NULL && all != NULL;
-    size_t count = done ? lom_order_clouds(r->clouds, seen, l.dials->culling, order) : 0;
-    f->impostors->culled += done ? (int)(r->clouds->count - count) : 0;
-    for (size_t i = 0; done && i < count; i++)
+    *count = done ? lom_order_clouds(r->clouds, seen, l.dials->culling, order) : 0;
+    f->impostors->culled += done ? (int)(r->clouds->count - *count) : 0;
+    for (size_t i = 0; done && i < *count; i++)
         done = update(&l, &all[order[i]], &r->clouds->clouds[order[i]], error);
-    if (done && count != 0) {
+    if (done && *count != 0) {
         lom_begin_pass(r->device, pass);
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < *count; i++)
             if (!all[order[i]].is_small)
                 show(&l, &all[order[i]], &r->clouds->clouds[order[i]]);
         lom_end_pass(r->device);
     }
     lom_release(order);
-    return count;
+    return lom_check_device(r->device, error) && done;
 }

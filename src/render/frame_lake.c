@@ -47,7 +47,7 @@ static bool draw_visibility(struct frame *f, lom_error *error)
 
 /* A picture of the scene in the water's colour, where lookups from the visible water can reach. */
 static bool draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
-                         const struct lom_scene_view *view)
+                         const struct lom_scene_view *view, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
     int width = lom_texture_width(color), height = lom_texture_height(color);
@@ -55,11 +55,11 @@ static bool draw_picture(struct frame *f, lom_step *step, lom_texture *color, lo
     lom_rect all = { 0, 0, width, height };
     double reach = water->flow ? water->flow_strength : 0;
     return lom_draw_picture(f, step, color, depth, view, clear,
-                            water->projection ? lom_water_reach(f, &lom_whole_view, reach, width, height) : all);
+                            water->projection ? lom_water_reach(f, &lom_whole_view, reach, width, height) : all, error);
 }
 
 /* Step 1: the view times a mirror in the plane; nothing below the plane (less the offset). */
-static bool draw_reflection(struct frame *f)
+static bool draw_reflection(struct frame *f, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
     struct lom_scene_view view = f->view;
@@ -76,11 +76,11 @@ static bool draw_reflection(struct frame *f)
     view.plane[3] = water->clip_offset - water->level;
     lom_step *step =
         lom_add_step(f, "reflection", true, "terrain, entities and sky above the water, mirrored in its plane");
-    return draw_picture(f, step, f->renderer->reflection, f->renderer->reflection_depth, &view);
+    return draw_picture(f, step, f->renderer->reflection, f->renderer->reflection_depth, &view, error);
 }
 
 /* Step 2: the scene below the plane (plus the offset), with its depth. */
-static bool draw_refraction(struct frame *f)
+static bool draw_refraction(struct frame *f, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
     struct lom_scene_view view = f->view;
@@ -93,7 +93,7 @@ static bool draw_refraction(struct frame *f)
     view.plane[3] = water->level + water->clip_offset;
     view.sky = false;
     lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities below the water, with their depth");
-    return draw_picture(f, step, f->renderer->refraction, f->renderer->refraction_depth, &view);
+    return draw_picture(f, step, f->renderer->refraction, f->renderer->refraction_depth, &view, error);
 }
 
 /* The surface by the shader of its model. */
@@ -144,5 +144,5 @@ bool lom_draw_lake_stage(struct frame *f, lom_error *error)
         return false;
     if (f->water.width == 0)
         return lom_skip_water(f, "the scene hides all of the water");
-    return draw_reflection(f) && draw_refraction(f) && draw_surface(f);
+    return draw_reflection(f, error) && draw_refraction(f, error) && draw_surface(f);
 }

@@ -144,7 +144,7 @@ static lom_box slab(const struct sea *sea, bool flat)
                       { sea->quad[2] + out, high, sea->quad[3] + out } };
 }
 
-static void draw_bounds(struct sea *sea, lom_device *device, const lom_box *box)
+static bool draw_bounds(struct sea *sea, lom_device *device, const lom_box *box)
 {
     static const uint32_t faces[36] = { 0, 1, 2, 2, 1, 3, 4, 6, 5, 5, 6, 7, 0, 4, 1, 1, 4, 5,
                                         2, 3, 6, 6, 3, 7, 0, 2, 4, 4, 2, 6, 1, 5, 3, 3, 5, 7 };
@@ -161,7 +161,7 @@ static void draw_bounds(struct sea *sea, lom_device *device, const lom_box *box)
                                        .indices = faces,
                                        .count = 36,
                                        .depth_write_off = true });
-    lom_end_pass(device);
+    return lom_end_pass(device);
 }
 
 /* A point of the surface that is seen lies in the slab of its waves, whose faces are before it: where no face passes
@@ -183,8 +183,7 @@ static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_err
     lom_pass_desc pass = lom_frame_pass(f, r->mask);
     pass.depth_load = LOM_LOAD_KEEP;
     lom_begin_pass(r->device, &pass);
-    draw_bounds(sea, r->device, &box);
-    return lom_device_error(r->device)->code == LOM_OK && lom_find_water(f, error);
+    return draw_bounds(sea, r->device, &box) && lom_find_water(f, error);
 }
 
 /* ---- pictures of the scene ---- */
@@ -285,7 +284,7 @@ static void clip_at(struct lom_scene_view *view, const struct frame *f, double s
     view->sky = false;
 }
 
-static bool draw_mirrored(struct sea *sea, struct frame *f)
+static bool draw_mirrored(struct sea *sea, struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     struct lom_scene_view view = f->view;
@@ -304,10 +303,10 @@ static bool draw_mirrored(struct sea *sea, struct frame *f)
              clip = lom_multiply(&sea->clip_from_offset, &mirrored);
     set_picture(&sea->uniforms.mirrored, f, &lom_whole_view, &clip, r->reflection, r->reflection_depth);
     return lom_draw_picture(f, step, r->reflection, r->reflection_depth, &view, nothing,
-                            lookups(f, &lom_whole_view, r->reflection));
+                            lookups(f, &lom_whole_view, r->reflection), error);
 }
 
-static bool draw_behind(struct sea *sea, struct frame *f)
+static bool draw_behind(struct sea *sea, struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     struct lom_scene_view view = f->view;
@@ -323,7 +322,7 @@ static bool draw_behind(struct sea *sea, struct frame *f)
     lom_mat4 clip = lom_clip_from_offset(&view.projection, &view.view);
     set_picture(&sea->uniforms.behind, f, &window, &clip, r->refraction, r->refraction_depth);
     return lom_draw_picture(f, step, r->refraction, r->refraction_depth, &view, nothing,
-                            lookups(f, &window, r->refraction));
+                            lookups(f, &window, r->refraction), error);
 }
 
 /* ---- the surface ---- */
@@ -464,7 +463,7 @@ static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
 {
     if (!f->below && !lom_draw_caustics(f, error))
         return false;
-    return draw_mirrored(sea, f) && draw_behind(sea, f) && draw_surface(sea, f, error);
+    return draw_mirrored(sea, f, error) && draw_behind(sea, f, error) && draw_surface(sea, f, error);
 }
 
 bool lom_draw_sea_stage(struct frame *f, lom_error *error)

@@ -218,7 +218,6 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
         lom_add_step(f, names[map], false, "neither the sun nor an entity has moved");
         return true;
     }
-    shadow->made_for = hash;
     lom_step *step = lom_add_step(f, names[map], true, "%zu entities as the sun sees them, %.3g m a texel",
                                   casters->count, shadow->texel);
     step->width = step->height = size;
@@ -226,7 +225,10 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
     for (size_t i = 0; i < r->entity_count; i++)
         if (r->entities[i].shadow_map == map)
             lom_draw_caster(r, &r->entities[i], &shadow->clip_from_world);
-    return lom_end_pass(r->device);
+    if (!lom_end_pass(r->device))
+        return false;
+    shadow->made_for = hash;
+    return true;
 }
 
 bool lom_prepare_entity_shadows(struct frame *f, lom_error *error)

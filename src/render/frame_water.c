@@ -54,7 +54,7 @@ lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window,
 }
 
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
-                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor)
+                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     lom_pass_desc pass = { .color = { color }, .depth = depth, .scissor = scissor };
@@ -65,13 +65,9 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->scissor = scissor;
     lom_begin_pass(r->device, &pass);
     lom_draw_scene(r, view);
-    bool done = lom_end_pass(r->device);
-    if (done && r->clouds != NULL && view->mirrored && view->sky) {
-        lom_error error = { 0 };
-        lom_draw_clouds(f, view, pass, depth, &error);
-        done = error.code == LOM_OK && lom_device_error(r->device)->code == LOM_OK;
-    }
-    return done;
+    bool shows_clouds = r->clouds != NULL && view->mirrored && view->sky;
+    size_t seen;
+    return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds(f, view, pass, depth, &seen, error));
 }
 
 bool lom_skip_water(struct frame *f, const char *reason)

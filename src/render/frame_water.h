@@ -19,7 +19,7 @@ bool lom_find_water(struct frame *f, lom_error *error);
 lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window, double reach, int width, int height);
 /* Draws the scene into a picture of its own. */
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
-                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor);
+                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor, lom_error *error);
 /* Makes the caustics of f->waves and points f->view at them; or says in the plan why there are none. */
 bool lom_draw_caustics(struct frame *f, lom_error *error);
 /* Adds "left out" to the plan for every pass of the water, for this reason. True. */

@@ -14,9 +14,7 @@ bool lom_load_scene_clouds(lom_renderer *renderer, lom_error *error)
                                          .light_scale = q->cloud_light_scale,
                                          .octaves = q->cloud_octaves,
                                          .jitter = q->cloud_jitter };
-    lom_error failed = { 0 };
-    renderer->clouds = lom_load_clouds(scene->cloud, scene->cloud_count, &scene->clouds, &quality, &failed);
-    return failed.code == LOM_OK || lom_fail(error, failed.code, "%s", failed.text);
+    return lom_load_clouds(scene->cloud, scene->cloud_count, &scene->clouds, &quality, &renderer->clouds, error);
 }
 
 void lom_free_scene_clouds(lom_renderer *renderer)

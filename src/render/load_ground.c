@@ -1,6 +1,7 @@
 /* Terrain for drawing. In: a height map. Out: the vertices of every block at every level of detail, how far each level
  * is off, and a texture of normals and the sky's visibility.
  * Level n of a block has the vertices whose column and row within the block are multiples of 2^n or the last. */
+#include "pipeline/check_device.h"
 #include "render/ground.h"
 
 #include "geometry/terrain.h"
@@ -187,8 +188,7 @@ static bool make_surface(const struct loader *loader, int height, bool mipmaps, 
                                      .pixels = loader->surface,
                                      .mips = mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
-    const lom_error *failed = lom_device_error(device);
-    return loader->ground->surface != NULL || lom_fail(error, failed->code, "%s", failed->text);
+    return lom_check_device(device, error);
 }
 
 bool lom_load_ground(struct lom_ground *ground, const lom_terrain *t, const lom_image *map, const lom_quality *quality,

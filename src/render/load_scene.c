@@ -1,5 +1,7 @@
 /* The scene's things as the pipeline draws them. In: the scene. Out: terrain in blocks, entities placed in the world
  * with a material for each part, the water's maps. */
+#include "pipeline/check_device.h"
+#include "base/pass_error.h"
 #include "render/renderer.h"
 #include "spray/make_foam.h"
 #include "water/lake.h"
@@ -99,8 +101,7 @@ static bool load_foam(lom_renderer *renderer, lom_error *error)
                                                                              .pixels = pattern->pixels,
                                                                              .mips = LOM_MIPS_ALL });
     lom_free_image(pattern);
-    const lom_error *failed = lom_device_error(renderer->device);
-    return renderer->foam != NULL || lom_fail(error, failed->code, "%s", failed->text);
+    return lom_check_device(renderer->device, error);
 }
 
 bool lom_load_waves(lom_renderer *renderer, lom_error *error)
@@ -165,9 +166,8 @@ static bool load_map(lom_renderer *renderer, const lom_entity *entity, const lom
     snprintf(path, sizeof path, "%.*s%s", folder, entity->mesh, material->diffuse_map);
     if (load_texture(renderer, path, texture, &unreadable))
         return true;
-    bool drawable = lom_device_error(renderer->device)->code == LOM_OK;
-    return (drawable && lom_warn_instead(&renderer->warnings, &unreadable)) ||
-           lom_fail(error, unreadable.code, "%s", unreadable.text);
+    return (lom_check_device(renderer->device, &unreadable) && lom_warn_instead(&renderer->warnings, &unreadable)) ||
+           lom_pass_error(&unreadable, error);
 }
 
 /* The mesh's own material, where the entity does not say otherwise. */

@@ -1,5 +1,6 @@
 /* Pictures as textures, each loaded once. In: paths. Out: textures of the renderer's device, filtered as the scene's
  * quality says. */
+#include "pipeline/check_device.h"
 #include "render/renderer.h"
 
 #include <string.h>
@@ -42,9 +43,9 @@ static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool 
                                                        .pixels = image->pixels,
                                                        .mips = scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                                        .sampler = sampler_of(&scene->quality) });
-        if (result == NULL)
-            lom_fail(error, lom_device_error(renderer->device)->code, "%s: %s", path,
-                     lom_device_error(renderer->device)->text);
+        lom_error failed = { 0 };
+        if (!lom_check_device(renderer->device, &failed))
+            lom_fail(error, failed.code, "%s: %s", path, failed.text);
     }
     lom_free_image(image);
     lom_free_image(file);
@@ -80,11 +81,19 @@ static const char *keep_path(lom_renderer *renderer, const char *path, lom_error
     return memcpy(copy, path, size);
 }
 
-lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error)
+lom_texture *lom_find_texture(const lom_renderer *renderer, const char *path, bool color)
 {
-    for (size_t i = 0; i < renderer->texture_count; i++)
+    for (size_t i = 0; path != NULL && i < renderer->texture_count; i++)
         if (renderer->textures[i].color == color && strcmp(renderer->textures[i].path, path) == 0)
             return renderer->textures[i].texture;
+    return NULL;
+}
+
+lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error)
+{
+    lom_texture *found = lom_find_texture(renderer, path, color);
+    if (found != NULL)
+        return found;
     if (!grow((void **)&renderer->textures, &renderer->texture_capacity, renderer->texture_count,
               sizeof *renderer->textures, error))
         return NULL;

@@ -1,6 +1,10 @@
 /* Making and freeing a renderer. In: a scene. Out: a device with everything that the scene names. */
+#include "pipeline/check_device.h"
+#include "base/pass_error.h"
 #include "render/renderer.h"
 #include "sky/sky_draw.h"
+
+#include <assert.h>
 
 static bool load_sun(lom_renderer *renderer, lom_error *error)
 {
@@ -28,12 +32,10 @@ static bool load(lom_renderer *renderer, lom_error *error)
             lom_add_warnings(&renderer->warnings, lom_reference_warnings(renderer->reference));
         return renderer->reference != NULL;
     }
-    renderer->sky = lom_load_sky(renderer->device, &scene->sky, scene->output.transfer == LOM_TRANSFER_SRGB, error);
-    if (renderer->sky == NULL && scene->sky.present && scene->sky.faces[0] != NULL)
-        return false;
-    return load_sun(renderer, error) && lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) &&
-           lom_load_water(renderer, error) && lom_load_waves(renderer, error) &&
-           lom_load_scene_clouds(renderer, error) && lom_load_spray(renderer, error);
+    const bool srgb = scene->output.transfer == LOM_TRANSFER_SRGB;
+    return lom_load_sky(renderer->device, &scene->sky, srgb, &renderer->sky, error) && load_sun(renderer, error) &&
+           lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) && lom_load_water(renderer, error) &&
+           lom_load_waves(renderer, error) && lom_load_scene_clouds(renderer, error) && lom_load_spray(renderer, error);
 }
 
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)
@@ -46,12 +48,11 @@ lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc 
     renderer->moment = *scene;
     renderer->scene = &renderer->moment;
     renderer->device = lom_open_device(desc);
-    if (renderer->device == NULL)
-        lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for a device.");
-    const lom_error *failed = renderer->device != NULL ? lom_device_error(renderer->device) : error;
-    bool done = renderer->device != NULL && failed->code == LOM_OK && load(renderer, error);
-    if (renderer->device != NULL && failed->code != LOM_OK)
-        done = lom_fail(error, failed->code, "%s", failed->text);
+    lom_error failed = { 0 };
+    bool done = lom_check_device(renderer->device, &failed) && load(renderer, &failed);
+    done = lom_check_device(renderer->device, &failed) && done;
+    assert(done == (failed.code == LOM_OK)); /* as in lom_render_frame */
+    lom_pass_error(&failed, error);
     lom_leave_float_state(&state);
     if (done)
         return renderer;

@@ -130,6 +130,8 @@ struct lom_renderer {
 /* The texture of a picture, loaded once; color: it holds colours (sRGB-encoded unless the scene's transfer is naive).
  */
 lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error);
+/* The same once it is loaded; NULL for a NULL path. */
+lom_texture *lom_find_texture(const lom_renderer *renderer, const char *path, bool color);
 /* Terrain, entities with their materials, the water's maps. */
 bool lom_load_terrain(lom_renderer *renderer, lom_error *error);
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);

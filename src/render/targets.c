@@ -1,5 +1,6 @@
 /* The targets of a frame's passes, and the finished picture. In: sizes. Out: textures; the picture in the scene's
  * output format, encoded once. */
+#include "pipeline/check_device.h"
 #include "render/renderer.h"
 
 static int scaled(int size, double scale)
@@ -82,8 +83,7 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, 
         r->spray.layer = make_target(r, target_width, target_height, LOM_FORMAT_RGBA32F, LOM_MIPS_NONE);
     if (r->scene->water.present && r->scene->water.enabled)
         make_water_targets(r, width, height);
-    const lom_error *failed = lom_device_error(r->device);
-    return failed->code == LOM_OK || lom_fail(error, failed->code, "%s", failed->text);
+    return lom_check_device(r->device, error);
 }
 
 uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int target_width, int target_height)

@@ -1,6 +1,7 @@
 /* A sky box. In: where the sun stands, how hazy and cloudy it is, a seed; out: six pictures that meet, because each
  * pixel is a function of its direction alone. Clear sky by scattering, fair-weather clouds above the horizon and thin
  * cirrus by noise on the sphere of directions, exposed, and rounded to 8 bits with a dither against bands. */
+#include "base/range.h"
 #include "geometry/noise.h"
 #include "sky/atmosphere.h"
 
@@ -185,13 +186,25 @@ static void measure_horizon(painter *p)
     }
 }
 
+static bool check_desc(const lom_sky_box_desc *desc, int size, lom_error *error)
+{
+    if (size < 8 || size > 4096)
+        return lom_fail(error, LOM_ERROR_USAGE, "A sky box is made with a side of 8 to 4096, not %d.", size);
+    return lom_check_range(desc->sun_azimuth, -1000, 1000, error, "The sun's azimuth over a sky box") &&
+           lom_check_range(desc->sun_elevation, -1.5708, 1.5708, error, "The sun's elevation over a sky box") &&
+           lom_check_range(desc->haziness, 0, 100, error, "The haziness of a sky box") &&
+           lom_check_range(desc->cloudiness, 0, 1, error, "The cloudiness of a sky box");
+}
+
 bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_error *error)
 {
+    static const lom_sky_box_desc defaults = { .size = 0 };
+    desc = desc != NULL ? desc : &defaults;
     int size = desc->size != 0 ? desc->size : 1024;
     for (int i = 0; i < 6; i++)
         faces[i] = NULL;
-    if (size < 8 || size > 4096)
-        return lom_fail(error, LOM_ERROR_USAGE, "A sky box is made with a side of 8 to 4096, not %d.", size);
+    if (!check_desc(desc, size, error))
+        return false;
     lom_float_state state;
     lom_enter_float_state(&state);
     painter p = { .cloudiness = desc->cloudiness, .exposure = 16.0 };

@@ -1,4 +1,5 @@
 /* The sky as a draw. In: the sky's parameters and the camera. Out: one draw, after everything opaque. */
+#include "pipeline/check_device.h"
 #include "sky/sky_draw.h"
 #include "sky/sky_uniforms.h"
 
@@ -32,25 +33,23 @@ static uint8_t *join_faces(const lom_sky_params *sky, int *size, lom_error *erro
     return pixels;
 }
 
-lom_texture *lom_load_sky(lom_device *device, const lom_sky_params *sky, bool srgb, lom_error *error)
+bool lom_load_sky(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error)
 {
     int size = 0;
+    *box = NULL;
     if (!sky->present || sky->faces[0] == NULL)
-        return NULL;
+        return true;
     uint8_t *pixels = join_faces(sky, &size, error);
     if (pixels == NULL)
-        return NULL;
-    lom_texture *box =
-        lom_make_texture(device, &(lom_texture_desc){ .kind = LOM_TEXTURE_CUBE,
-                                                      .width = size,
-                                                      .height = size,
-                                                      .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
-                                                      .pixels = pixels,
-                                                      .mips = LOM_MIPS_ALL });
+        return false;
+    *box = lom_make_texture(device, &(lom_texture_desc){ .kind = LOM_TEXTURE_CUBE,
+                                                         .width = size,
+                                                         .height = size,
+                                                         .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
+                                                         .pixels = pixels,
+                                                         .mips = LOM_MIPS_ALL });
     lom_release(pixels);
-    if (box == NULL)
-        lom_fail(error, lom_device_error(device)->code, "%s", lom_device_error(device)->text);
-    return box;
+    return lom_check_device(device, error);
 }
 
 /* The ray through (ndc x, ndc y) in view space is (x / p00, y / p11, -1); the rows of the view's rotation take it to

@@ -1,6 +1,7 @@
 /* The water's normal map, and the flow map made from it. In: a size and a seed; out: RGB pictures that repeat without a
  * seam. Invariant: the surface is a finite sum of waves whose lengths divide the side of the picture, its slope is the
  * exact derivative of that sum, and nothing but rounding to 8 bits is lost. */
+#include "base/range.h"
 #include "geometry/noise.h"
 
 #include <lom/water.h>
@@ -115,12 +116,16 @@ static lom_image *paint_normals(const surface *s, double roughness, lom_error *e
 
 lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error)
 {
+    static const lom_normal_map_desc defaults = { .size = 0 };
+    desc = desc != NULL ? desc : &defaults;
     surface s = { .size = desc->size != 0 ? desc->size : 512 };
     if (s.size < 128 || s.size > 4096 || s.size % 4 != 0) {
         lom_fail(error, LOM_ERROR_USAGE, "A normal map is made with a side of 128 to 4096, a multiple of 4, not %d.",
                  s.size);
         return NULL;
     }
+    if (!lom_check_range(desc->roughness, 0, 1000, error, "The roughness of a normal map"))
+        return NULL;
     size_t pixels = (size_t)s.size * (size_t)s.size;
     s.cosine = lom_allocate((size_t)s.size, sizeof *s.cosine, error);
     s.slopes = lom_allocate((size_t)s.size, sizeof *s.slopes, error);

@@ -1,5 +1,6 @@
 /* Waves of kind "flow": the ripples of a river, carried by a field of velocities that follows from the bed and the
  * level. In: a site, a time. Out: the field as a texture, and the phases of the ripples. Invariant: closed in time. */
+#include "pipeline/check_device.h"
 #include "waves/flow.h"
 #include "waves/wave_field.h"
 
@@ -47,8 +48,7 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
                                              .pixels = field->pixels,
                                              .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     lom_free_image(field);
-    const lom_error *failed = lom_device_error(source->device);
-    return state->field != NULL || lom_fail(error, failed->code, "%s", failed->text);
+    return lom_check_device(source->device, error);
 }
 
 void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, const double origin[2], double time)

@@ -1,5 +1,6 @@
 /* Making a sea. In: its description; out: the amplitudes and frequencies of every wave of every cascade. Invariant: an
  * amplitude is a function of the spectrum, the seed, the patch and (n, m) alone; rows are made by any worker. */
+#include "pipeline/check_device.h"
 #include "waves/sea_state.h"
 
 #include "base/threads.h"
@@ -117,7 +118,7 @@ lom_sea *lom_create_sea(const lom_sea_desc *desc, lom_device *device, lom_error 
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_sea *sea = lom_allocate(1, sizeof *sea, error);
-    bool made = sea != NULL && lom_resolve_sea(desc, &sea->desc, error);
+    bool made = sea != NULL && lom_check_device(device, error) && lom_resolve_sea(desc, &sea->desc, error);
     int largest = 0;
     if (made)
         sea->spectrum = lom_sea_spectrum(&sea->desc);

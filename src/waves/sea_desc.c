@@ -1,5 +1,6 @@
 /* The description of a sea. In: what a user or a scene gave; out: every default filled in and every range checked. */
 #include "base/double_parts.h"
+#include "base/range.h"
 #include "waves/sea_desc.h"
 
 static const double pi = 3.141592653589793;
@@ -9,14 +10,7 @@ static bool resolve_number(double *value, double initial, double low, double hig
 {
     if (*value == 0)
         *value = initial;
-    if (*value >= low && *value <= high)
-        return true;
-    char given[32], least[32], most[32];
-    lom_print_double(given, *value);
-    lom_print_double(least, low);
-    lom_print_double(most, high);
-    return lom_fail(error, LOM_ERROR_USAGE, "The sea's %s is %s, which is not within %s..%s.", what, given, least,
-                    most);
+    return lom_check_range(*value, low, high, error, "The sea's %s", what);
 }
 
 static bool resolve_weather(lom_sea_desc *sea, lom_error *error)
@@ -80,7 +74,7 @@ static bool resolve_band(lom_sea_desc *sea, int i, lom_error *error)
 
 bool lom_resolve_sea(const lom_sea_desc *desc, lom_sea_desc *resolved, lom_error *error)
 {
-    lom_sea_desc sea = *desc;
+    lom_sea_desc sea = desc != NULL ? *desc : (lom_sea_desc){ .cascade_count = 0 };
     if (!resolve_weather(&sea, error))
         return false;
     if (sea.heights_only)

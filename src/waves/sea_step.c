@@ -1,5 +1,6 @@
 /* A step of the sea: spectra at a time, one transform a field, pixels. In: a sea and a time; out: its views. Invariant:
  * nothing of an earlier step is read, so any time can be made in any order. Compiled for speed. */
+#include "pipeline/check_device.h"
 #include "waves/sea_state.h"
 
 #include "base/threads.h"
@@ -98,6 +99,8 @@ bool lom_advance_cascade(lom_sea *sea, lom_device *device, int cascade, unsigned
                         cascade);
     if (fields == 0 || (fields & ~(unsigned)LOM_SEA_ALL) != 0)
         return lom_fail(error, LOM_ERROR_USAGE, "A step of the sea makes fields 1..%d, not %u.", LOM_SEA_ALL, fields);
+    if (!lom_check_device(device, error))
+        return false;
     struct lom_cascade *c = &sea->cascade[cascade];
     lom_float_state state;
     lom_enter_float_state(&state);

@@ -1,5 +1,6 @@
 /* The cascades of a sea as textures. In: the scene's wind, a time. Out: what shaders look up: displacements,
  * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
+#include "pipeline/check_device.h"
 #include "waves/sea_desc.h"
 #include "waves/wave_field.h"
 
@@ -91,7 +92,7 @@ static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int
         lom_release_texture(state->device, held[i]);
         held[i] = make_field(state, c.size, pixels[i]);
         if (held[i] == NULL)
-            return lom_fail(error, lom_device_error(state->device)->code, "%s", lom_device_error(state->device)->text);
+            return lom_check_device(state->device, error);
     }
     *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], .inverse_length = (float)(1 / c.length) };
     for (int i = 0; i < 2; i++) {

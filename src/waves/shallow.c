@@ -1,5 +1,6 @@
 /* Making shallow water, and what is done to it from outside. In: a bed, sources, obstacles. Out: depths a step later.
  * Invariant: the volume changes by what is counted as gained and lost, and by nothing else. */
+#include "base/range.h"
 #include "waves/shallow_state.h"
 
 #include <string.h>
@@ -14,14 +15,7 @@ static bool resolve(double *value, double initial, double low, double high, cons
 {
     if (*value == 0)
         *value = initial;
-    char given[32], least[32], most[32];
-    if (is_within(*value, low, high))
-        return true;
-    lom_print_double(given, *value);
-    lom_print_double(least, low);
-    lom_print_double(most, high);
-    return lom_fail(error, LOM_ERROR_USAGE, "The %s of shallow water is %s, which is not within %s..%s.", what, given,
-                    least, most);
+    return lom_check_range(*value, low, high, error, "The %s of shallow water", what);
 }
 
 static bool resolve_desc(lom_shallow_desc *d, lom_error *error)
@@ -80,7 +74,7 @@ static lom_shallow *allocate(const lom_shallow_desc *d, lom_error *error)
 
 lom_shallow *lom_create_shallow(const lom_shallow_desc *desc, lom_error *error)
 {
-    lom_shallow_desc d = *desc;
+    lom_shallow_desc d = desc != NULL ? *desc : (lom_shallow_desc){ .columns = 0 };
     if (!resolve_desc(&d, error) || !check_cells(&d, error))
         return NULL;
     lom_shallow *s = allocate(&d, error);

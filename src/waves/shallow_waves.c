@@ -1,5 +1,6 @@
 /* Shallow water as shaders look it up. In: the state of its region at a time (wave_site.h). Out: the surface as
  * textures. */
+#include "pipeline/check_device.h"
 #include "waves/shallow_surface.h"
 #include "waves/wave_field.h"
 
@@ -73,9 +74,8 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
     for (int i = 0; i < 2; i++) {
         lom_release_texture(state->device, state->map[i]);
         state->map[i] = make_map(state, pixels[i]);
-        const lom_error *failed = lom_device_error(state->device);
         if (state->map[i] == NULL)
-            return lom_fail(error, failed->code, "%s", failed->text);
+            return lom_check_device(state->device, error);
     }
     out->shallow = (struct lom_shallow_uniform){ .surface = state->map[0], .moments = state->map[1] };
     for (int i = 0; i < 2; i++) {

@@ -1,5 +1,6 @@
 /* Waves of [surf] as shaders look them up. In: a site. Out: textures of its maps, made once; what shaders need of them
  * at a time. Invariant: closed in time. */
+#include "pipeline/check_device.h"
 #include "waves/wave_field.h"
 
 #include <stdio.h>
@@ -32,9 +33,7 @@ static lom_texture *make_texture(lom_device *device, const struct lom_surf_map *
                                      .pixels = texels,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     lom_release(texels);
-    const lom_error *failed = lom_device_error(device);
-    if (texture == NULL)
-        lom_fail(error, failed->code, "%s", failed->text);
+    lom_check_device(device, error);
     return texture;
 }
 

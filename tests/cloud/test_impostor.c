@@ -371,8 +371,8 @@ static struct lom_cloud_set *load(lom_cloud clouds[], size_t count, const lom_cl
         }
     }
     lom_error error = { 0 };
-    struct lom_cloud_set *set = lom_load_clouds(clouds, count, params, &quality, &error);
-    CHECK(set != NULL, "%s", error.text);
+    struct lom_cloud_set *set;
+    CHECK(lom_load_clouds(clouds, count, params, &quality, &set, &error), "%s", error.text);
     return set;
 }
 

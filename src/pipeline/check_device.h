@@ -1,0 +1,11 @@
+/* The one way from a device's error to a caller's. */
+#ifndef LOM_PIPELINE_CHECK_DEVICE_H
+#define LOM_PIPELINE_CHECK_DEVICE_H
+
+#include <lom/pipeline.h>
+
+/* True while the device has not failed. Else false, and error holds the device's first failure unless it holds one
+ * already. A NULL device is one that there was no memory for. */
+bool lom_check_device(const lom_device *device, lom_error *error);
+
+#endif

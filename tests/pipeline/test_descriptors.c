@@ -1,0 +1,263 @@
+/* Proves what the public functions do with descriptors and objects that are not as they should be: NULL is the zero
+ * descriptor; a NULL device is one that has failed; an attachment of another device, a draw of vertices that do not
+ * exist, and a number that is NaN or out of its range are errors with a sentence. */
+#include "check.h"
+
+#include <lom/lom.h>
+
+static bool is_sentence(const lom_error *error)
+{
+    size_t length = strlen(error->text);
+    return error->code != LOM_OK && length > 10 && error->text[length - 1] == '.';
+}
+
+static void null_is_the_zero_descriptor(void)
+{
+    lom_device *device = lom_open_device(NULL);
+    lom_device_desc resolved = lom_describe_device(device);
+    CHECK(lom_device_error(device)->code == LOM_OK && resolved.threads >= 1 && resolved.lanes >= 4, "%s",
+          lom_device_error(device)->text);
+    lom_begin_pass(device, NULL);
+    CHECK(is_sentence(lom_device_error(device)), "a pass without attachments: \"%s\"", lom_device_error(device)->text);
+    lom_close_device(device);
+
+    device = lom_open_device(NULL);
+    CHECK(lom_make_texture(device, NULL) == NULL && is_sentence(lom_device_error(device)), "a texture of no size");
+    lom_close_device(device);
+
+    device = lom_open_device(NULL);
+    lom_texture *target = lom_make_texture(device, &(lom_texture_desc){ .width = 8, .height = 8 });
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { target } });
+    lom_draw(device, NULL);
+    CHECK(!lom_end_pass(device) && is_sentence(lom_device_error(device)), "a draw without a shader");
+    lom_close_device(device);
+
+    lom_error error = { 0 };
+    CHECK(lom_make_cloud(NULL, &error) == NULL && is_sentence(&error), "a cloud of no kind");
+    error = (lom_error){ 0 };
+    CHECK(lom_make_albedo(NULL, &error) == NULL && is_sentence(&error), "a texture of no name");
+    error = (lom_error){ 0 };
+    CHECK(lom_create_shallow(NULL, &error) == NULL && is_sentence(&error), "shallow water of no cells");
+    error = (lom_error){ 0 };
+    CHECK(lom_create_reference_volume(NULL, &error) == NULL && is_sentence(&error), "a volume of no density");
+    error = (lom_error){ 0 };
+    lom_sea_desc sea, zero;
+    CHECK(lom_resolve_sea(NULL, &sea, &error) && lom_resolve_sea(&(lom_sea_desc){ 0 }, &zero, &error) &&
+              sea.cascade_count == zero.cascade_count && sea.wind_speed == zero.wind_speed,
+          "%s", error.text);
+    lom_image *map = lom_make_normal_map(NULL, &error);
+    CHECK(map != NULL && map->width == 512, "%s", error.text);
+    lom_free_image(map);
+}
+
+static void a_null_device_is_one_that_has_failed(void)
+{
+    lom_error error = { 0 };
+    CHECK(is_sentence(lom_device_error(NULL)), "no sentence");
+    CHECK(lom_make_texture(NULL, &(lom_texture_desc){ .width = 1, .height = 1 }) == NULL, "a texture of no device");
+    lom_release_texture(NULL, NULL);
+    lom_begin_pass(NULL, NULL);
+    lom_draw(NULL, NULL);
+    CHECK(!lom_end_pass(NULL), "a pass of no device");
+    CHECK(lom_device_counters(NULL).passes == 0 && lom_describe_device(NULL).threads == 0, "work of no device");
+    CHECK(lom_create_sea(NULL, NULL, &error) == NULL && is_sentence(&error), "a sea of no device");
+    lom_close_device(NULL);
+}
+
+static void textures_belong_to_their_device(void)
+{
+    lom_error error = { 0 };
+    lom_device *one = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    lom_device *other = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    const lom_texture_desc color = { .width = 8, .height = 8 };
+    const lom_texture_desc depth = { .width = 8, .height = 8, .format = LOM_FORMAT_DEPTH32F };
+    lom_texture *own = lom_make_texture(one, &color), *foreign = lom_make_texture(other, &depth);
+    lom_texture *free_one = lom_create_texture(&color, &error);
+    lom_begin_pass(one, &(lom_pass_desc){ .color = { free_one } });
+    CHECK(lom_end_pass(one), "a texture of no device: %s", lom_device_error(one)->text);
+    lom_begin_pass(one, &(lom_pass_desc){ .color = { own }, .depth = foreign });
+    CHECK(!lom_end_pass(one) && strstr(lom_device_error(one)->text, "another device") != NULL, "\"%s\"",
+          lom_device_error(one)->text);
+    lom_release_texture(other, own);
+    CHECK(is_sentence(lom_device_error(other)), "it freed what is not its own");
+    lom_close_device(one);
+    lom_close_device(other);
+    lom_free_texture(free_one);
+}
+
+/* ---- draws ---- */
+
+static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->position = in->attribute[0];
+}
+
+static void paint(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)in;
+    (void)uniforms;
+    out->color[0] = (lom_float4){ lom_splat(1), lom_splat(1), lom_splat(1), lom_splat(1) };
+}
+
+LOM_SHADER(plain, place, paint, .attributes = 1, .colors = 1)
+
+static bool draw(lom_draw_desc desc, lom_error *error)
+{
+    static const float corners[3][4] = { { -1, -1, 0.5f, 1 }, { 1, -1, 0.5f, 1 }, { 0, 1, 0.5f, 1 } };
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    lom_texture *target = lom_make_texture(device, &(lom_texture_desc){ .width = 8, .height = 8 });
+    desc.shader = &plain;
+    desc.attribute[0] = (lom_attribute){ corners, sizeof corners, 16, LOM_ATTRIBUTE_FLOAT4 };
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { target } });
+    lom_draw(device, &desc);
+    bool done = lom_end_pass(device);
+    *error = *lom_device_error(device);
+    lom_close_device(device);
+    return done;
+}
+
+static void vertices_that_are_drawn_exist(void)
+{
+    static const uint32_t beyond[3] = { 0, 1, 7 };
+    static const lom_draw_desc wrong[] = {
+        { .count = (size_t)1 << 31 },     { .count = UINT32_MAX },           { .count = 6 },
+        { .count = 3, .first = 1 },       { .count = 3, .base_vertex = -1 }, { .count = 3, .base_vertex = INT32_MAX },
+        { .count = 3, .vertex_count = 2 }
+    };
+    lom_error error;
+    CHECK(draw((lom_draw_desc){ .count = 3 }, &error), "%s", error.text);
+    CHECK(draw((lom_draw_desc){ .count = 0, .first = 9 }, &error), "%s", error.text);
+    CHECK(draw((lom_draw_desc){ .count = 3, .first = 1, .base_vertex = -1 }, &error), "%s", error.text);
+    CHECK(draw((lom_draw_desc){ .count = 3, .indices = beyond }, &error), "an index beyond drops its triangle: %s",
+          error.text);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        CHECK(!draw(wrong[i], &error) && is_sentence(&error), "wrong draw %zu: \"%s\"", i, error.text);
+}
+
+/* ---- numbers ---- */
+
+typedef bool take_number(double x, lom_error *error);
+
+static bool take_sky(const lom_sky_box_desc *desc, lom_error *error)
+{
+    lom_image *faces[6];
+    bool made = lom_make_sky_box(desc, faces, error);
+    for (int i = 0; i < 6; i++)
+        lom_free_image(faces[i]);
+    return made;
+}
+
+static bool take_azimuth(double x, lom_error *error)
+{
+    return take_sky(&(lom_sky_box_desc){ .size = 8, .sun_azimuth = x }, error);
+}
+
+static bool take_elevation(double x, lom_error *error)
+{
+    return take_sky(&(lom_sky_box_desc){ .size = 8, .sun_elevation = x }, error);
+}
+
+static bool take_haziness(double x, lom_error *error)
+{
+    return take_sky(&(lom_sky_box_desc){ .size = 8, .haziness = x }, error);
+}
+
+static bool take_cloudiness(double x, lom_error *error)
+{
+    return take_sky(&(lom_sky_box_desc){ .size = 8, .cloudiness = x }, error);
+}
+
+static bool take_image(lom_image *image)
+{
+    lom_free_image(image);
+    return image != NULL;
+}
+
+static bool take_mesh(lom_mesh *mesh)
+{
+    lom_free_mesh(mesh);
+    return mesh != NULL;
+}
+
+static bool take_rays(double x, lom_error *error)
+{
+    return take_image(lom_make_sun_picture(8, x, error));
+}
+
+static bool take_roughness(double x, lom_error *error)
+{
+    return take_image(lom_make_normal_map(&(lom_normal_map_desc){ .size = 128, .roughness = x }, error));
+}
+
+static bool take_radius(double x, lom_error *error)
+{
+    return take_mesh(lom_make_sphere(x, 8, 8, error));
+}
+
+static bool take_crease(double x, lom_error *error)
+{
+    lom_mesh_builder *builder = lom_create_mesh_builder(error);
+    for (int i = 0; i < 3; i++)
+        lom_builder_vertex(builder, (lom_vec3){ i == 1, i == 2, 0 }, 0, 0);
+    lom_builder_triangle(builder, 0, 1, 2);
+    return take_mesh(lom_finish_mesh(builder, x, error));
+}
+
+static bool take_position(double x, lom_error *error)
+{
+    lom_mesh_builder *builder = lom_create_mesh_builder(error);
+    for (int i = 0; i < 3; i++)
+        lom_builder_vertex(builder, (lom_vec3){ i == 1 ? x : 0, i == 2, 0 }, 0, 0);
+    lom_builder_triangle(builder, 0, 1, 2);
+    return take_mesh(lom_finish_mesh(builder, 0, error));
+}
+
+static bool take_wind(double x, lom_error *error)
+{
+    lom_sea_desc resolved;
+    return lom_resolve_sea(&(lom_sea_desc){ .wind_speed = x }, &resolved, error);
+}
+
+static bool take_lod(double x, lom_error *error)
+{
+    lom_texture *texture =
+        lom_create_texture(&(lom_texture_desc){ .width = 1, .height = 1, .sampler = { .lod_bias = (float)x } }, error);
+    lom_free_texture(texture);
+    return texture != NULL;
+}
+
+static void numbers_out_of_range_are_refused(void)
+{
+    static const struct {
+        const char *name;
+        take_number *take;
+        double good;
+        bool bounded; /* infinity is refused, too */
+    } numbers[] = { { "azimuth", take_azimuth, 1, true },   { "elevation", take_elevation, 0.5, true },
+                    { "haziness", take_haziness, 1, true }, { "cloudiness", take_cloudiness, 0.5, true },
+                    { "rays", take_rays, 0.5, true },       { "roughness", take_roughness, 0.3, true },
+                    { "radius", take_radius, 1, true },     { "crease", take_crease, 1, true },
+                    { "position", take_position, 1, true }, { "wind", take_wind, 5, true },
+                    { "lod bias", take_lod, 0.5, false } };
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        const double bad[] = { __builtin_nan(""), __builtin_inf(), -__builtin_inf() };
+        lom_error error = { 0 };
+        CHECK(numbers[i].take(numbers[i].good, &error), "%s of %g: %s", numbers[i].name, numbers[i].good, error.text);
+        for (int k = 0; k < (numbers[i].bounded ? 3 : 1); k++) {
+            error = (lom_error){ 0 };
+            CHECK(!numbers[i].take(bad[k], &error) && is_sentence(&error), "%s of %g: \"%s\"", numbers[i].name, bad[k],
+                  error.text);
+        }
+    }
+}
+
+int main(int argc, char **argv)
+{
+    RUN(null_is_the_zero_descriptor);
+    RUN(a_null_device_is_one_that_has_failed);
+    RUN(textures_belong_to_their_device);
+    RUN(vertices_that_are_drawn_exist);
+    RUN(numbers_out_of_range_are_refused);
+    return check_result();
+}
