@@ -4,7 +4,7 @@
  * impostors, waves and water, shallow water, surf, caustics, foam, shadows, key frames, spray, and the reference. */
 #include "faults.h"
 
-enum { FRAMES = 2, TRIES = 40 };
+enum { FRAMES = 2, TRIES = 12 };
 
 /* ---- scenes ---- */
 
