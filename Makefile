@@ -42,12 +42,15 @@ CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc
 # Where variables live is half of the time that vectors as wide as these take to compile; -O0 knows it without.
 CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking -fPIC -fvisibility=hidden -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
 LDLIBS      = -lm -lpthread
+comma := ,
 # Sanitized code is optimised little: it compiles many times faster and says more.
 ifneq ($(SAN),)
 O       = 1
 BUILD   = build-$(SAN)
-CFLAGS += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
-LDFLAGS += -fsanitize=$(SAN)
+# What gcc and clang leave out of "undefined".
+SANITIZERS = $(SAN)$(if $(findstring undefined,$(SAN)),$(comma)float-cast-overflow)
+CFLAGS += -fsanitize=$(SANITIZERS) -fno-omit-frame-pointer -fno-sanitize-recover=all
+LDFLAGS += -fsanitize=$(SANITIZERS)
 endif
 
 # What is executed is counted beside the objects (make coverage).

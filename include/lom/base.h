@@ -137,6 +137,29 @@ size_t lom_parse_float(const char *text, size_t length, float *value); /* rounde
 size_t lom_print_double(char text[32], double value);
 size_t lom_print_float(char text[32], float value);
 
+/* ---- floating values as integers: defined for every value, the same on every machine ----
+ * C leaves the conversion undefined outside the type's range, and processors disagree there. These cut towards zero, as
+ * C does, return the nearest value in range for what lies outside (infinities too), and 0 for NaN. Nothing else in the
+ * library converts a floating value to an integer (`make lint`); lom_to_int does it for lanes. */
+
+/* In [-2147483648, 2147483647]. */
+static inline __attribute__((unused)) int32_t lom_int_of(double x)
+{
+    return x > -2147483648.0 ? x < 2147483647.0 ? (int32_t)x : INT32_MAX : x == x ? INT32_MIN : 0;
+}
+
+/* In [-2^63, 2^63 - 1]. */
+static inline __attribute__((unused)) int64_t lom_int64_of(double x)
+{
+    return x > -9223372036854775808.0 ? x < 9223372036854775808.0 ? (int64_t)x : INT64_MAX : x == x ? INT64_MIN : 0;
+}
+
+/* In [0, most]: sizes, counts, indices, samples of images. */
+static inline __attribute__((unused)) size_t lom_count_of(double x, size_t most)
+{
+    return x >= 1 ? x < (double)most ? (size_t)x : most : 0;
+}
+
 /* ---- hash ---- */
 
 #define LOM_HASH_START UINT64_C(0xcbf29ce484222325)

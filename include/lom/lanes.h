@@ -177,12 +177,19 @@ LOM_INLINE lom_float lom_defined_sqrt(lom_float x)
     return root;
 }
 
+/* Towards zero, of what the caller has bounded to [-2147483648, 2147483520]: one instruction, without a result outside.
+ */
+LOM_INLINE lom_int lom_bounded_to_int(lom_float x)
+{
+    return __builtin_convertvector(x, lom_int);
+}
+
 /* Towards zero; clamped to [-2147483648, 2147483520]; NaN gives 0. */
 LOM_INLINE lom_int lom_defined_to_int(lom_float x)
 {
     lom_float number = lom_defined_select(x == x, x, lom_splat(0.0f));
     lom_float bounded = lom_defined_min(lom_defined_max(number, lom_splat(-2147483648.0f)), lom_splat(2147483520.0f));
-    return __builtin_convertvector(bounded, lom_int);
+    return lom_bounded_to_int(bounded);
 }
 
 /* Correctly rounded. */

@@ -45,7 +45,7 @@ typedef struct lom_volume_place {
 LOM_INLINE lom_float lom_volume_axis(lom_float position, int size, lom_int *cell)
 {
     lom_float along = lom_clamp(position * (float)size - 0.5f, lom_splat(0.0f), lom_splat((float)(size - 1)));
-    *cell = __builtin_convertvector(along, lom_int); /* in range and not negative: the floor */
+    *cell = lom_bounded_to_int(along); /* in range and not negative: the floor */
     return along - lom_to_float(*cell);
 }
 

@@ -36,7 +36,7 @@ static const lom_pair ATAN[17] = {
 static lom_pair first_octant(lom_pair n, lom_pair d)
 {
     static const double coefficient[] = { -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15 };
-    int i = (int)(n.hi / d.hi * 16 + 0.5);
+    int i = lom_int_of(n.hi / d.hi * 16 + 0.5);
     lom_pair c = { i * 0.0625, 0 };
     lom_pair t = pair_divide(pair_add(n, pair_negate(pair_multiply(c, d))), pair_add(d, pair_multiply(c, n)));
     double square = t.hi * t.hi;

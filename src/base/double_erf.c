@@ -85,7 +85,7 @@ double lom_double_erf(double x)
         return erf_small(x);
     if (a >= 6)
         return with_sign(1, x);
-    int i = (int)(a * 8 + 0.5);
+    int i = lom_int_of(a * 8 + 0.5);
     double c = i * 0.125, d = a - c;
     double before = 0, now = 1, power = d, sum = 0;
     for (int n = 0; n < 18; n++) {

@@ -159,7 +159,7 @@ static lom_pair reduce(lom_pair x, int *n)
     double count = nearest(x.hi * INV_LN2_128);
     lom_pair low = two_product(-count, LN2_128_LO);
     lom_pair r = two_sum(x.hi - count * LN2_128_HI, low.hi);
-    *n = (int)count;
+    *n = lom_int_of(count);
     return fast_two_sum(r.hi, r.lo + (low.lo + x.lo));
 }
 
@@ -206,7 +206,7 @@ double lom_double_exp2(double x)
     double rest = x - n / 128; /* exact: both are multiples of an ulp of x or of 1/128 */
     int k;
     lom_pair p = two_product(rest, LN2.hi);
-    lom_pair m = join((int)n, expm1_small((lom_pair){ p.hi, p.lo + rest * LN2.lo }), &k);
+    lom_pair m = join(lom_int_of(n), expm1_small((lom_pair){ p.hi, p.lo + rest * LN2.lo }), &k);
     return scale(m.hi + m.lo, k);
 }
 

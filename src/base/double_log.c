@@ -231,7 +231,7 @@ static int integer_kind(double y)
     double a = magnitude(y);
     if (a >= 0x1p53)
         return 2;
-    int64_t n = (int64_t)a;
+    int64_t n = lom_int64_of(a);
     if ((double)n != a)
         return 0;
     return n & 1 ? 1 : 2;

@@ -13,7 +13,7 @@ double lom_double_floor(double x)
         return double_nan();
     if (magnitude(x) >= 0x1p52) /* an integer already */
         return x;
-    double whole = (double)(int64_t)x;
+    double whole = (double)lom_int64_of(x);
     return with_sign(whole > x ? whole - 1 : whole, x);
 }
 

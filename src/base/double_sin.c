@@ -115,7 +115,7 @@ static lom_pair reduce(double x, int *quadrant)
     }
     if (a < 0x1p19) {
         double n = nearest(a * 0x1.45f306dc9c883p-1);
-        *quadrant = (int)n & 3;
+        *quadrant = lom_int_of(n) & 3;
         r = two_sum(a - n * 0x1.921fb544p+0, -(n * 0x1.0b4611a6p-34));
         r = pair_add(r, (lom_pair){ -(n * 0x1.3198a2ep-69), -(n * 0x1.b839a252049c1p-104) });
     } else {

@@ -127,7 +127,7 @@ static bool open_video(struct lom_frame_output *o, const lom_image *image, lom_e
     char *name = lom_name_frame(o->pattern, 0, error);
     o->video = name != NULL ? lom_open_writer(name, error) : NULL;
     lom_release(name);
-    int rate = (int)(o->fps * 1000 + 0.5);
+    int rate = lom_int_of(o->fps * 1000 + 0.5);
     return o->video != NULL &&
            append_to_video(o, lom_encode_y4m_header(image->width, image->height, rate, 1000, error), error);
 }

@@ -1,6 +1,8 @@
 /* The bar: "lake [######....] 3/5 reflection". */
 #include "progress.h"
 
+#include <lom/base.h>
+
 #include <stdio.h>
 #include <unistd.h>
 
@@ -18,9 +20,9 @@ void lom_show_progress(const struct lom_progress *progress, double done, const c
     static const char full[] = "##############################", empty[] = "..............................";
     if (!progress->shown)
         return;
-    int filled = (int)(done * BAR / progress->total);
-    fprintf(stderr, "\r%s [%.*s%.*s] %d/%d %s\033[K", progress->label, filled, full, BAR - filled, empty, (int)done,
-            progress->total, doing);
+    int filled = lom_int_of(done * BAR / progress->total);
+    fprintf(stderr, "\r%s [%.*s%.*s] %d/%d %s\033[K", progress->label, filled, full, BAR - filled, empty,
+            lom_int_of(done), progress->total, doing);
 }
 
 void lom_end_progress(const struct lom_progress *progress)

@@ -29,7 +29,7 @@ static void mix_fields(const lom_image *a, const lom_image *b, double part, lom_
     double m = mean_of(a), n = mean_of(b);
     for (size_t i = 0; i < lom_image_size(out); i++) {
         double value = m + (a->pixels[i] - m) * c + (b->pixels[i] - n) * s + 0.5;
-        out->pixels[i] = (uint8_t)(value > 0 ? value < 255 ? value : 255 : 0);
+        out->pixels[i] = (uint8_t)lom_count_of(value > 0 ? value < 255 ? value : 255 : 0, 255);
     }
 }
 
@@ -54,7 +54,7 @@ bool lom_evolve_clouds(struct lom_cloud_set *set, double time, lom_error *error)
     if (set->phase == phase)
         return true;
     double whole = lom_double_floor(phase), turn = lom_double_floor(whole / LOM_DETAIL_FIELDS);
-    int from = (int)(whole - turn * LOM_DETAIL_FIELDS);
+    int from = lom_int_of(whole - turn * LOM_DETAIL_FIELDS);
     lom_image *mixed = lom_create_image(LOM_DETAIL_SIZE, LOM_DETAIL_SIZE, LOM_DETAIL_SIZE, LOM_FORMAT_R8, error);
     if (mixed != NULL)
         mix_fields(set->fields[from], set->fields[(from + 1) % LOM_DETAIL_FIELDS], phase - whole, mixed);

@@ -175,7 +175,7 @@ const lom_cloud_kind *lom_find_cloud_kind(const char *name, lom_error *error)
 void lom_store_density(lom_image *volume, int x, int y, int z, double density)
 {
     double bounded = density > 0 ? density < 1 ? density : 1 : 0;
-    *(uint16_t *)lom_image_pixel(volume, x, y, z) = (uint16_t)(bounded * 65535 + 0.5);
+    *(uint16_t *)lom_image_pixel(volume, x, y, z) = (uint16_t)lom_count_of(bounded * 65535 + 0.5, 65535);
 }
 
 lom_image *lom_make_cloud(const lom_cloud_desc *desc, lom_error *error)

@@ -44,7 +44,7 @@ static double depth_of(const struct lom_placed_cloud *cloud, const double from[3
         int voxel[3];
         for (int i = 0; i < 3; i++) {
             double at = (start[i] + along[i] * (enter + (k + 0.5) * step)) * size[i];
-            voxel[i] = at > 0 ? at < size[i] - 1 ? (int)at : size[i] - 1 : 0;
+            voxel[i] = at > 0 ? at < size[i] - 1 ? lom_int_of(at) : size[i] - 1 : 0;
         }
         sum += g->density[((size_t)voxel[2] * (size_t)size[1] + (size_t)voxel[1]) * (size_t)size[0] + (size_t)voxel[0]];
     }

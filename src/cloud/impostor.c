@@ -23,7 +23,7 @@ int lom_reference_plate_edge(double width, double height, int window_height, int
     double edge = ceiling(smaller * 3 * 64 / window_height);
     if (!(edge > 1))
         return 1;
-    return edge >= largest ? largest : (int)lom_next_power_of_two((uint32_t)edge);
+    return edge >= largest ? largest : (int)lom_next_power_of_two((uint32_t)lom_count_of(edge, (size_t)largest));
 }
 
 bool lom_find_window(const lom_vec3 corner[8], lom_vec3 eye, const lom_vec3 axes[3], double near_plane,
@@ -141,7 +141,7 @@ bool lom_make_facing_plate(const lom_vec3 corner[8], lom_vec3 eye, const struct 
     plate->pitch = texel / view->pixel;
     for (int a = 0; a < 2; a++) {
         double extent = plate->high[a] - plate->low[a], middle = (plate->high[a] + plate->low[a]) / 2;
-        int texels = 2 + (int)ceiling(extent / texel);
+        int texels = 2 + lom_int_of(ceiling(extent / texel));
         texels = (texels + 15) / 16 * 16 < largest ? (texels + 15) / 16 * 16 : largest;
         plate->low[a] = middle - texels * texel / 2;
         plate->high[a] = middle + texels * texel / 2;
@@ -161,8 +161,8 @@ void lom_make_screen_plate(lom_vec3 eye, const struct lom_impostor_eye *view, do
                                  .high = { view->tangent[0], view->tangent[1] },
                                  .distance = 2 * view->near_plane,
                                  .pitch = 1 / scale };
-    plate->width = (int)ceiling(width * scale);
-    plate->height = (int)ceiling(height * scale);
+    plate->width = lom_int_of(ceiling(width * scale));
+    plate->height = lom_int_of(ceiling(height * scale));
 }
 
 static double square(double x)

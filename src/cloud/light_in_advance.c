@@ -11,7 +11,7 @@ static int byte_of(const lom_image *density, int x, int y, int z)
     if (density->format == LOM_FORMAT_R16)
         return (*(const uint16_t *)p * 255 + 32767) / 65535;
     float value = *(const float *)p;
-    return (int)((value > 0 ? value < 1 ? value : 1 : 0) * 255.0f + 0.5f);
+    return lom_int_of((value > 0 ? value < 1 ? value : 1 : 0) * 255.0f + 0.5f);
 }
 
 /* Towards the light from the middle of a voxel, a voxel of the longest side at a time. */
@@ -26,7 +26,7 @@ static double gray_of(const lom_image *density, const int voxel[3], const double
             double place = voxel[i] + 0.5 + k * step[i];
             if (!(place >= 0 && place < size[i]))
                 return count == 0 || sum / count < 100 ? 255 : 255 - sum / count;
-            at[i] = (int)place;
+            at[i] = lom_int_of(place);
         }
         sum += byte_of(density, at[0], at[1], at[2]) * lighter;
         count++;
@@ -53,7 +53,8 @@ lom_image *lom_light_cloud_in_advance(const lom_image *density, const double to_
                 to[3] = (uint8_t)byte_of(density, x, y, z);
                 to[0] = to[1] = to[2] = 255;
                 if (to[3] != 0 && lighter > 0) /* nothing met weighs anything: white */
-                    to[0] = to[1] = to[2] = (uint8_t)(gray_of(density, voxel, step, lighter, dark_light) + 0.5);
+                    to[0] = to[1] = to[2] =
+                        (uint8_t)lom_count_of(gray_of(density, voxel, step, lighter, dark_light) + 0.5, 255);
             }
     return lit;
 }

@@ -43,7 +43,7 @@ static double wyvill(double square)
 static int voxel_of(double at, int longest, int size)
 {
     double voxel = lom_double_floor(at * longest);
-    return voxel > 0 ? voxel < size - 1 ? (int)voxel : size - 1 : 0;
+    return voxel > 0 ? voxel < size - 1 ? lom_int_of(voxel) : size - 1 : 0;
 }
 
 static void add_particle(double *sum, const lom_image *volume, int longest, const struct particle *p, int variety)

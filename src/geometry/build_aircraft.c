@@ -18,7 +18,7 @@ enum { SECTIONS = sizeof hull / sizeof hull[0] };
 /* Catmull and Rom's curve through the sections, t from 0 to SECTIONS - 1. */
 static void section_at(double t, double section[4])
 {
-    int i = t < SECTIONS - 2 ? (int)t : SECTIONS - 2;
+    int i = t < SECTIONS - 2 ? lom_int_of(t) : SECTIONS - 2;
     double s = t - i;
     const double *p0 = hull[i > 0 ? i - 1 : 0], *p1 = hull[i], *p2 = hull[i + 1];
     const double *p3 = hull[i + 2 < SECTIONS ? i + 2 : SECTIONS - 1];

@@ -19,7 +19,7 @@ static void build_deck(lom_mesh_builder *builder, uint64_t seed)
                              (lom_vec3){ lom_model_random(seed, key + 3, -0.006, 0.006),
                                          lom_model_random(seed, key + 4, -0.012, 0.012), 0 },
                              (lom_vec3){ 1, 1, 1 });
-        double column = (double)(int)lom_model_random(seed, key + 5, 0, 5.99) / 6.0;
+        double column = (double)lom_int_of(lom_model_random(seed, key + 5, 0, 5.99)) / 6.0;
         lom_builder_transform(builder, &turn);
         lom_model_box(builder, (lom_vec3){ -0.5 * width, -0.04, -over },
                       (lom_vec3){ 0.5 * width, 0, lom_model_random(seed, key + 6, 0.0, 0.09) + half_width },
@@ -61,7 +61,7 @@ static const double half_x = 3.0, half_z = 2.2, wall = 2.42, ridge = 4.25, floor
 static void build_walls(lom_mesh_builder *builder, uint64_t seed)
 {
     lom_model_material(builder, "log", 0.02, 8);
-    int rows = (int)((wall - floor_height) / (log_radius * 1.78)) - 1;
+    int rows = lom_int_of((wall - floor_height) / (log_radius * 1.78)) - 1;
     for (int i = 0; i < rows; i++)
         for (int k = 0; k < 4; k++) {
             uint64_t key = (uint64_t)(i * 4 + k) * 4;

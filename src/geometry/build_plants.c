@@ -31,7 +31,7 @@ static void build_bough(lom_mesh_builder *builder, uint64_t seed, lom_vec3 foot,
                             .u = lom_model_random(seed, 2, 0, 1),
                             .segments = 3 };
     lom_model_leaf_at(builder, &leaf);
-    int twigs = 2 + (int)(length * 1.9);
+    int twigs = 2 + lom_int_of(length * 1.9);
     for (int i = 0; i < twigs; i++)
         for (int hand = -1; hand <= 1; hand += 2) {
             uint64_t which = 10 + 8 * (uint64_t)i + (hand > 0 ? 4 : 0);
@@ -137,8 +137,8 @@ void lom_build_pine(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
     for (int i = 0; i < LIMBS; i++) {
         uint64_t key = 100 + (uint64_t)i * 4;
         double t = 0.42 + 0.56 * i / (LIMBS - 1), place = t * (RINGS - 1);
-        int below = (int)place;
-        lom_vec3 a = stem[below].center, b = stem[below + 1 < RINGS ? below + 1 : below].center;
+        int below = (int)lom_count_of(place, RINGS - 2);
+        lom_vec3 a = stem[below].center, b = stem[below + 1].center;
         lom_vec3 start = lom_vec3_add(a, lom_vec3_scale(lom_vec3_subtract(b, a), place - below));
         double angle = 2.399963 * i + lom_model_random(seed, key, -0.4, 0.4);
         double length = (0.7 + 2.1 * lom_double_sqrt(1.02 - t) * 1.25) * lom_model_random(seed, key + 1, 0.75, 1.15);

@@ -19,7 +19,7 @@ typedef struct slope {
 /* Bilinear height and gradient; (x, y) lies at least a cell inside. */
 static slope slope_at(const lom_field *field, double x, double y)
 {
-    int column = (int)x, row = (int)y;
+    int column = lom_int_of(x), row = lom_int_of(y);
     double u = x - column, v = y - row;
     const double *h = field->values + (size_t)row * (size_t)field->size + (size_t)column;
     double a = h[0], b = h[1], c = h[field->size], d = h[field->size + 1];
@@ -55,7 +55,7 @@ static void dig(lom_field *field, const double brush[BRUSH_WIDTH][BRUSH_WIDTH], 
 
 static void deposit(lom_field *field, double x, double y, double amount)
 {
-    int column = (int)x, row = (int)y;
+    int column = lom_int_of(x), row = lom_int_of(y);
     double u = x - column, v = y - row;
     double *h = field->values + (size_t)row * (size_t)field->size + (size_t)column;
     h[0] += amount * (1 - u) * (1 - v);
@@ -99,7 +99,7 @@ static bool advance(lom_field *field, const double brush[BRUSH_WIDTH][BRUSH_WIDT
         if (amount > fall)
             amount = fall;
         d->soil += amount;
-        dig(field, brush, (int)old.x, (int)old.y, amount);
+        dig(field, brush, lom_int_of(old.x), lom_int_of(old.y), amount);
     }
     double energy = d->speed * d->speed + fall / field->cell * 1.5;
     d->speed = lom_double_sqrt(energy > 0 ? energy : 0);

@@ -30,10 +30,11 @@ double lom_field_at(const lom_field *field, double x, double y)
     cubic_weights(y - top, down);
     double sum = 0;
     for (int b = 0; b < 4; b++) {
-        const double *row = field->values + (size_t)clamp_index((int)top + b - 1, field->size) * (size_t)field->size;
+        const double *row =
+            field->values + (size_t)clamp_index(lom_int_of(top) + b - 1, field->size) * (size_t)field->size;
         double line = 0;
         for (int a = 0; a < 4; a++)
-            line += across[a] * row[clamp_index((int)left + a - 1, field->size)];
+            line += across[a] * row[clamp_index(lom_int_of(left) + a - 1, field->size)];
         sum += down[b] * line;
     }
     return sum;

@@ -45,7 +45,7 @@ void lom_cover(lom_canvas *canvas, int x, int y, lom_tint tint, double coverage)
 /* Discs along a parabola, half a pixel apart; coverage falls over the last pixel of the radius. */
 void lom_paint_stroke(lom_canvas *canvas, const lom_stroke *s)
 {
-    int steps = (int)(s->length * 2) + 1;
+    int steps = lom_int_of(s->length * 2) + 1;
     for (int i = 0; i < steps; i++) {
         double t = (double)i / steps;
         double sideways = s->bend * s->length * t * t;
@@ -53,8 +53,8 @@ void lom_paint_stroke(lom_canvas *canvas, const lom_stroke *s)
         double y = s->y + s->dy * s->length * t + s->dx * sideways;
         double radius = 0.5 * s->width * (1 - 0.75 * t);
         lom_tint tint = lom_mix_tint(s->foot, s->tip, t);
-        int left = (int)lom_double_floor(x - radius), top = (int)lom_double_floor(y - radius);
-        int reach = (int)(2 * radius) + 2;
+        int left = lom_int_of(lom_double_floor(x - radius)), top = lom_int_of(lom_double_floor(y - radius));
+        int reach = lom_int_of(2 * radius) + 2;
         for (int b = top; b < top + reach; b++)
             for (int a = left; a < left + reach; a++) {
                 double distance = lom_double_sqrt((a - x) * (a - x) + (b - y) * (b - y));

@@ -153,7 +153,7 @@ lom_image *lom_make_coast(const char *name, int size, uint64_t seed, lom_error *
         for (int x = 0; x < size; x++) {
             double height = coast->height(&noise, side * x / (size - 1), side * y / (size - 1));
             uint16_t *pixel = lom_image_pixel(map, x, y, 0);
-            *pixel = (uint16_t)(lom_clamp_double((height + deepest) / relief, 0, 1) * 65535 + 0.5);
+            *pixel = (uint16_t)lom_count_of(lom_clamp_double((height + deepest) / relief, 0, 1) * 65535 + 0.5, 65535);
         }
     lom_leave_float_state(&state);
     return map;

@@ -267,7 +267,7 @@ static bool form_land(landscape *l, const lom_height_map_desc *desc, lom_error *
     add_rock(l);
     lom_erode_by_gravity(&l->height, 1.05, 20);
     double ratio = (double)desc->size / 1024.0;
-    if (!lom_erode_by_rain(&l->height, &(lom_rain){ (int)(260000 * ratio * ratio), 0.5, desc->seed + 3 }, error))
+    if (!lom_erode_by_rain(&l->height, &(lom_rain){ lom_int_of(260000 * ratio * ratio), 0.5, desc->seed + 3 }, error))
         return false;
     lom_erode_by_gravity(&l->height, 1.0, 6);
     shape_shore(l);
@@ -295,7 +295,7 @@ lom_image *lom_make_height_map(const lom_height_map_desc *desc, lom_error *error
         for (int x = 0; x < d.size; x++) {
             double h = l.height.values[(size_t)y * (size_t)d.size + (size_t)x];
             uint16_t *pixel = lom_image_pixel(map, x, y, 0);
-            *pixel = (uint16_t)(lom_clamp_double((h + lake_depth) / relief, 0, 1) * 65535.0 + 0.5);
+            *pixel = (uint16_t)lom_count_of(lom_clamp_double((h + lake_depth) / relief, 0, 1) * 65535.0 + 0.5, 65535);
         }
     lom_leave_float_state(&state);
     lom_release(l.height.values);

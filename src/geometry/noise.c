@@ -26,7 +26,7 @@ static double split(double x, int period, int line[2])
 {
     double below = lom_double_floor(x);
     double cycle = below - lom_double_floor(below / period) * period;
-    line[0] = (int)cycle % period; /* cycle = period after a quotient that was rounded up */
+    line[0] = lom_int_of(cycle) % period; /* cycle = period after a quotient that was rounded up */
     line[1] = line[0] + 1 == period ? 0 : line[0] + 1;
     return x - below;
 }
@@ -233,5 +233,5 @@ double lom_smooth_step(double low, double high, double x)
 
 uint8_t lom_unorm8_of_double(double x)
 {
-    return (uint8_t)(lom_clamp_double(x, 0, 1) * 255.0 + 0.5);
+    return (uint8_t)lom_count_of(lom_clamp_double(x, 0, 1) * 255.0 + 0.5, 255);
 }

@@ -29,7 +29,8 @@ void lom_paint_grass(lom_canvas *c)
     for (unsigned i = 0; i < 30000; i++) {
         double x = lom_canvas_random(c, 1, i) * c->size, y = lom_canvas_random(c, 2, i) * c->size;
         double angle = two_pi * lom_canvas_random(c, 3, i), tone = lom_canvas_random(c, 4, i);
-        double patch = cloudy(c, (int)x, (int)y, 4, 4, 0.7), age = cloudy(c, (int)x, (int)y, 6, 3, 0.1);
+        double patch = cloudy(c, lom_int_of(x), lom_int_of(y), 4, 4, 0.7),
+               age = cloudy(c, lom_int_of(x), lom_int_of(y), 6, 3, 0.1);
         lom_tint tip = lom_mix_tint(fresh, dry, 1.3 * age + 0.5 * tone - 0.05);
         lom_stroke blade = { .x = x,
                              .y = y,
@@ -51,7 +52,7 @@ static void paint_crown(lom_canvas *c, double x, double y, double radius, double
     const lom_tint shadow = lom_tint_of(20, 27, 18), spruce = lom_tint_of(62, 76, 42),
                    larch = lom_tint_of(100, 104, 54);
     lom_tint lit = lom_mix_tint(spruce, larch, tone * tone);
-    int reach = (int)radius + 2;
+    int reach = lom_int_of(radius) + 2;
     double turn = two_pi * lom_canvas_random(c, 9, which);
     for (int b = -reach; b <= reach; b++)
         for (int a = -reach; a <= reach; a++) {
@@ -65,7 +66,7 @@ static void paint_crown(lom_canvas *c, double x, double y, double radius, double
             double speckle = lom_noise2(&c->noise, (x + a) * 0.37 + which, (y + b) * 0.37, 256);
             double height = 1 - distance / edge;
             double light = 0.52 + 0.5 * (-0.6 * a - 0.8 * b) / radius + 0.45 * height + 0.28 * speckle;
-            lom_cover(c, (int)x + a, (int)y + b, lom_mix_tint(shadow, lit, light), coverage);
+            lom_cover(c, lom_int_of(x) + a, lom_int_of(y) + b, lom_mix_tint(shadow, lit, light), coverage);
         }
 }
 
@@ -82,13 +83,13 @@ void lom_paint_forest(lom_canvas *c)
             unsigned i = row * columns + column;
             double x = (column + lom_canvas_random(c, 1, i) + 0.5 * (row & 1)) * c->size / columns;
             double y = (row + lom_canvas_random(c, 2, i)) * c->size / rows;
-            double clearing = cloudy(c, (int)x, (int)y, 4, 4, 0.6);
+            double clearing = cloudy(c, lom_int_of(x), lom_int_of(y), 4, 4, 0.6);
             if (clearing > 0.36)
                 continue;
             double radius =
                 unit * (7.5 + 7.5 * lom_canvas_random(c, 3, i)) * (1 - 0.4 * lom_smooth_step(0.1, 0.4, clearing));
-            double tone =
-                lom_clamp_double(lom_canvas_random(c, 4, i) * 0.75 + cloudy(c, (int)x, (int)y, 3, 3, 0.9), 0, 1);
+            double tone = lom_clamp_double(
+                lom_canvas_random(c, 4, i) * 0.75 + cloudy(c, lom_int_of(x), lom_int_of(y), 3, 3, 0.9), 0, 1);
             paint_crown(c, x, y, radius, tone, i);
         }
 }
@@ -185,7 +186,7 @@ void lom_paint_snow(lom_canvas *c)
     const lom_tint white = lom_tint_of(238, 241, 245), blue = lom_tint_of(206, 217, 232);
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++) {
-            double drift = cloudy(c, x, y, 4, 5, 0.3), ripple = cloudy(c, x + (int)(40 * drift), y, 16, 4, 0.6);
+            double drift = cloudy(c, x, y, 4, 5, 0.3), ripple = cloudy(c, x + lom_int_of(40 * drift), y, 16, 4, 0.6);
             put_height(c, x, y, c->size / 512.0 * (26 * drift + 6 * ripple));
             lom_put_tint(c, x, y, lom_mix_tint(white, blue, 0.35 - 1.0 * drift - 0.35 * ripple));
         }

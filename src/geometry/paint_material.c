@@ -27,12 +27,12 @@ typedef struct board {
 static board board_at(const lom_canvas *c, double u, double v, unsigned count, unsigned what)
 {
     double place = u * count;
-    unsigned column = (unsigned)place;
+    unsigned column = (unsigned)lom_count_of(place, count);
     double across = place - column;
     double along = v + lom_canvas_random(c, what, column);
     along -= lom_double_floor(along);
     double half = along * 2;
-    unsigned part = (unsigned)half;
+    unsigned part = (unsigned)lom_count_of(half, 1);
     half -= part;
     return (board){ across < 0.5 ? across : 1 - across, half < 0.5 ? half : 1 - half, column * 2 + part };
 }
@@ -105,9 +105,9 @@ void lom_paint_shingles(lom_canvas *c)
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++) {
             double u = (x + 0.5) / c->size, v = (y + 0.5) / c->size;
-            unsigned row = (unsigned)(v * rows);
+            unsigned row = (unsigned)lom_count_of(v * rows, rows);
             double place = u * columns + (row & 1) * 0.5 + 0.22 * lom_canvas_random(c, 14, row);
-            unsigned column = (unsigned)place % columns;
+            unsigned column = (unsigned)lom_count_of(place, 2 * columns) % columns;
             double across = place - lom_double_floor(place), along = v * rows - row;
             unsigned which = row * columns + column;
             double end = 0.9 + 0.1 * lom_canvas_random(c, 15, which);

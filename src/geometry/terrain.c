@@ -238,7 +238,7 @@ static int find_cell(double x, double size, int pixels, double *fraction)
     double t = (x / size + .5) * (pixels - 1);
     t = t > 0 ? t : 0;
     t = t < pixels - 1 ? t : pixels - 1;
-    int cell = (int)t;
+    int cell = lom_int_of(t);
     cell = cell < pixels - 2 ? cell : pixels - 2;
     *fraction = t - cell;
     return cell;

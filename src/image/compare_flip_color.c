@@ -146,7 +146,7 @@ void lom_free_flip_constants(lom_flip_constants *constants)
 double lom_flip_linear(const lom_flip_constants *constants, const lom_common_format *common, double sample)
 {
     if (constants->decoded != NULL)
-        return constants->decoded[(size_t)sample];
+        return constants->decoded[lom_count_of(sample, UINT16_MAX)];
     return common->is_float ? lom_unit_of(sample) : lom_srgb_decode_double(sample / common->peak);
 }
 

@@ -13,7 +13,7 @@ static uint8_t shade(double a, double b, double peak)
     double delta = lom_sample_delta(a, b) / peak;
     if (delta == 0)
         return 0;
-    return (uint8_t)(64 + 191 * __builtin_sqrt(delta < 1 ? delta : 1) + 0.5);
+    return (uint8_t)lom_count_of(64 + 191 * __builtin_sqrt(delta < 1 ? delta : 1) + 0.5, 255);
 }
 
 static void shade_pixel(const lom_common_format *common, const double *a, const double *b, uint8_t out[3])

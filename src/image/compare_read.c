@@ -75,7 +75,7 @@ static double map_sample(double stored, const struct mapping *mapping, bool is_c
     if (mapping->divisor == 0)
         return stored * mapping->scale;
     if (mapping->decode && is_color) /* only samples of 8 bits are sRGB-encoded */
-        return (double)lom_srgb_linear[(size_t)stored];
+        return (double)lom_srgb_linear[lom_count_of(stored, UINT8_MAX)];
     return (double)(float)(stored / mapping->divisor);
 }
 

@@ -36,7 +36,7 @@ static inline double lom_unit_of(double x)
  * x = 1/2 (k + 1/2 = x * largest asks for an odd divisor of 2 x), which rounds up to the even 2^(n-1). */
 static inline uint32_t lom_unorm_of(double x, uint32_t largest)
 {
-    return (uint32_t)(lom_unit_of(x) * largest + 0.5);
+    return (uint32_t)lom_count_of(lom_unit_of(x) * largest + 0.5, largest);
 }
 
 /* The sRGB code of linear light; correctly rounded for every float. */
@@ -61,7 +61,7 @@ static inline uint16_t lom_half_of(double x)
     if (magnitude >= 65520)
         return sign | 0x7c00;
     if (magnitude < 0x1p-14) /* the unit of doubles in [2^28, 2^29) is 2^-24, the least half */
-        return (uint16_t)(sign | (uint16_t)((magnitude + 0x1p28 - 0x1p28) * 0x1p24));
+        return (uint16_t)(sign | (uint16_t)lom_count_of((magnitude + 0x1p28 - 0x1p28) * 0x1p24, 0x400));
     bits &= INT64_MAX;
     bits += (UINT64_C(1) << 41) - 1 + (bits >> 42 & 1); /* half has 42 bits less: round to nearest even */
     return (uint16_t)(sign | (uint16_t)((bits >> 42) - ((uint64_t)(1023 - 15) << 10)));

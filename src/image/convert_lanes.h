@@ -16,7 +16,7 @@
 LOM_INLINE lom_int lom_unorm_of_lanes(lom_float x, float largest)
 {
     lom_float c = lom_saturate(x);
-    lom_int q = __builtin_convertvector(c * largest, lom_int);
+    lom_int q = lom_bounded_to_int(c * largest);
     lom_float a = c * (largest + 1.0f) - lom_to_float(q);
     return q - (a - 0.5f >= c);
 }

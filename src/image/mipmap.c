@@ -54,8 +54,8 @@ static void write_texel(const lom_texture *texture, void *texel, const double su
         uint32_t value = 0;
         for (int c = 0; c < 4; c++) {
             bool srgb = texture->srgb && c < 3; /* otherwise sum is an integer below 2^40 */
-            uint32_t code =
-                srgb ? lom_srgb8_of((float)(sum[c] / (double)total)) : round_quotient((uint64_t)sum[c], total);
+            uint32_t code = srgb ? lom_srgb8_of((float)(sum[c] / (double)total))
+                                 : round_quotient((uint64_t)lom_int64_of(sum[c]), total);
             value |= code << 8 * c;
         }
         memcpy(texel, &value, sizeof value);

@@ -66,7 +66,7 @@ LOM_INLINE lom_int sample_locate(lom_float c, lom_float size, bool border, const
         lom_float texel = lom_clamp(lom_floor(c * size), low, high);
         x = lom_select(point->nearest, texel + 1.0f, x);
     }
-    lom_int k = __builtin_convertvector(x, lom_int);
+    lom_int k = lom_bounded_to_int(x);
     *weight = lom_min(x - lom_to_float(k), lom_splat(SAMPLE_LARGEST_WEIGHT));
     return k;
 }
@@ -222,7 +222,7 @@ LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kin
                                      sample_point *point, lom_float lod)
 {
     lom_float chosen = sample_choose(texture, point, lod);
-    lom_int level = __builtin_convertvector(chosen, lom_int);
+    lom_int level = lom_bounded_to_int(chosen);
     lom_float fraction = lom_min(chosen - lom_to_float(level), lom_splat(SAMPLE_LARGEST_WEIGHT));
     sample_place place = sample_place_of_levels(texture, level);
     lom_float4 value = sample_level(texture, kind, storage, srgb, point, &place);

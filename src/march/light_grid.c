@@ -37,7 +37,7 @@ static double density_at(const lom_image *image, int x, int y, int z)
 
 static double erode(const float eroded[256], double density)
 {
-    int below = (int)(density * 255);
+    int below = lom_int_of(density * 255);
     below = below < 254 ? below : 254;
     return eroded[below] + ((double)eroded[below + 1] - eroded[below]) * (density * 255 - below);
 }
@@ -67,7 +67,7 @@ static void average_density(lom_light_grid *grid, const lom_image *image, const 
                         for (int i = x0; i < x1; i++)
                             sum += erode(eroded, density_at(image, i, j, k));
                 double mean = sum / ((double)(x1 - x0) * (y1 - y0) * (z1 - z0));
-                *to++ = (uint16_t)(mean * 65535 + 0.5);
+                *to++ = (uint16_t)lom_count_of(mean * 65535 + 0.5, 65535);
             }
         }
     }
@@ -75,7 +75,7 @@ static void average_density(lom_light_grid *grid, const lom_image *image, const 
 
 static int scaled(int size, double scale)
 {
-    int result = (int)(size * scale + 0.5);
+    int result = lom_int_of(size * scale + 0.5);
     return result < 1 ? 1 : result;
 }
 
@@ -155,7 +155,7 @@ static void plan_sweep(const lom_light_grid *g, const lom_light_desc *desc, stru
     s->pitch = lom_slab_pitch(s->size[s->across[0]]);
     for (int i = 0; i < 2; i++) {
         s->shear[i] = -along[s->across[i]] * s->thickness;
-        s->rays[i] = s->size[s->across[i]] + (int)(magnitude(s->shear[i]) * (s->size[s->axis] - 1)) + 3;
+        s->rays[i] = s->size[s->across[i]] + lom_int_of(magnitude(s->shear[i]) * (s->size[s->axis] - 1)) + 3;
     }
 }
 
@@ -206,7 +206,7 @@ static void start_rays(const struct sweep *s, const lom_light_desc *desc, float 
 
 static void split_offset(double offset, int *whole, float *part)
 {
-    *whole = -(int)lom_double_floor(-offset);
+    *whole = -lom_int_of(lom_double_floor(-offset));
     *part = (float)(*whole - offset);
 }
 
@@ -314,7 +314,7 @@ static const double diffuse_share = 0.1125;
 
 static uint32_t diffuse_byte(double depth)
 {
-    return (uint32_t)(255 / (1 + diffuse_share * depth) + 0.5);
+    return (uint32_t)lom_count_of(255 / (1 + diffuse_share * depth) + 0.5, 255);
 }
 
 void lom_sweep_sky(lom_light_grid *g, const float size[3], float extinction)

@@ -72,7 +72,7 @@ static int empty_steps(const lom_medium *m, lom_float3 p, lom_mask alive, lom_fl
     for (; lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);
         float room = (float)m->distance[index[i]] - 1.01f;
-        int steps = room >= 0 ? 1 + (int)(room / per_step[i]) : 0;
+        int steps = room >= 0 ? 1 + lom_int_of(room / per_step[i]) : 0;
         least = steps < least ? steps : least;
         if (least == 0)
             return 0;

@@ -63,11 +63,11 @@ static int empty_steps(const bundle *b, const lom_volume *volume, int i)
     for (int axis = 0; axis < 3; axis++) {
         float along = b->start[axis] + (float)i * b->step[axis], most = (float)(size[axis] - 1);
         along = along > 0 ? along : 0;
-        cell[axis] = (int)(along < most ? along : most);
+        cell[axis] = lom_int_of(along < most ? along : most);
     }
     int index = (cell[2] * (size[1] + 1) + cell[1]) * (size[0] + 1) + cell[0];
     float room = (float)volume->distance[index] - 1.01f - b->spread;
-    return room >= 0 ? 1 + (int)(room / b->speed) : 0;
+    return room >= 0 ? 1 + lom_int_of(room / b->speed) : 0;
 }
 
 /* Whether every position is within 8192 cells, where float rounding is far below the margin above; false for NaN. */
@@ -93,7 +93,7 @@ static int last_step(const lom_march_rays *rays, const lom_march_desc *desc, lom
     }
     float low, high;
     bounds(leave, lanes, &low, &high);
-    return high > 0 ? (high < (float)desc->steps ? (int)high + 2 : desc->steps) : 1;
+    return high > 0 ? (high < (float)desc->steps ? lom_int_of(high) + 2 : desc->steps) : 1;
 }
 
 void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,

@@ -23,7 +23,7 @@ static uint32_t value_at(const lom_image *image, int x, int y, int z)
     if (image->format == LOM_FORMAT_R16)
         return *(const uint16_t *)p;
     float value = *(const float *)p;
-    return (uint32_t)((value > 0 ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f);
+    return (uint32_t)lom_count_of((value > 0 ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f, 65535);
 }
 
 static void store_corners(lom_medium *m, const lom_image *image)

@@ -2,6 +2,8 @@
  * operation, so that textures are the peers' to the byte. Invariant: nothing but float + - * / and floor. */
 #include "peer_noise.h"
 
+#include <lom/base.h>
+
 float lom_peer_clamp01(float x)
 {
     return x < 0 ? 0 : x > 1 ? 1 : x;
@@ -24,7 +26,7 @@ float lom_peer_smoothstep(float low, float high, float x)
 
 uint8_t lom_peer_byte(float x)
 {
-    return (uint8_t)(lom_peer_clamp01(x) * 255.0f + 0.5f);
+    return (uint8_t)lom_count_of(lom_peer_clamp01(x) * 255.0f + 0.5f, 255);
 }
 
 static float lattice(uint32_t x, uint32_t y, uint32_t z)
@@ -47,7 +49,7 @@ typedef struct cell {
 static cell find_cell(float x, int period)
 {
     float whole = __builtin_floorf(x);
-    int first = (((int)whole % period) + period) % period;
+    int first = ((lom_int_of(whole) % period) + period) % period;
     return (cell){ { (uint32_t)first, (uint32_t)((first + 1) % period) }, smooth(x - whole) };
 }
 

@@ -45,7 +45,7 @@ void lom_draw_fft(lom_workload *w, lom_device *device)
 static uint8_t shade_of(float part, int size)
 {
     double x = 127.5 + (double)part * (127.5 / 3.5) / size;
-    return (uint8_t)(x > 0 ? x < 255 ? x + 0.5 : 255 : 0);
+    return (uint8_t)lom_count_of(x > 0 ? x < 255 ? x + 0.5 : 255 : 0, 255);
 }
 
 static lom_image *fft_picture(const lom_workload *w, lom_error *error)

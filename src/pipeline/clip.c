@@ -110,7 +110,7 @@ static float clamp_ratio(float value, float w, float limit)
 
 static int32_t snap(float units)
 {
-    return (int32_t)__builtin_rintf(units);
+    return lom_int_of(__builtin_rintf(units));
 }
 
 /* The row's header, by the same steps as the vertex stage; a position on the guard band is held to it. */

@@ -85,7 +85,9 @@ static void add_depth(struct lom_pass *pass)
     lom_format format = pass->depth->format;
     pass->depth_scale = format == LOM_FORMAT_DEPTH32F ? 0 : scales[format];
     float clear = pass->desc.clear_depth > 0 ? pass->desc.clear_depth < 1 ? pass->desc.clear_depth : 1 : 0;
-    pass->clear_depth = pass->depth_scale == 0 ? clear : (float)lom_unorm_of(clear, (uint32_t)pass->depth_scale);
+    pass->clear_depth = pass->depth_scale == 0
+                            ? clear
+                            : (float)lom_unorm_of((double)clear, (uint32_t)lom_count_of(pass->depth_scale, 16777215));
 }
 
 static bool resolve_rects(lom_device *device)

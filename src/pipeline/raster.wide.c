@@ -44,8 +44,8 @@ static void find_small_edges(const struct lom_tile *tile, const lom_triangle *t,
 {
     int x = (b->left & ~1) - tile->x, y = (b->top & ~1) - tile->y; /* where the starts are valid */
     for (int i = 1; i < 3; i++) {
-        e[i].dx = (int32_t)(i == 1 ? t->step_x1 : t->step_x2);
-        e[i].dy = (int32_t)(i == 1 ? t->step_y1 : t->step_y2);
+        e[i].dx = lom_int_of(i == 1 ? t->step_x1 : t->step_x2);
+        e[i].dy = lom_int_of(i == 1 ? t->step_y1 : t->step_y2);
         e[i].start = t->small.start[i - 1] - e[i].dx * x - e[i].dy * y;
     }
     e[0].dx = -(e[1].dx + e[2].dx);

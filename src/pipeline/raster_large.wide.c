@@ -18,10 +18,10 @@ static struct edges find_edges(const struct lom_tile *tile, const lom_triangle *
         memcpy(v[k], tile->chunk->rows + t->row[k], sizeof v[k]);
     int64_t px = ((int64_t)(tile->x - tile->pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
     int64_t py = ((int64_t)(tile->y - tile->pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    e.dx[1] = (int64_t)t->step_x1;
-    e.dy[1] = (int64_t)t->step_y1;
-    e.dx[2] = (int64_t)t->step_x2;
-    e.dy[2] = (int64_t)t->step_y2;
+    e.dx[1] = lom_int64_of(t->step_x1);
+    e.dy[1] = lom_int64_of(t->step_y1);
+    e.dx[2] = lom_int64_of(t->step_x2);
+    e.dy[2] = lom_int64_of(t->step_y2);
     e.dx[0] = -(e.dx[1] + e.dx[2]);
     e.dy[0] = -(e.dy[1] + e.dy[2]);
     for (int i = 0; i < 3; i++) {

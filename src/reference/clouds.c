@@ -24,7 +24,7 @@ static bool is_same_density(const lom_cloud *a, const lom_cloud *b)
 
 static lom_image *load_density(const lom_cloud *cloud, lom_error *error)
 {
-    const int size[3] = { (int)cloud->voxels[0], (int)cloud->voxels[1], (int)cloud->voxels[2] };
+    const int size[3] = { lom_int_of(cloud->voxels[0]), lom_int_of(cloud->voxels[1]), lom_int_of(cloud->voxels[2]) };
     if (cloud->file != NULL)
         return lom_read_volume(cloud->file, size, error);
     return lom_make_cloud(&(lom_cloud_desc){ cloud->kind, size[0], size[1], size[2], (uint64_t)cloud->seed }, error);

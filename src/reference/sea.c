@@ -35,7 +35,7 @@ struct between {
 static struct between find_between(double place, double length, int size)
 {
     double turns = place / length, at = (turns - lom_double_floor(turns)) * size;
-    int low = (int)at;
+    int low = lom_int_of(at);
     low = low < size ? low : 0;
     return (struct between){ (size_t)low, (size_t)(low + 1 < size ? low + 1 : 0), at - lom_double_floor(at) };
 }

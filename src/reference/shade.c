@@ -162,7 +162,7 @@ static double range_weight(double x, double from, double to, double blend)
 static int find_sample(double place, double size, int samples, double *rest)
 {
     double x = unit_interval(place / size + 0.5) * (samples - 1);
-    int i = (int)x;
+    int i = lom_int_of(x);
     i = i > samples - 2 ? samples - 2 : i;
     *rest = x - i;
     return i;

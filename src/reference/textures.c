@@ -104,7 +104,7 @@ static int find_texel(double s, int size, double *fraction)
     place = (place < 1 ? place : 0) * size - 0.5;
     double whole = lom_double_floor(place);
     *fraction = place - whole;
-    return whole < 0 ? size - 1 : (int)whole;
+    return whole < 0 ? size - 1 : lom_int_of(whole);
 }
 
 lom_vec3 lom_sample_picture(const struct lom_picture *picture, double s, double t)
@@ -160,7 +160,7 @@ static lom_vec3 direction_of(int face, double s, double t)
 
 static int nearest_texel(double s, int size)
 {
-    int i = (int)lom_double_floor((s + 1) / 2 * size);
+    int i = lom_int_of(lom_double_floor((s + 1) / 2 * size));
     return i < 0 ? 0 : i < size ? i : size - 1;
 }
 
@@ -196,7 +196,7 @@ lom_vec3 lom_sample_cube_picture(const struct lom_picture *cube, lom_vec3 direct
     int face = find_face(direction, &s, &t), size = cube->image->width;
     double u = (s + 1) / 2 * size - 0.5, v = (t + 1) / 2 * size - 0.5;
     double left = lom_double_floor(u), upper = lom_double_floor(v);
-    int x = (int)left, y = (int)upper;
+    int x = lom_int_of(left), y = lom_int_of(upper);
     const lom_vec3 corner[4] = { texel_around(cube, face, x, y), texel_around(cube, face, x + 1, y),
                                  texel_around(cube, face, x, y + 1), texel_around(cube, face, x + 1, y + 1) };
     return bilinear(corner, u - left, v - upper);

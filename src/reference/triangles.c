@@ -58,7 +58,7 @@ struct split {
 
 static int bin_of(const struct split *split, const struct box *box)
 {
-    int bin = (int)((center(box, split->axis) - split->low) * split->scale);
+    int bin = lom_int_of((center(box, split->axis) - split->low) * split->scale);
     return bin < BINS ? bin : BINS - 1;
 }
 

@@ -98,7 +98,7 @@ bool lom_cross_volume(const lom_reference_volume *v, lom_vec3 origin, lom_vec3 d
 static int find_voxel(double at, int size, double *weight)
 {
     double place = at_most(at_least(at, 0), size - 1);
-    int voxel = (int)place;
+    int voxel = lom_int_of(place);
     voxel = voxel < size - 1 ? voxel : size - 1;
     *weight = place - voxel;
     return voxel;
@@ -171,7 +171,7 @@ static struct walk begin_walk(const lom_reference_volume *v, lom_vec3 origin, lo
             continue;
         }
         double at = w.start[i] + from * w.step[i], passed = w.step[i] > 0 ? at : v->size[i] - 1 - at;
-        w.next[i] = (int)at_most(at_least(passed, 0), v->size[i]);
+        w.next[i] = lom_int_of(at_most(at_least(passed, 0), v->size[i]));
         while (w.next[i] < v->size[i] && crossing(&w, i, w.next[i]) <= from)
             w.next[i]++;
     }

@@ -81,7 +81,7 @@ static double next_radius(const struct mesh *mesh, double radius)
 
 static struct mesh plan_mesh(const lom_reference_water *water, lom_vec3 eye, double shortest)
 {
-    struct mesh mesh = { .columns = (int)(TURN / SPACING), .fine = shortest / 12, .middle = { eye.x, eye.z } };
+    struct mesh mesh = { .columns = lom_int_of(TURN / SPACING), .fine = shortest / 12, .middle = { eye.x, eye.z } };
     double far = 0;
     for (int i = 0; i < 2; i++) {
         mesh.low[i] = water->low[i];

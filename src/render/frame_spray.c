@@ -84,7 +84,7 @@ static void set_indices(struct lom_spray_memory *m, const struct lom_sprites *sp
 static int pixel(double ndc, int size, int margin)
 {
     double at = lom_double_floor((0.5 + 0.5 * ndc) * size) + margin;
-    return at < 0 ? 0 : at > size ? size : (int)at;
+    return at < 0 ? 0 : at > size ? size : lom_int_of(at);
 }
 
 /* The pixels that sprites reach. */

@@ -37,8 +37,8 @@ static void map_range(int from, int to, int frame, double low, double high, doub
     double scale = 2.0 / (frame * (high - low)), offset = (-1 - low) / (high - low);
     double a = lom_double_floor((from * scale + offset - reach) * size) - 2;
     double b = lom_double_floor((to * scale + offset + reach) * size) + 3;
-    *first = a < 0 ? 0 : a < size ? (int)a : size - 1;
-    *count = (b > size ? size : b < 1 ? 1 : (int)b) - *first;
+    *first = a < 0 ? 0 : a < size ? lom_int_of(a) : size - 1;
+    *count = (b > size ? size : b < 1 ? 1 : lom_int_of(b)) - *first;
     *count = *count < 1 ? 1 : *count;
 }
 

@@ -65,12 +65,12 @@ static void sort_blocks(struct lom_ground *ground)
     for (size_t i = 0; i < count; i++) {
         double part = farthest > 0 ? ground->distance[i] / farthest : 0;
         ground->distance[i] = lom_double_floor(part * (BUCKETS - 1));
-        next[(int)ground->distance[i] + 1]++;
+        next[lom_int_of(ground->distance[i]) + 1]++;
     }
     for (int i = 0; i < BUCKETS; i++)
         next[i + 1] += next[i];
     for (size_t i = 0; i < count; i++)
-        ground->order[next[(int)ground->distance[i]]++] = (uint32_t)i;
+        ground->order[next[lom_int_of(ground->distance[i])]++] = (uint32_t)i;
 }
 
 /* ---- triangles ---- */

@@ -58,7 +58,7 @@ static void sweep_rays(const struct sweep *s, const float *heights, float *shado
         ray[r] = -1e30f;
     for (int i = 0; i < s->lines; i++) {
         double moved = i * s->shift;
-        int whole = (int)lom_double_floor(moved);
+        int whole = lom_int_of(lom_double_floor(moved));
         float share = (float)(moved - whole);
         const float *line = heights + s->first + i * s->line_step;
         float *out = shadow + s->first + i * s->line_step;
@@ -85,8 +85,8 @@ bool lom_find_ground_shadow(const float *heights, int width, int height, const d
     }
     struct sweep s = lay_sweep(width, height, size, to_light);
     double moved = (s.lines - 1) * s.shift;
-    int lowest = (int)lom_double_floor(moved > 0 ? -moved : 0) - 2;
-    int highest = s.places + 2 + (int)lom_double_floor(moved > 0 ? 0 : -moved);
+    int lowest = lom_int_of(lom_double_floor(moved > 0 ? -moved : 0)) - 2;
+    int highest = s.places + 2 + lom_int_of(lom_double_floor(moved > 0 ? 0 : -moved));
     int count = highest - lowest + 1;
     float *ray = lom_allocate((size_t)count, sizeof *ray, error);
     if (ray == NULL)

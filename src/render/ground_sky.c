@@ -94,13 +94,13 @@ static void spread(const struct grid *grid, int width, int height, float *share,
 {
     for (int j = 0; j < height; j++) {
         double y = (j + 0.5) * grid->height / height - 0.5;
-        int y0 = (int)lom_double_floor(y);
+        int y0 = lom_int_of(lom_double_floor(y));
         float v = (float)(y - y0);
         const float *upper = grid->visible + (size_t)bound(y0, grid->height) * (size_t)grid->width;
         const float *lower = grid->visible + (size_t)bound(y0 + 1, grid->height) * (size_t)grid->width;
         for (int i = 0; i < width; i++) {
             double x = (i + 0.5) * grid->width / width - 0.5;
-            int x0 = (int)lom_double_floor(x), a = bound(x0, grid->width), b = bound(x0 + 1, grid->width);
+            int x0 = lom_int_of(lom_double_floor(x)), a = bound(x0, grid->width), b = bound(x0 + 1, grid->width);
             float u = (float)(x - x0);
             float above = upper[a] + u * (upper[b] - upper[a]), below = lower[a] + u * (lower[b] - lower[a]);
             share[((size_t)j * (size_t)width + (size_t)i) * stride] = above + v * (below - above);

@@ -5,7 +5,7 @@
 
 static int scaled(int size, double scale)
 {
-    int result = (int)(size * scale + 0.5);
+    int result = lom_int_of(size * scale + 0.5);
     return result < 1 ? 1 : result;
 }
 
@@ -119,7 +119,7 @@ static lom_image *encode_16(const lom_image *linear, bool srgb, lom_error *error
             uint16_t *to = lom_image_pixel(out, x, y, 0);
             for (int c = 0; c < 3; c++) {
                 double value = from[c] > 0 ? from[c] < 1 ? from[c] : 1 : 0;
-                to[c] = (uint16_t)((srgb ? encode_srgb(value) : value) * 65535 + 0.5);
+                to[c] = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
             }
         }
     return out;

@@ -120,7 +120,7 @@ static void add_default(page *out, const lom_key *key)
     else if (key->type == LOM_KEY_BOOL)
         add(out, key->initial[0] != 0 ? "true" : "false");
     else if (key->type == LOM_KEY_CHOICE)
-        add_format(out, "\"%s\"", key->choices[(int)key->initial[0]]);
+        add_format(out, "\"%s\"", key->choices[lom_int_of(key->initial[0])]);
     else if (key->type == LOM_KEY_STRING || key->type == LOM_KEY_FILE)
         add(out, "none");
     else

@@ -277,7 +277,7 @@ static bool set_default(lom_reader *reader, const lom_key *key, void *target)
     if (key->type == LOM_KEY_BOOL)
         *(bool *)place = key->initial[0] != 0;
     else if (key->type == LOM_KEY_INTEGER || key->type == LOM_KEY_CHOICE)
-        *(int *)place = (int)key->initial[0];
+        *(int *)place = lom_int_of(key->initial[0]);
     else if (key->type == LOM_KEY_NUMBER || key->type == LOM_KEY_ANGLE || key->type == LOM_KEY_COLOR)
         for (size_t i = 0; i < value_count(key); i++)
             ((double *)place)[i] = to_member(key, key->initial[i]);

@@ -91,7 +91,7 @@ void lom_fill_atmosphere(lom_atmosphere *atmosphere, lom_vec3 sun, double hazine
 
 static double look_up(const double table[LOM_SKY_STEPS + 1][3], double place, int k)
 {
-    int row = place < LOM_SKY_STEPS - 1 ? (int)place : LOM_SKY_STEPS - 1;
+    int row = place < LOM_SKY_STEPS - 1 ? lom_int_of(place) : LOM_SKY_STEPS - 1;
     return lom_mix_double(table[row][k], table[row + 1][k], place - row);
 }
 

@@ -12,7 +12,7 @@ static double web(const lom_noise *noise, double x, double y)
     double bend = 0.06 * lom_fractal2(noise, x * 4, y * 4, few), sway = 0.06 * lom_fractal2(noise, y * 4, x * 4, few);
     double value = 0, cells = 5, share = 0.42;
     for (int i = 0; i < 3; i++, cells *= 2.6, share *= 0.75) {
-        int count = (int)(cells + 0.5);
+        int count = lom_int_of(cells + 0.5);
         lom_cell c = lom_cellular2(noise, (x + bend) * count + 64, (y + sway) * count + 64, count, count);
         value += share * (1 - lom_smooth_step(0, 0.5, c.second - c.nearest));
     }
@@ -25,11 +25,11 @@ static void spread_evenly(const float *value, uint8_t *out, size_t count)
     enum { BINS = 4096 };
     size_t below[BINS + 1] = { 0 };
     for (size_t i = 0; i < count; i++)
-        below[1 + (int)(lom_clamp_double(value[i] * 0.4 + 0.3, 0, 0.9999) * BINS)]++;
+        below[1 + lom_int_of(lom_clamp_double(value[i] * 0.4 + 0.3, 0, 0.9999) * BINS)]++;
     for (int b = 0; b < BINS; b++)
         below[b + 1] += below[b];
     for (size_t i = 0; i < count; i++) {
-        size_t bin = (size_t)(lom_clamp_double(value[i] * 0.4 + 0.3, 0, 0.9999) * BINS);
+        size_t bin = lom_count_of(lom_clamp_double(value[i] * 0.4 + 0.3, 0, 0.9999) * BINS, BINS - 1);
         out[i] = (uint8_t)((below[bin] + below[bin + 1]) * 255 / (2 * count));
     }
 }

@@ -99,7 +99,7 @@ static void join_jet(const lom_emitter *e, size_t index, double birth, double *a
     const size_t jet = index % (size_t)e->jets;
     const double turns = birth / e->jet_time + (double)jet / (double)e->jets, turn = lom_double_floor(turns);
     const uint64_t key = lom_random_bits(e->seed, (uint64_t)LOM_MAX_PARTICLES + jet);
-    const uint64_t counter = (uint64_t)(int64_t)turn * DRAWS;
+    const uint64_t counter = (uint64_t)lom_int64_of(turn) * DRAWS;
     double common[2], length = 0, part = turns - turn;
     lom_random_normal(key, counter + SPREAD, common);
     for (int i = 0; i < 3; i++)
@@ -117,7 +117,7 @@ static lom_particle particle_at(const lom_emitter *e, size_t index, double time)
     double lives = time / e->life + (double)index / (double)e->count, whole = lom_double_floor(lives);
     if (lives - whole >= 1) /* lives is negative and so small that the difference rounds to 1: the next life begins */
         lives = whole = whole + 1;
-    lom_particle p = { .share = lives - whole, .life = (int64_t)whole };
+    lom_particle p = { .share = lives - whole, .life = lom_int64_of(whole) };
     p.alpha = ramp(10 * p.share) * ramp(10 * (1 - p.share));
     const uint64_t key = lom_random_bits(e->seed, index), counter = (uint64_t)p.life * DRAWS;
     double along = lom_random_uniform(key, counter + PLACE), normal[2], rise[2], start[3];

@@ -21,9 +21,10 @@ static void add_photon(uint64_t *sum, int size, double x, double y, double light
     spline(y - fy, wy);
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++) {
-            int column = (int)fx + i - 1, row = (int)fy + j - 1;
+            int column = lom_int_of(fx) + i - 1, row = lom_int_of(fy) + j - 1;
             if (column >= 0 && column < size && row >= 0 && row < size)
-                sum[(size_t)row * (size_t)size + (size_t)column] += (uint64_t)(light * wx[i] * wy[j] * unit + 0.5);
+                sum[(size_t)row * (size_t)size + (size_t)column] +=
+                    (uint64_t)lom_int64_of(light * wx[i] * wy[j] * unit + 0.5);
         }
 }
 

@@ -134,7 +134,7 @@ bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mes
     double sector = s.whole ? 6.283185307179586 : 2 * s.half;
     for (;; space.cell *= 1.25) {
         mesh->rings = count_rings(&space);
-        mesh->columns = 2 + (int)(sector / space.cell < MAX_COLUMNS ? sector / space.cell : MAX_COLUMNS);
+        mesh->columns = 2 + lom_int_of(sector / space.cell < MAX_COLUMNS ? sector / space.cell : MAX_COLUMNS);
         if (mesh->rings <= MAX_RINGS && mesh->columns <= MAX_COLUMNS && mesh->rings * mesh->columns <= MAX_VERTICES)
             break;
     }

@@ -108,7 +108,7 @@ static bool make_cascade(lom_sea *sea, int number, lom_device *device, lom_error
         waves += sums[4 * row + 2];
         c->view.bound += 1.001 * sums[4 * row + 3]; /* floats round */
     }
-    c->view.waves = (int)waves;
+    c->view.waves = lom_int_of(waves);
     lom_release(sums);
     return true;
 }

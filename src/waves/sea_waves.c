@@ -149,7 +149,7 @@ static bool fill(void *memory, struct lom_waves_uniform *out, double time, lom_e
 static const float *sample_at(const lom_sea_cascade *c, double x, double z)
 {
     double s = x / c->length, t = z / c->length;
-    int column = (int)((s - lom_double_floor(s)) * c->size), row = (int)((t - lom_double_floor(t)) * c->size);
+    int column = lom_int_of((s - lom_double_floor(s)) * c->size), row = lom_int_of((t - lom_double_floor(t)) * c->size);
     column = column < c->size ? column : c->size - 1;
     row = row < c->size ? row : c->size - 1;
     return c->displacement + 4 * ((size_t)row * (size_t)c->size + (size_t)column);

@@ -128,16 +128,16 @@ static struct range cells_between(double low, double high, double cell, int coun
     double first = lom_double_floor(low / cell - 0.5) + 1, last = lom_double_floor(high / cell - 0.5);
     return (struct range){ first < 0       ? 0
                            : first > count ? count
-                                           : (int)first,
+                                           : lom_int_of(first),
                            last >= count ? count - 1
                            : last < -1   ? -1
-                                         : (int)last };
+                                         : lom_int_of(last) };
 }
 
 static int nearest_cell(double x, double cell, int count)
 {
     double i = lom_double_floor(x / cell);
-    return i < 0 ? 0 : i >= count ? count - 1 : (int)i;
+    return i < 0 ? 0 : i >= count ? count - 1 : lom_int_of(i);
 }
 
 /* Rise of every cell in the disc, or how many there are when `amount` is NULL. */

@@ -14,8 +14,8 @@ static double bed_at(const struct lom_wave_site *site, double x, double z)
     double u = (x / size[0] + 0.5) * bed->columns, v = (z / size[1] + 0.5) * bed->rows;
     u = u < 0 ? 0 : u > bed->columns ? bed->columns : u;
     v = v < 0 ? 0 : v > bed->rows ? bed->rows : v;
-    int column = (int)u < bed->columns ? (int)u : bed->columns - 1;
-    int row = (int)v < bed->rows ? (int)v : bed->rows - 1;
+    int column = lom_int_of(u) < bed->columns ? lom_int_of(u) : bed->columns - 1;
+    int row = lom_int_of(v) < bed->rows ? lom_int_of(v) : bed->rows - 1;
     const float *h = bed->heights + (size_t)row * ((size_t)bed->columns + 1) + column;
     const float *below = h + bed->columns + 1;
     double s = u - column, t = v - row;
@@ -30,7 +30,7 @@ bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom
     if (!w->present)
         return true;
     double longer = w->size[0] > w->size[1] ? w->size[0] : w->size[1], cell = longer / w->cells;
-    int columns = (int)(w->size[0] / cell + 0.5), rows = (int)(w->size[1] / cell + 0.5);
+    int columns = lom_int_of(w->size[0] / cell + 0.5), rows = lom_int_of(w->size[1] / cell + 0.5);
     region->cell = cell;
     region->columns = columns < 2 ? 2 : columns;
     region->rows = rows < 2 ? 2 : rows;
@@ -117,14 +117,14 @@ bool lom_advance_shallow_region(struct lom_shallow_region *region, const struct 
     if (steps > MOST_STEPS)
         return lom_fail(error, LOM_ERROR_LIMIT,
                         "This frame is more than %d steps of shallow water after the beginning.", MOST_STEPS);
-    if (region->now != NULL && lom_view_shallow(region->now).steps > (int64_t)steps) {
+    if (region->now != NULL && lom_view_shallow(region->now).steps > lom_int64_of(steps)) {
         lom_free_shallow(region->now);
         region->now = NULL;
     }
     if (region->now == NULL)
         region->now = lom_copy_shallow(region->first, error);
     bool done = region->now != NULL;
-    for (int64_t i = done ? lom_view_shallow(region->now).steps : 0; done && i < (int64_t)steps; i++)
+    for (int64_t i = done ? lom_view_shallow(region->now).steps : 0; done && i < lom_int64_of(steps); i++)
         done = run_step(region, site, start + (double)i * step, error);
     return done;
 }

@@ -110,7 +110,7 @@ void lom_sample_shallow_surface(const lom_shallow_view *v, const float (*surface
     for (int i = 0; i < 4; i++)
         texel[i] = 0;
     for (int k = 0; k < 4; k++) {
-        const float *s = surface[cell_of(v, (int)column + (k & 1), (int)row + (k >> 1))];
+        const float *s = surface[cell_of(v, lom_int_of(column) + (k & 1), lom_int_of(row) + (k >> 1))];
         for (int i = 0; i < 4; i++)
             texel[i] += (double)s[i] * (k & 1 ? u : 1 - u) * (k >> 1 ? w : 1 - w);
     }

@@ -48,7 +48,7 @@ static void look_up(const struct lom_surf_map *map, double x, double z, double v
     double part[2];
     for (int i = 0; i < 2; i++) {
         double at = place[i] < 0 ? 0 : place[i] > size[i] - 1 ? size[i] - 1 : place[i];
-        cell[i] = (int)at < size[i] - 2 ? (int)at : size[i] - 2;
+        cell[i] = lom_int_of(at) < size[i] - 2 ? lom_int_of(at) : size[i] - 2;
         part[i] = at - cell[i];
     }
     for (int k = 0; k < 6; k++)

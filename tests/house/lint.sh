@@ -8,6 +8,7 @@ found() { echo "lint: $1"; status=1; }
 have() { command -v "$1" >/dev/null 2>&1 || { echo "lint: $1 is not installed, so $2 was not checked"; return 1; }; }
 
 tests/house/layers.sh || status=1
+BUILD=$BUILD tests/house/conversions.sh || status=1
 
 sources=$(ls include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch])
 if have clang-format "the format"; then
