@@ -10,7 +10,9 @@ double lom_cloud_phase_at(const lom_clouds *params, double time)
 {
     if (!(params->evolve > 0))
         return 0;
-    return lom_double_floor(time / params->evolve * STEPS) / STEPS;
+    static const double most = 0x1p44; /* below it a double holds a phase in whole steps; beyond, shapes stand still */
+    double phase = lom_double_floor(time / params->evolve * STEPS) / STEPS;
+    return phase > -most ? phase < most ? phase : most : -most;
 }
 
 static double mean_of(const lom_image *noise)
@@ -54,7 +56,7 @@ bool lom_evolve_clouds(struct lom_cloud_set *set, double time, lom_error *error)
     if (set->phase == phase)
         return true;
     double whole = lom_double_floor(phase), turn = lom_double_floor(whole / LOM_DETAIL_FIELDS);
-    int from = lom_int_of(whole - turn * LOM_DETAIL_FIELDS);
+    int from = (int)lom_count_of(whole - turn * LOM_DETAIL_FIELDS, LOM_DETAIL_FIELDS - 1);
     lom_image *mixed = lom_create_image(LOM_DETAIL_SIZE, LOM_DETAIL_SIZE, LOM_DETAIL_SIZE, LOM_FORMAT_R8, error);
     if (mixed != NULL)
         mix_fields(set->fields[from], set->fields[(from + 1) % LOM_DETAIL_FIELDS], phase - whole, mixed);

@@ -26,7 +26,7 @@ static const lom_key cloud[] = {
       .text = "Another seed gives another cloud of the kind." },
     { "position", LOM_KEY_NUMBER, AT(position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Where the middle of its base is." },
-    { "size", LOM_KEY_NUMBER, AT(size), 3, .flags = LOM_KEY_ABOVE | LOM_KEY_SPREAD, .maximum = 1e6, .unit = "m",
+    { "size", LOM_KEY_NUMBER, AT(size), 3, .flags = LOM_KEY_SPREAD, .minimum = 1e-6, .maximum = 1e6, .unit = "m",
       .initial = { 1000, 1000, 1000 }, .text = "Extent of its box along x, y and z.", .initial_text = "the kind's" },
     { "yaw", LOM_KEY_ANGLE, AT(yaw), .minimum = -360, .maximum = 360, .unit = "degrees",
       .text = "Turns it about the y axis, counter-clockwise seen from above." },

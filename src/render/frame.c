@@ -157,6 +157,17 @@ static bool check_memory(const struct frame *f, lom_error *error)
                f->width, f->height, taken, limit, f->desc->memory > 0 ? "as asked for" : "this machine's memory");
 }
 
+/* Beyond it, doubles no longer hold a time to a ten-millionth of a second. */
+static bool check_time(const struct frame *f, lom_error *error)
+{
+    static const double most = 1e9;
+    double fps = f->scene->output.fps, time = f->desc->frame / fps;
+    return (time >= -most && time <= most) ||
+           lom_fail(error, LOM_ERROR_LIMIT,
+                    "Frame %d is not within 1e9 seconds of the first at %g a second (output.fps).", f->desc->frame,
+                    fps);
+}
+
 static bool find_sizes(struct frame *f, lom_error *error)
 {
     const lom_frame_desc *desc = f->desc;
@@ -168,7 +179,7 @@ static bool find_sizes(struct frame *f, lom_error *error)
         f->crop.y > f->height - f->crop.height)
         return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
                         f->crop.x, f->crop.y, f->crop.width, f->crop.height, f->width, f->height);
-    return check_picture(f, error) && check_memory(f, error);
+    return check_time(f, error) && check_picture(f, error) && check_memory(f, error);
 }
 
 bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_error *error)
