@@ -230,7 +230,7 @@ $(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
 	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # Every float through every conversion (a minute) and every unary lane function (a quarter of an hour).
-LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4
+LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/render/test_key_ranges
 check-long: $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
 
@@ -327,7 +327,7 @@ uninstall:
 	    $(INSTALL_LIB)/pkgconfig/lom.pc $(patsubst include/lom/%,$(INSTALL_INC)/%,$(wildcard include/lom/*.h))
 	-rmdir $(INSTALL_INC) 2>/dev/null
 
-# Format, layers, exported names, header files alone in C and C++, cppcheck. Tools that are not installed are named.
+# Format, layers, conversions to integers, exported names, header files alone in C and C++, cppcheck. Tools that are not installed are named.
 lint: $(BUILD)/liblom.a
 	CC='$(CC)' BUILD='$(BUILD)' tests/house/lint.sh
 
