@@ -30,6 +30,9 @@ bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom
     if (!w->present)
         return true;
     double longer = w->size[0] > w->size[1] ? w->size[0] : w->size[1], cell = longer / w->cells;
+    if (!(cell >= 0.001 && cell <= 1e5))
+        return lom_fail(error, LOM_ERROR_LIMIT,
+                        "The longer of shallow.size over shallow.cells is not within 0.001..100000 m: %g m.", cell);
     int columns = lom_int_of(w->size[0] / cell + 0.5), rows = lom_int_of(w->size[1] / cell + 0.5);
     region->cell = cell;
     region->columns = columns < 2 ? 2 : columns;
@@ -115,8 +118,10 @@ bool lom_advance_shallow_region(struct lom_shallow_region *region, const struct 
     double step = site->shallow->step, start = site->shallow->start;
     double steps = time > start ? lom_double_floor((time - start) / step + 0.001) : 0;
     if (steps > MOST_STEPS)
-        return lom_fail(error, LOM_ERROR_LIMIT,
-                        "This frame is more than %d steps of shallow water after the beginning.", MOST_STEPS);
+        return lom_fail(
+            error, LOM_ERROR_LIMIT,
+            "This frame is more than %d steps (shallow.step) of shallow water after the beginning (shallow.start).",
+            MOST_STEPS);
     if (region->now != NULL && lom_view_shallow(region->now).steps > lom_int64_of(steps)) {
         lom_free_shallow(region->now);
         region->now = NULL;
