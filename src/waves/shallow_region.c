@@ -57,8 +57,12 @@ bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom
         desc.edge[i] = (lom_shallow_edge)w->edge;
         desc.edge_level[i] = desc.level;
     }
-    if (height != NULL)
-        region->first = lom_create_shallow(&desc, error);
+    if (height != NULL) {
+        lom_error failed = { 0 };
+        region->first = lom_create_shallow(&desc, &failed);
+        if (region->first == NULL)
+            lom_fail(error, failed.code, "[shallow] at water.level over the terrain: %s", failed.text);
+    }
     lom_release(height);
     return region->first != NULL;
 }

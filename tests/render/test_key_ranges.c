@@ -104,7 +104,7 @@ static const struct base bases[] = {
     { "spray", "spray quality.spray camera.near output.fps",
       VIEW
       "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\njets = 2\nspread = 0.3\nspread_up = 0.2\ndrag = 0.3\n"
-      "size = [0.3, 0.5]\nstretch = 0.1\nlife = 0.5\n" },
+      "size = [0.3, 0.5]\nstretch = 0.1\n" },
     { "falls", "spray.0.height spray.0.velocity",
       VIEW "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\nspread = 0.3\nheight = 4\n" },
     { "reference", "quality.reference water.optics light.elevation",
