@@ -107,16 +107,22 @@ static const int32_t block_codes[16][4] = {
     { CODE(0), CODE(1), CODE(2), CODE(3) },
 };
 
+static const uint8_t block_counts[16] = { 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4 };
+
 /* Adds the pixels of a part of a window whose lanes are set; `codes` are those of all its pixels. Without a branch: one
  * that depends on a mask is guessed wrong too often. */
 LOM_INLINE void list_part(struct lom_list *list, lom_mask covered, lom_int codes)
 {
     int32_t *to = list->code + list->count;
-    if (LOM_LANES == 4) /* a block, and the baseline has no permutation that a compression could use */
-        lom_store_int(to, lom_load_int(block_codes[lom_bits(covered)]) + codes[0]);
-    else
+    uint32_t bits = lom_bits(covered);
+    if (LOM_LANES > 4) {
         lom_compress((float *)to, covered, lom_as_float(codes));
-    list->count += (int)lom_count(covered);
+        list->count += (int)lom_count_bits(bits);
+        return;
+    }
+    /* A block, and the baseline has neither a permutation to compress by nor a count of bits. */
+    lom_store_int(to, lom_load_int(block_codes[bits]) + codes[0]);
+    list->count += block_counts[bits];
 }
 
 /* The code of pixel (x, y) of the tile, both even, of the list's next triangle. */

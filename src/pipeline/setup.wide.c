@@ -4,12 +4,13 @@
  *
  * Invariant: the record is the same for every order of the three vertices; only facing and the provoking vertex
  * remember it. Triangles that fit a 4x4 window get their exact coverage here, and the empty ones end here. */
+#include "lanes/pair_products.h"
 #include "pipeline/stages.h"
 
 struct vertices { /* one corner of LOM_LANES triangles */
     lom_int x, y;
-    lom_int row; /* where its row begins (a multiple of 4), plus 1 for the provoking vertex */
-    lom_float depth;
+    lom_int row;   /* where its row begins (a multiple of 4), plus 1 for the provoking vertex */
+    lom_int depth; /* bits of a float, which only moves until the record is written */
 };
 
 struct packet {
@@ -38,7 +39,7 @@ LOM_INLINE void load_corner(const struct lom_chunk *chunk, const uint32_t *corne
     lom_int number = lom_gather_int((const int32_t *)corners + k, lom_lane_index() * 3);
     v->x = lom_as_int(header.x);
     v->y = lom_as_int(header.y);
-    v->depth = header.z;
+    v->depth = lom_as_int(header.z);
     v->row = number * (int32_t)pitch + (k == 2 ? 1 : 0);
 }
 
@@ -54,12 +55,12 @@ LOM_INLINE void measure(struct packet *p)
 }
 
 /* Twice the area of v[0], v[1], v[2], positive clockwise on the screen (y down): its sign, and its size rounded once.
- */
+ * Of small triangles, whose differences are below SMALL_EXTENT = 2^14. */
 LOM_INLINE void find_area(struct packet *p)
 {
     const struct vertices *v = p->v;
     lom_int ax = v[1].x - v[0].x, ay = v[1].y - v[0].y, bx = v[2].x - v[0].x, by = v[2].y - v[0].y;
-    lom_int area = ax * by - ay * bx;
+    lom_int area = lom_dot_pairs(lom_make_pair(ax, ay), lom_make_pair(by, -bx));
     p->sign = ((area > 0) & 1) | (area < 0);
     p->area = lom_abs(lom_to_float(area));
 }
@@ -91,21 +92,24 @@ LOM_INLINE void cull(const struct lom_draw *draw, struct packet *p)
         p->alive &= ~p->front;
 }
 
+/* Two selects are more than this where the processor has no instruction for them. */
+LOM_INLINE void exchange(lom_mask swap, lom_int *a, lom_int *b)
+{
+    lom_int difference = (*a ^ *b) & swap;
+    *a ^= difference;
+    *b ^= difference;
+}
+
 /* Vertices a and b in the order of (y, x); each exchange turns the sign of the area. */
 LOM_INLINE void order(struct packet *p, int a, int b)
 {
     struct vertices *u = &p->v[a], *v = &p->v[b];
     lom_mask swap = (v->y < u->y) | ((v->y == u->y) & (v->x < u->x));
-    struct vertices s = *u;
-    u->x = lom_select_int(swap, v->x, u->x);
-    u->y = lom_select_int(swap, v->y, u->y);
-    u->row = lom_select_int(swap, v->row, u->row);
-    u->depth = lom_select(swap, v->depth, u->depth);
-    v->x = lom_select_int(swap, s.x, v->x);
-    v->y = lom_select_int(swap, s.y, v->y);
-    v->row = lom_select_int(swap, s.row, v->row);
-    v->depth = lom_select(swap, s.depth, v->depth);
-    p->sign = lom_select_int(swap, -p->sign, p->sign);
+    exchange(swap, &u->x, &v->x);
+    exchange(swap, &u->y, &v->y);
+    exchange(swap, &u->row, &v->row);
+    exchange(swap, &u->depth, &v->depth);
+    p->sign = (p->sign ^ swap) - swap;
 }
 
 /* The pixels whose centres may be inside, cut by the scissor. */
@@ -131,17 +135,19 @@ LOM_INLINE void bound(const struct lom_pass *pass, const struct lom_draw *draw, 
                        lom_splat_int(TRIANGLE_LARGE));
 }
 
-/* The edge functions at the centre of pixel (left & ~1, top & ~1). */
+/* The edge functions at the centre of pixel (left & ~1, top & ~1), which lies within two pixels of the bounds: of small
+ * triangles all factors are below 2^15, and of the others nobody reads the starts. */
 LOM_INLINE struct edge_lanes find_edges(const struct lom_pass *pass, const struct packet *p)
 {
     struct edge_lanes e;
     lom_int px = (((p->left & ~1) - pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
     lom_int py = (((p->top & ~1) - pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    lom_mask turned = p->sign < 0;
     for (int i = 0; i < 3; i++) {
         const struct vertices *a = &p->v[i == 2 ? 0 : i + 1], *b = &p->v[i == 0 ? 2 : i - 1];
-        e.ex[i] = (b->x - a->x) * p->sign;
-        e.ey[i] = (b->y - a->y) * p->sign;
-        e.start[i] = e.ex[i] * (py - a->y) - e.ey[i] * (px - a->x);
+        e.ex[i] = ((b->x - a->x) ^ turned) - turned;
+        e.ey[i] = ((b->y - a->y) ^ turned) - turned;
+        e.start[i] = lom_dot_pairs(lom_make_pair(e.ex[i], e.ey[i]), lom_make_pair(py - a->y, a->x - px));
         e.dx[i] = -e.ey[i] * SUBPIXELS;
         e.dy[i] = e.ex[i] * SUBPIXELS;
     }
@@ -172,6 +178,8 @@ LOM_INLINE lom_int cover_window(const struct packet *p, const struct edge_lanes 
         for (int i = 0; i < 3; i++)
             row[i] += e->dy[i];
     }
+    if (!lom_any(p->cut)) /* the edges let no pixel outside the vertices' bounds through */
+        return mask;
     lom_int wx = p->left & ~1, wy = p->top & ~1;
     lom_int columns = span(p->left - wx, p->right - wx), rows = span(p->top - wy, p->bottom - wy);
     lom_int left_half = columns & 3, right_half = columns >> 2;
@@ -245,13 +253,13 @@ static void append(const struct lom_pass *pass, struct lom_chunk *chunk, const s
     }
     lom_int at = lom_load_int(place);
     float *to = (float *)(void *)(chunk->triangles + chunk->triangle_count);
-    lom_float scale = lom_splat(SUBPIXELS);
+    lom_float scale = lom_splat(SUBPIXELS), z0 = lom_as_float(p->v[0].depth);
     lom_scatter_rows(to, at,
                      (lom_float4){ lom_to_float(-e->ey[1]) * scale, lom_to_float(e->ex[1]) * scale,
                                    lom_to_float(-e->ey[2]) * scale, lom_to_float(e->ex[2]) * scale });
     lom_scatter_rows(
         to + 4, at,
-        (lom_float4){ 1.0f / p->area, p->v[0].depth, p->v[1].depth - p->v[0].depth, p->v[2].depth - p->v[0].depth });
+        (lom_float4){ 1.0f / p->area, z0, lom_as_float(p->v[1].depth) - z0, lom_as_float(p->v[2].depth) - z0 });
     lom_scatter_rows(to + 8, at, pack_edges(p, e));
     lom_scatter_rows(to + 12, at, pack_state(p, mask));
     chunk->triangle_count += (size_t)(next / WORDS);
