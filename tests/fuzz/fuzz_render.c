@@ -29,10 +29,10 @@ static const char *const parts[] = {
     "voxels = [8, 8, 8]\nsize = 20\nposition = [0, 5, -20]\n",
     "[[spray]]\ncount = 20\nfrom = [-1, 1, 0]\nto = [1, 1, 0]\nsize = 0.3\n",
     "[haze]\ndensity = 0.01\n",
-    "[surf]\nheight = 1\n",
 };
+static const char surf[] = "[surf]\nheight = 1\n";
 static const char shallow[] = "[shallow]\ncells = 8\nstep = 0.02\n[[shallow.spring]]\nposition = [0, 0]\nrate = 1\n"
-                              "[[shallow.body]]\nhalf = 2\n";
+                              "[[shallow.body]]\nposition = [0, 0]\nhalf = 2\n";
 enum { PARTS = sizeof parts / sizeof *parts };
 
 /* Keys that choose how much is computed, by the end of their path; and files. */
@@ -126,6 +126,12 @@ static bool take_override(fuzz_bytes *in, char text[MOST_TEXT])
     }
 }
 
+static void require(bool condition)
+{
+    if (!condition)
+        abort();
+}
+
 static lom_scene *take_scene(fuzz_bytes *in, bool *runs_on, lom_error *error)
 {
     static char overrides[MOST_OVERRIDES][MOST_TEXT];
@@ -137,23 +143,29 @@ static lom_scene *take_scene(fuzz_bytes *in, bool *runs_on, lom_error *error)
     for (int i = 0; i < PARTS; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s", chosen >> i & 1 ? parts[i] : "");
     used += (size_t)snprintf(text + used, sizeof text - used, "%s", *runs_on ? shallow : "");
+    if ((chosen & 3) == 3) /* waves come in to a shore */
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s", surf);
     size_t count = 0;
-    while (in->size > 1 && count < MOST_OVERRIDES) {
+    lom_scene *scene = lom_decode_scene(text, used, small_path("scene.toml"), NULL, 0, error);
+    while (scene != NULL && in->size > 1 && count < MOST_OVERRIDES) {
         items[count] = overrides[count];
-        count += take_override(in, overrides[count]);
+        if (!take_override(in, overrides[count]))
+            continue;
+        lom_error refusal = { 0 };
+        lom_scene *next = lom_decode_scene(text, used, small_path("scene.toml"), items, count + 1, &refusal);
+        require((next != NULL) == (refusal.code == LOM_OK) && strchr(refusal.text, '\n') == NULL);
+        if (next == NULL) /* what does not go with the rest is left out */
+            continue;
+        lom_free_scene(scene);
+        scene = next;
+        count++;
     }
     if (getenv("LOM_FUZZ_SHOW") != NULL) {
         fwrite(text, 1, used, stderr);
         for (size_t i = 0; i < count; i++)
             fprintf(stderr, "--set '%s'\n", items[i]);
     }
-    return lom_decode_scene(text, used, small_path("scene.toml"), items, count, error);
-}
-
-static void require(bool condition)
-{
-    if (!condition)
-        abort();
+    return scene;
 }
 
 /* One frame, whole or a part, by one of two devices. */
