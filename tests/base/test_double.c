@@ -435,6 +435,33 @@ static void the_hash_is_the_recorded_one(void)
     CHECK(hash == UINT64_C(0xc7a8b18160926b87), "%016llx", (unsigned long long)hash);
 }
 
+/* What the rounding of a double to a float leaves, of three members of a struct: gcc 12 vectorizes such lines, from -O2 on,
+ * to no rounding at all unless FLOAT_FLAGS keep it from that. */
+struct split {
+    float near[4], rest[4];
+};
+
+__attribute__((noinline)) static struct split split_three(const double *x)
+{
+    struct split s = { .near = { 0 } };
+    for (int i = 0; i < 3; i++) {
+        s.near[i] = (float)x[i];
+        s.rest[i] = (float)(x[i] - (double)s.near[i]);
+    }
+    return s;
+}
+
+static void a_rounding_to_float_is_never_dropped(void)
+{
+    static const double x[3] = { 10.1, 20.7, -33.3 };
+    struct split s = split_three(x);
+    for (int i = 0; i < 3; i++) {
+        volatile float near = (float)x[i];
+        CHECK(s.near[i] == near && s.rest[i] == (float)(x[i] - (double)near) && s.rest[i] != 0, "%d: %a", i,
+              (double)s.rest[i]);
+    }
+}
+
 int main(int argc, char **argv)
 {
     RUN(known_values_are_within_1_ulp);
@@ -447,5 +474,6 @@ int main(int argc, char **argv)
 #endif
     RUN(symmetries_are_exact);
     RUN(the_hash_is_the_recorded_one);
+    RUN(a_rounding_to_float_is_never_dropped);
     return check_result();
 }
