@@ -53,23 +53,44 @@ static void fill_ends(const edge *e, uint8_t *first, int n, size_t step, size_t 
 }
 
 /* Columns first, then whole rows with them, then whole slices, so that corners combine the modes of their axes. */
-static void fill_flat(lom_texture *texture, int level)
+void lom_fill_columns(lom_texture *texture, int level, int layer, int first, int end)
+{
+    uint8_t border[16];
+    size_t texel = lom_texel_size(texture);
+    edge e = { texture->sampler.wrap_s, border, texel };
+    make_border(texture, border);
+    for (int y = first; y < end; y++)
+        fill_ends(&e, lom_texel(texture, level, 0, y, layer), texture->level[level].width, texel, texel);
+}
+
+void lom_fill_rows(lom_texture *texture, int level, int layer)
 {
     const lom_level *l = &texture->level[level];
     uint8_t border[16];
-    make_border(texture, border);
     size_t texel = lom_texel_size(texture), row = l->pitch * texel;
-    edge e = { LOM_WRAP_REPEAT, border, texel };
+    edge e = { texture->sampler.wrap_t, border, texel };
+    make_border(texture, border);
+    fill_ends(&e, lom_texel(texture, level, -1, 0, layer), l->height, row, row);
+}
+
+static void fill_slices(lom_texture *texture, int level)
+{
+    const lom_level *l = &texture->level[level];
+    uint8_t border[16];
+    size_t texel = lom_texel_size(texture), slice = l->slice * texel;
+    edge e = { texture->sampler.wrap_r, border, texel };
+    make_border(texture, border);
+    fill_ends(&e, lom_texel(texture, level, -1, -1, 0), l->depth, slice, slice);
+}
+
+static void fill_flat(lom_texture *texture, int level)
+{
     for (int z = 0; z < lom_level_layers(texture, level); z++) {
-        e.wrap = texture->sampler.wrap_s;
-        for (int y = 0; y < l->height; y++)
-            fill_ends(&e, lom_texel(texture, level, 0, y, z), l->width, texel, texel);
-        e.wrap = texture->sampler.wrap_t;
-        fill_ends(&e, lom_texel(texture, level, -1, 0, z), l->height, row, row);
+        lom_fill_columns(texture, level, z, 0, texture->level[level].height);
+        lom_fill_rows(texture, level, z);
     }
-    e.wrap = texture->sampler.wrap_r;
     if (texture->kind == LOM_TEXTURE_3D)
-        fill_ends(&e, lom_texel(texture, level, -1, -1, 0), l->depth, l->slice * texel, l->slice * texel);
+        fill_slices(texture, level);
 }
 
 /* ---- cubes ---- */

@@ -125,26 +125,52 @@ static void shrink_even_row(const lom_texture *texture, const void *upper, const
     }
 }
 
-void lom_shrink_level(lom_texture *texture, int level)
+/* The same of any level of two dimensions: the sums of weighted codes are integers below 2^40. */
+static void shrink_odd_row_of_bytes(const lom_texture *texture, int level, int layer, int v, uint32_t *to)
+{
+    const lom_level *from = &texture->level[level - 1];
+    span y = span_of(from->height, v);
+    const uint32_t *row[3];
+    for (int j = 0; j < y.count; j++)
+        row[j] = lom_texel(texture, level - 1, 0, y.first + j, layer);
+    for (int u = 0; u < texture->level[level].width; u++) {
+        span x = span_of(from->width, u);
+        uint64_t sum[4] = { 0, 0, 0, 0 }, total = (uint64_t)x.total * y.total;
+        for (int j = 0; j < y.count; j++)
+            for (int i = 0; i < x.count; i++) {
+                uint32_t texel = row[j][x.first + i];
+                uint64_t weight = (uint64_t)x.weight[i] * y.weight[j];
+                for (int c = 0; c < 4; c++)
+                    sum[c] += weight * (texel >> 8 * c & 255);
+            }
+        to[u] = 0;
+        for (int c = 0; c < 4; c++)
+            to[u] |= round_quotient(sum[c], total) << 8 * c;
+    }
+}
+
+void lom_shrink_rows(lom_texture *texture, int level, int layer, int first, int end)
 {
     const lom_level *from = &texture->level[level - 1], *to = &texture->level[level];
     bool deep = texture->kind == LOM_TEXTURE_3D;
-    bool even = !texture->srgb && !deep && from->width % 2 == 0 && from->height % 2 == 0;
+    bool flat = !texture->srgb && !deep, even = flat && from->width % 2 == 0 && from->height % 2 == 0;
     size_t texel = lom_texel_size(texture);
-    for (int layer = 0; layer < lom_level_layers(texture, level); layer++) {
-        span z = span_of(deep ? from->depth : 1, deep ? layer : 0);
-        for (int v = 0; v < to->height; v++) {
-            uint8_t *row = lom_texel(texture, level, 0, v, layer);
-            if (even) {
-                shrink_even_row(texture, lom_texel(texture, level - 1, 0, 2 * v, layer),
-                                lom_texel(texture, level - 1, 0, 2 * v + 1, layer), to->width, row);
-                continue;
-            }
-            span y = span_of(from->height, v);
-            for (int u = 0; u < to->width; u++) {
-                span x = span_of(from->width, u);
-                shrink_texel(texture, level, deep ? 0 : layer, &x, &y, &z, row + (size_t)u * texel);
-            }
+    span z = span_of(deep ? from->depth : 1, deep ? layer : 0);
+    for (int v = first; v < end; v++) {
+        uint8_t *row = lom_texel(texture, level, 0, v, layer);
+        if (even) {
+            shrink_even_row(texture, lom_texel(texture, level - 1, 0, 2 * v, layer),
+                            lom_texel(texture, level - 1, 0, 2 * v + 1, layer), to->width, row);
+            continue;
+        }
+        if (flat && texture->storage == LOM_STORAGE_RGBA8) {
+            shrink_odd_row_of_bytes(texture, level, layer, v, (uint32_t *)(void *)row);
+            continue;
+        }
+        span y = span_of(from->height, v);
+        for (int u = 0; u < to->width; u++) {
+            span x = span_of(from->width, u);
+            shrink_texel(texture, level, deep ? 0 : layer, &x, &y, &z, row + (size_t)u * texel);
         }
     }
 }

@@ -296,8 +296,8 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
 void lom_finish_texture(lom_texture *texture)
 {
     for (int i = 0; i < texture->level_count; i++) {
-        if (i > 0 && texture->builds_mips)
-            lom_shrink_level(texture, i);
+        for (int z = 0; i > 0 && texture->builds_mips && z < lom_level_layers(texture, i); z++)
+            lom_shrink_rows(texture, i, z, 0, texture->level[i].height);
         lom_fill_apron(texture, i);
     }
     if (texture->decoded != NULL)

@@ -60,9 +60,12 @@ int lom_level_layers(const lom_texture *texture, int level);
 size_t lom_texel_size(const lom_texture *texture);
 /* The address of texel (x, y) of a slice; each coordinate may be one outside, within the apron. */
 void *lom_texel(const lom_texture *texture, int level, int x, int y, int layer);
-/* Fills the apron of a level (apron.c). */
+/* The parts of lom_finish_texture, for those who hand out rows: rows first to end (one past the last) of a layer of
+ * level `level`, from the level above it (mipmap.c); the apron's columns beside such rows, then, when all of those are
+ * there, its first and last row (apron.c). In cubes and 3D textures the whole apron of a level. */
+void lom_shrink_rows(lom_texture *texture, int level, int layer, int first, int end);
+void lom_fill_columns(lom_texture *texture, int level, int layer, int first, int end);
+void lom_fill_rows(lom_texture *texture, int level, int layer);
 void lom_fill_apron(lom_texture *texture, int level);
-/* Makes level `level` from the one above it (mipmap.c). */
-void lom_shrink_level(lom_texture *texture, int level);
 
 #endif

@@ -32,6 +32,8 @@ struct lom_device {
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
 /* What both rectangles cover. */
 lom_rect lom_intersect_rects(lom_rect a, lom_rect b);
+/* lom_finish_texture of an attachment, by all workers. */
+void lom_finish_attachment(lom_device *device, lom_texture *texture);
 /* Runs every recorded draw into tile memory and resolves it. */
 bool lom_run_pass(lom_device *device);
 

@@ -237,8 +237,8 @@ bool lom_run_pass(lom_device *device)
         return false;
     count_work(device);
     for (int i = 0; i < pass->colors; i++)
-        lom_finish_texture(pass->color[i].texture);
+        lom_finish_attachment(device, pass->color[i].texture);
     if (pass->depth != NULL)
-        lom_finish_texture(pass->depth);
+        lom_finish_attachment(device, pass->depth);
     return true;
 }

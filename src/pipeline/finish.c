@@ -1,0 +1,48 @@
+/* The end of a pass: what lies around and above level 0 of an attachment. In: its texels. Out: the aprons, and the
+ * other levels where it has them. Bands of rows are handed out by a counter, with a barrier from level to level.
+ * Invariant: a texel is what lom_finish_texture makes it, whoever does. */
+#include "pipeline/device.h"
+
+enum {
+    BAND = 32,         /* rows */
+    SHARED = 256 * 128 /* texels of a level that are worth a barrier */
+};
+
+struct finish {
+    lom_texture *texture;
+    int level;
+    atomic_int next; /* row */
+};
+
+static void finish_bands(void *context, int worker)
+{
+    struct finish *f = context;
+    int height = f->texture->level[f->level].height;
+    (void)worker;
+    for (;;) {
+        int first = atomic_fetch_add_explicit(&f->next, BAND, memory_order_relaxed);
+        if (first >= height)
+            return;
+        int end = first + BAND < height ? first + BAND : height;
+        if (f->level > 0 && f->texture->builds_mips)
+            lom_shrink_rows(f->texture, f->level, 0, first, end);
+        lom_fill_columns(f->texture, f->level, 0, first, end);
+    }
+}
+
+void lom_finish_attachment(lom_device *device, lom_texture *texture)
+{
+    if (texture->decoded != NULL) { /* made from pixels: no target of the usual kind */
+        lom_finish_texture(texture);
+        return;
+    }
+    for (int i = 0; i < texture->level_count; i++) {
+        struct finish finish = { .texture = texture, .level = i };
+        const lom_level *l = &texture->level[i];
+        if (i > 0 && (size_t)l->width * (size_t)l->height >= SHARED)
+            lom_run_pool(device->pool, finish_bands, &finish);
+        else
+            finish_bands(&finish, 0);
+        lom_fill_rows(texture, i, 0);
+    }
+}
