@@ -53,6 +53,7 @@ struct lom_key_check {
     /* The path of a file that the value of a key leads to; NULL, with a sentence, when it is not there. It lives as
      * long as the struct. */
     const char *(*path)(const lom_key_check *check, const char *key, const char *name);
+    lom_error *error;  /* where `fail` says it, for what fails for another reason: memory */
     void *reader;      /* the scene layer's */
     const void *table; /* likewise; NULL: not in the file */
 };

@@ -40,7 +40,7 @@ static const char *path(const lom_key_check *check, const char *key, const char 
 
 lom_key_check lom_check_of(lom_reader *reader, const lom_toml_value *table)
 {
-    return (lom_key_check){ is_given, fail, element, path, reader, table };
+    return (lom_key_check){ is_given, fail, element, path, reader->error, reader, table };
 }
 
 bool lom_check_rising_time(const lom_key_check *check, double before, double time)

@@ -47,11 +47,9 @@ static const char *face_path(const lom_key_check *check, const char *pattern, co
 {
     const char *mark = lom_face_mark(pattern);
     size_t size = strlen(pattern) + strlen(name);
-    char *text = lom_allocate(size, 1, NULL);
-    if (text == NULL) {
-        check->fail(check, "pattern", "there is no memory for the names of its pictures.");
+    char *text = lom_allocate(size, 1, check->error);
+    if (text == NULL)
         return NULL;
-    }
     snprintf(text, size, "%.*s%s%s", (int)(mark - pattern), pattern, name, mark + 2);
     const char *path = check->path(check, "pattern", text);
     lom_release(text);
