@@ -44,6 +44,12 @@ lom_device_desc lom_describe_device(const lom_device *device);
 
 /* lom_create_texture, owned by the device and freed with it; NULL (error on the device) on failure. */
 lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc);
+/* New pixels into a texture of the device, or into one of lom_create_texture, without allocating: as if it had been made
+ * from them by the same descriptor, byte for byte (levels of LOM_MIPS_ALL too). pixels: level 0 in the texture's format,
+ * tightly packed (cubes: face after face), copied; size: their bytes. False, with an error on the device and the
+ * texture as it was: NULL, another size, a texture of another device, levels that were supplied, within a pass (whose
+ * draws may read the texture). */
+bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pixels, size_t size);
 /* Frees one texture before the device; NULL is allowed, one that the device did not make is an error on the device. */
 void lom_release_texture(lom_device *device, lom_texture *texture);
 

@@ -1,15 +1,9 @@
-/* Textures: made from a descriptor, read back, freed. In: tightly packed pixels of any format; out: levels with aprons
- * in one of three storages. Invariant: every index that sample_lanes.h can form lies inside texels[], and every float
- * stored here is finite. Compiled for speed. */
+/* Textures: made from a descriptor, freed. In: tightly packed pixels of any format; out: levels with aprons
+ * in one of three storages. Invariant: every index that sample_lanes.h can form lies inside texels[]. */
 #include "texture.h"
-#include "convert.h"
-#include "convert_rows.h"
-
-#include <string.h>
 
 static const uint64_t most_texels = INT32_MAX, most_bytes = UINT64_C(1) << 33;
-enum { CACHE_LINE = 64 };                           /* bytes; memory from lom_allocate begins with one */
-static const size_t most_decoded = (size_t)1 << 23; /* texels: 128 MiB */
+enum { CACHE_LINE = 64 }; /* bytes; memory from lom_allocate begins with one */
 
 /* ---- what is asked for ---- */
 
@@ -152,105 +146,24 @@ void *lom_texel(const lom_texture *texture, int level, int x, int y, int layer)
     return (uint8_t *)texture->texels + index * (ptrdiff_t)lom_texel_size(texture);
 }
 
-/* ---- texels from and to pixels ---- */
+/* ---- what it holds ---- */
 
-static void pack_bytes(int channels, const uint8_t *from, int count, uint32_t *to)
+static void store_pixels(lom_texture *texture, const lom_texture_desc *desc)
 {
-    for (int i = 0; i < count; i++, from += channels) {
-        uint32_t texel = channels == 4 ? 0 : 0xff000000u;
-        for (int c = 0; c < channels; c++)
-            texel |= (uint32_t)from[c] << 8 * c;
-        to[i] = texel;
-    }
-}
-
-static void unpack_bytes(int channels, const uint32_t *from, int count, uint8_t *to)
-{
-    for (int i = 0; i < count; i++, to += channels)
-        for (int c = 0; c < channels; c++)
-            to[c] = (uint8_t)(from[i] >> 8 * c);
-}
-
-static void pack_floats(int channels, const double (*rgba)[4], int count, float *to)
-{
-    const double most = 0x1p123;
-    for (int i = 0; i < count; i++)
-        for (int c = 0; c < channels; c++) {
-            double x = rgba[i][c];
-            x = x == x ? x : 0;
-            *to++ = (float)(x > -most ? (x < most ? x : most) : -most);
-        }
-}
-
-/* The same of floats as they are. */
-static void copy_floats(const float *from, size_t count, float *to)
-{
-    const float most = 0x1p123f;
-    for (size_t i = 0; i < count; i++) {
-        float x = from[i] == from[i] ? from[i] : 0;
-        to[i] = x > -most ? (x < most ? x : most) : -most;
-    }
-}
-
-/* The number of floats of a texel; 0 for bytes. */
-static int floats_of(const lom_texture *texture)
-{
-    return texture->storage == LOM_STORAGE_RGBA32F ? 4 : texture->storage == LOM_STORAGE_R32F;
-}
-
-static void store_level(lom_texture *texture, int level, const uint8_t *pixels, double (*rgba)[4])
-{
-    const lom_level *l = &texture->level[level];
-    size_t step = (size_t)l->width * lom_format_size(texture->format);
-    for (int z = 0; z < lom_level_layers(texture, level); z++)
-        for (int y = 0; y < l->height; y++, pixels += step) {
-            void *row = lom_texel(texture, level, 0, y, z);
-            if (texture->storage == LOM_STORAGE_RGBA8) {
-                pack_bytes(lom_describe_format(texture->format)->channels, pixels, l->width, row);
-                continue;
-            }
-            if (texture->format == LOM_FORMAT_RGBA32F || texture->format == LOM_FORMAT_R32F) {
-                copy_floats((const float *)(const void *)pixels, (size_t)l->width * (size_t)floats_of(texture), row);
-                continue;
-            }
-            lom_decode_row(texture->format, pixels, (size_t)l->width, rgba);
-            pack_floats(floats_of(texture), (const double(*)[4])rgba, l->width, row);
-        }
-}
-
-static bool store_pixels(lom_texture *texture, const lom_texture_desc *desc, lom_error *error)
-{
-    double(*rgba)[4] = lom_allocate((size_t)desc->width, sizeof *rgba, error);
-    if (rgba == NULL)
-        return false;
     if (desc->pixels != NULL)
-        store_level(texture, 0, desc->pixels, rgba);
+        lom_store_level(texture, 0, desc->pixels);
     for (int i = 1; i < texture->level_count && desc->mips == LOM_MIPS_SUPPLIED; i++)
         if (desc->level_pixels[i - 1] != NULL)
-            store_level(texture, i, desc->level_pixels[i - 1], rgba);
-    lom_release(rgba);
-    return true;
+            lom_store_level(texture, i, desc->level_pixels[i - 1]);
 }
-
-/* ---- sRGB texels decoded ---- */
 
 /* Room for decoded texels, which halve the time of a sample (bench/results/sampling.md): for textures made from pixels;
  * what a pass draws into would be decoded every frame. Without memory the samplers decode. */
 static void prepare_decoded(lom_texture *texture, const lom_texture_desc *desc)
 {
+    static const size_t most_decoded = (size_t)1 << 23; /* texels: 128 MiB */
     if (texture->srgb && desc->pixels != NULL && texture->texel_count <= most_decoded)
         texture->decoded = lom_allocate(texture->texel_count, 4 * sizeof(float), NULL);
-}
-
-static void fill_decoded(lom_texture *texture)
-{
-    const uint32_t *texel = texture->texels;
-    float *to = texture->decoded;
-    for (size_t i = 0; i < texture->texel_count; i++, to += 4) {
-        for (int c = 0; c < 3; c++)
-            to[c] = lom_srgb_linear[texel[i] >> 8 * c & 255];
-        to[3] = (float)(texel[i] >> 24);
-    }
 }
 
 /* ---- public ---- */
@@ -275,10 +188,11 @@ static lom_texture *create(const lom_texture_desc *desc, lom_error *error)
                            : desc->mips == LOM_MIPS_SUPPLIED ? desc->level_count
                                                              : full_level_count(desc->width, desc->height, depth);
     set_sampler(texture, desc);
-    if (!lay_out(texture, desc, error) || !store_pixels(texture, desc, error)) {
+    if (!lay_out(texture, desc, error)) {
         lom_free_texture(texture);
         return NULL;
     }
+    store_pixels(texture, desc);
     prepare_decoded(texture, desc);
     lom_finish_texture(texture);
     return texture;
@@ -291,17 +205,6 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
     lom_texture *texture = create(desc, error);
     lom_leave_float_state(&state);
     return texture;
-}
-
-void lom_finish_texture(lom_texture *texture)
-{
-    for (int i = 0; i < texture->level_count; i++) {
-        for (int z = 0; i > 0 && texture->builds_mips && z < lom_level_layers(texture, i); z++)
-            lom_shrink_rows(texture, i, z, 0, texture->level[i].height);
-        lom_fill_apron(texture, i);
-    }
-    if (texture->decoded != NULL)
-        fill_decoded(texture);
 }
 
 lom_texture *lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error)
@@ -328,48 +231,6 @@ void lom_free_texture(lom_texture *texture)
     lom_release(texture->decoded);
     lom_release(texture->texels);
     lom_release(texture);
-}
-
-static void read_row(const lom_texture *texture, const void *row, int width, double (*rgba)[4], uint8_t *to)
-{
-    if (texture->storage == LOM_STORAGE_RGBA8) {
-        unpack_bytes(lom_describe_format(texture->format)->channels, row, width, to);
-        return;
-    }
-    lom_format format = texture->storage == LOM_STORAGE_R32F ? LOM_FORMAT_R32F : LOM_FORMAT_RGBA32F;
-    lom_decode_row(format, row, (size_t)width, rgba);
-    lom_encode_row(texture->format, (const double(*)[4])rgba, (size_t)width, to);
-}
-
-static lom_image *read_level(const lom_texture *texture, int level, int layer, lom_error *error)
-{
-    if (level < 0 || level >= texture->level_count || layer < -1 || layer >= lom_level_layers(texture, level)) {
-        lom_fail(error, LOM_ERROR_USAGE, "The texture has no level %d with a layer %d.", level, layer);
-        return NULL;
-    }
-    const lom_level *l = &texture->level[level];
-    int first = layer < 0 ? 0 : layer, count = layer < 0 ? lom_level_layers(texture, level) : 1;
-    lom_image *image = lom_create_image(l->width, l->height, count, texture->format, error);
-    double(*rgba)[4] = image != NULL ? lom_allocate((size_t)l->width, sizeof *rgba, error) : NULL;
-    if (rgba == NULL) {
-        lom_free_image(image);
-        return NULL;
-    }
-    for (int z = 0; z < count; z++)
-        for (int y = 0; y < l->height; y++)
-            read_row(texture, lom_texel(texture, level, 0, y, first + z), l->width, rgba,
-                     lom_image_pixel(image, 0, y, z));
-    lom_release(rgba);
-    return image;
-}
-
-lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lom_error *error)
-{
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    lom_image *image = read_level(texture, level, layer, error);
-    lom_leave_float_state(&state);
-    return image;
 }
 
 int lom_texture_width(const lom_texture *texture)

@@ -51,6 +51,11 @@ struct lom_texture {
     lom_level_row row[LOM_MAX_LEVELS];
 };
 
+/* Level `level` from tightly packed pixels of the texture's format (texture_pixels.c). */
+void lom_store_level(lom_texture *texture, int level, const void *pixels);
+/* Level 0 from `size` bytes of such pixels, and what is made of it. False, and nothing is changed, when that is not
+ * their size. */
+bool lom_store_texture(lom_texture *texture, const void *pixels, size_t size, lom_error *error);
 /* After level 0 was written: rebuilds its apron and, if the texture was made with LOM_MIPS_ALL, all levels. */
 void lom_finish_texture(lom_texture *texture);
 

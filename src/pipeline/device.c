@@ -2,6 +2,7 @@
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
 #include "pipeline/device.h"
+#include "pipeline/renew_texture.h"
 
 #include "lanes/variants.h"
 
@@ -127,6 +128,28 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
     texture->owner = device;
     device->textures[device->texture_count++] = texture;
     return texture;
+}
+
+bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pixels, size_t size)
+{
+    if (!lom_check_device(device, NULL))
+        return false;
+    if (device->in_pass)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A texture cannot be updated within a pass.");
+    if (texture != NULL && texture->owner != NULL && texture->owner != device)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A device was asked to update a texture of another device.");
+    return lom_store_texture(texture, pixels, size, &device->error);
+}
+
+bool lom_renew_texture(lom_device *device, lom_texture **texture, const lom_texture_desc *desc)
+{
+    if (*texture == NULL) {
+        *texture = lom_make_texture(device, desc);
+        return *texture != NULL;
+    }
+    size_t layers = desc->kind == LOM_TEXTURE_CUBE ? 6 : desc->kind == LOM_TEXTURE_3D ? (size_t)desc->depth : 1;
+    size_t texels = (size_t)desc->width * (size_t)desc->height * layers;
+    return lom_update_texture(device, *texture, desc->pixels, texels * lom_format_size(desc->format));
 }
 
 void lom_release_texture(lom_device *device, lom_texture *texture)

@@ -1,18 +1,21 @@
 /* The cascades of a sea as textures. In: the scene's wind, a time. Out: what shaders look up: displacements,
  * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
 #include "pipeline/check_device.h"
+#include "pipeline/renew_texture.h"
 #include "waves/sea_desc.h"
 #include "waves/wave_field.h"
 
 #include <lom/sea.h>
 
 #include <stdio.h>
+#include <string.h>
 
 struct state {
     const struct lom_wave_site *site;
     lom_device *device;
     lom_sea *sea;
     lom_texture *field[LOM_SURFACE_CASCADES][3];
+    float *moments; /* of one cascade at a time: room for the largest */
 };
 
 enum { places = LOM_SEA_HEIGHT | LOM_SEA_DISPLACEMENT };
@@ -30,20 +33,31 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     state->site = source->site;
     state->device = source->device;
     state->sea = lom_create_sea(&desc, source->device, error);
-    return state->sea != NULL;
+    if (state->sea == NULL)
+        return false;
+    size_t largest = 0;
+    const lom_sea_desc *resolved = lom_describe_sea(state->sea);
+    for (int i = 0; i < resolved->cascade_count; i++) {
+        size_t size = (size_t)resolved->cascade[i].size;
+        largest = size > largest ? size : largest;
+    }
+    state->moments = lom_allocate(largest * largest, 4 * sizeof *state->moments, error);
+    return state->moments != NULL;
 }
 
 static void unload(void *memory)
 {
-    lom_free_sea(((struct state *)memory)->sea);
+    struct state *state = memory;
+    lom_free_sea(state->sea);
+    lom_release(state->moments);
 }
 
-static lom_texture *make_field(const struct state *state, int size, const float *pixels)
+static bool fill_field(const struct state *state, lom_texture **field, int size, const float *pixels)
 {
-    return lom_make_texture(
-        state->device,
-        &(lom_texture_desc){
-            .width = size, .height = size, .format = LOM_FORMAT_RGBA32F, .pixels = pixels, .mips = LOM_MIPS_ALL });
+    const lom_texture_desc desc = {
+        .width = size, .height = size, .format = LOM_FORMAT_RGBA32F, .pixels = pixels, .mips = LOM_MIPS_ALL
+    };
+    return lom_renew_texture(state->device, field, &desc);
 }
 
 /* Adds to the fourth of each four what breaks at this moment, in parts `fresh`; the largest stays. */
@@ -57,7 +71,7 @@ static void add_foam(float *moments, const lom_sea_cascade *c, float threshold, 
     }
 }
 
-static bool find_foam(struct state *state, int cascade, float *moments, double time, lom_error *error)
+static bool find_foam(struct state *state, int cascade, double time, lom_error *error)
 {
     const lom_water_foam *foam = state->site->foam;
     for (int m = MOMENTS; foam->amount > 0 && m > 0; m--) {
@@ -65,17 +79,19 @@ static bool find_foam(struct state *state, int cascade, float *moments, double t
         if (!lom_advance_cascade(state->sea, state->device, cascade, LOM_SEA_JACOBIAN, then, error))
             return false;
         lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
-        add_foam(moments, &c, (float)foam->threshold, 1 - (float)m / (MOMENTS + 1));
+        add_foam(state->moments, &c, (float)foam->threshold, 1 - (float)m / (MOMENTS + 1));
     }
     return true;
 }
 
-static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int cascade, float *moments, double time,
-                         lom_error *error)
+static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int cascade, double time, lom_error *error)
 {
     struct lom_cascade_uniform *u = &out->cascade[cascade];
     lom_texture **held = state->field[cascade];
-    if (!find_foam(state, cascade, moments, time, error) ||
+    float *moments = state->moments;
+    size_t size = (size_t)lom_view_cascade(state->sea, cascade).size;
+    memset(moments, 0, size * size * 4 * sizeof *moments);
+    if (!find_foam(state, cascade, time, error) ||
         !lom_advance_cascade(state->sea, state->device, cascade, LOM_SEA_ALL & ~(unsigned)places, time, error))
         return false;
     lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
@@ -88,12 +104,9 @@ static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int
         moments[4 * i + 2] = sx * sz;
     }
     const float *const pixels[3] = { c.displacement, c.derivatives, moments };
-    for (int i = 0; i < 3; i++) {
-        lom_release_texture(state->device, held[i]);
-        held[i] = make_field(state, c.size, pixels[i]);
-        if (held[i] == NULL)
+    for (int i = 0; i < 3; i++)
+        if (!fill_field(state, &held[i], c.size, pixels[i]))
             return lom_check_device(state->device, error);
-    }
     *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], .inverse_length = (float)(1 / c.length) };
     for (int i = 0; i < 2; i++) {
         double repetitions = (out->origin[2 * i] - state->site->middle[i]) / c.length;
@@ -134,14 +147,9 @@ static bool fill(void *memory, struct lom_waves_uniform *out, double time, lom_e
     struct state *state = memory;
     const lom_sea_desc *desc = lom_describe_sea(state->sea);
     out->cascade_count = desc->cascade_count;
-    for (int i = 0; i < desc->cascade_count; i++) {
-        size_t count = (size_t)desc->cascade[i].size * (size_t)desc->cascade[i].size;
-        float *moments = lom_allocate(count, 4 * sizeof *moments, error);
-        bool done = moments != NULL && fill_cascade(state, out, i, moments, time, error);
-        lom_release(moments);
-        if (!done)
+    for (int i = 0; i < desc->cascade_count; i++)
+        if (!fill_cascade(state, out, i, time, error))
             return false;
-    }
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* Shallow water as shaders look it up. In: the state of its region at a time (wave_site.h). Out: the surface as
  * textures. */
 #include "pipeline/check_device.h"
+#include "pipeline/renew_texture.h"
 #include "waves/shallow_surface.h"
 #include "waves/wave_field.h"
 
@@ -41,15 +42,15 @@ static void unload(void *memory)
     lom_release(state->moments);
 }
 
-static lom_texture *make_map(const struct state *state, const void *pixels)
+static bool fill_map(const struct state *state, lom_texture **map, const void *pixels)
 {
-    return lom_make_texture(state->device,
-                            &(lom_texture_desc){ .width = state->region.columns,
-                                                 .height = state->region.rows,
-                                                 .format = LOM_FORMAT_RGBA32F,
-                                                 .pixels = pixels,
-                                                 .mips = LOM_MIPS_ALL,
-                                                 .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    const lom_texture_desc desc = { .width = state->region.columns,
+                                    .height = state->region.rows,
+                                    .format = LOM_FORMAT_RGBA32F,
+                                    .pixels = pixels,
+                                    .mips = LOM_MIPS_ALL,
+                                    .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+    return lom_renew_texture(state->device, map, &desc);
 }
 
 static void bound(const void *memory, struct lom_waves_uniform *out, double time)
@@ -71,12 +72,9 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
     state->wet = lom_fill_shallow_surface(&view, 0, state->site->shallow->edge == LOM_SHALLOW_OPEN, state->surface,
                                           state->moments, bounds);
     const void *const pixels[2] = { state->surface, state->moments };
-    for (int i = 0; i < 2; i++) {
-        lom_release_texture(state->device, state->map[i]);
-        state->map[i] = make_map(state, pixels[i]);
-        if (state->map[i] == NULL)
+    for (int i = 0; i < 2; i++)
+        if (!fill_map(state, &state->map[i], pixels[i]))
             return lom_check_device(state->device, error);
-    }
     out->shallow = (struct lom_shallow_uniform){ .surface = state->map[0], .moments = state->map[1] };
     for (int i = 0; i < 2; i++) {
         out->shallow.corner[i] = (float)(region->corner[i] - out->origin[2 * i]);

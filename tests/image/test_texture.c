@@ -217,6 +217,81 @@ static void rows_of_targets_begin_with_a_cache_line(void)
         }
 }
 
+/* ---- new pixels into a texture ---- */
+
+static void check_same_texels(const lom_texture *a, const lom_texture *b, const char *what)
+{
+    const char *format = lom_describe_format(b->format)->name;
+    CHECK(a->texel_count == b->texel_count && memcmp(a->texels, b->texels, b->texel_count * lom_texel_size(b)) == 0,
+          "%s: %s kind %d: texels of another texture", what, format, (int)b->kind);
+    CHECK((a->decoded == NULL) == (b->decoded == NULL) &&
+              (b->decoded == NULL || memcmp(a->decoded, b->decoded, b->texel_count * 4 * sizeof(float)) == 0),
+          "%s: %s kind %d: other decoded texels", what, format, (int)b->kind);
+}
+
+/* 70 wide: more texels than are converted together. */
+static void updated_textures_are_new_ones(void)
+{
+    for (int format = 1; format < LOM_FORMAT_COUNT; format++)
+        for (int kind = 0; kind < 3; kind++)
+            for (int mips = LOM_MIPS_NONE; mips <= LOM_MIPS_ALL; mips++) {
+                lom_texture_desc desc = { .kind = kind, .width = 70, .height = 70, .format = format, .mips = mips };
+                desc.depth = kind == LOM_TEXTURE_3D ? 5 : 0;
+                desc.sampler.wrap_s = LOM_WRAP_CLAMP;
+                desc.sampler.wrap_t = LOM_WRAP_BORDER;
+                size_t count = 70 * 70 * (kind == LOM_TEXTURE_3D ? 5 : kind == LOM_TEXTURE_CUBE ? 6 : 1);
+                size_t size = count * lom_format_size(format);
+                uint8_t *first = random_pixels(format, count), *second = malloc(size);
+                for (size_t i = 0; i < count; i++) /* in another order */
+                    memcpy(second + i * lom_format_size(format), first + (count - 1 - i) * lom_format_size(format),
+                           lom_format_size(format));
+                desc.pixels = first;
+                lom_texture *one = lom_create_texture(&desc, &error);
+                lom_texture *same = lom_create_texture(&desc, &error);
+                desc.pixels = second;
+                lom_texture *other = lom_create_texture(&desc, &error);
+                CHECK(memcmp(one->texels, other->texels, one->texel_count * lom_texel_size(one)) != 0, "no change");
+                CHECK(lom_store_texture(one, second, size, &error), "%s", error.text);
+                check_same_texels(one, other, "second pixels");
+                CHECK(lom_store_texture(one, first, size, &error), "%s", error.text);
+                check_same_texels(one, same, "first pixels again");
+                lom_free_texture(one);
+                lom_free_texture(same);
+                lom_free_texture(other);
+                free(first);
+                free(second);
+            }
+}
+
+/* Refused, and nothing is changed. */
+static void updates_of_another_size_are_refused(void)
+{
+    static const uint8_t pixels[64] = { 1, 2, 3 }, others[65] = { 9, 9 };
+    const void *levels[2] = { pixels, pixels };
+    lom_texture_desc desc = { .width = 4, .height = 4, .pixels = pixels, .mips = LOM_MIPS_ALL };
+    lom_texture *built = lom_create_texture(&desc, &error), *same = lom_create_texture(&desc, &error);
+    desc.mips = LOM_MIPS_SUPPLIED;
+    desc.level_pixels = levels;
+    desc.level_count = 3;
+    lom_texture *supplied = lom_create_texture(&desc, &error);
+    const struct {
+        lom_texture *texture;
+        const void *pixels;
+        size_t size;
+    } wrong[] = { { built, others, 63 }, { built, others, 65 }, { built, others, 0 },    { built, others, SIZE_MAX },
+                  { built, NULL, 64 },   { NULL, others, 64 },  { supplied, others, 64 } };
+    for (int i = 0; i < (int)(sizeof wrong / sizeof *wrong); i++) {
+        lom_error why = { 0 };
+        CHECK(!lom_store_texture(wrong[i].texture, wrong[i].pixels, wrong[i].size, &why) &&
+                  why.code == LOM_ERROR_USAGE && why.text[0] != 0,
+              "update %d: \"%s\"", i, why.text);
+    }
+    check_same_texels(built, same, "refused updates");
+    lom_free_texture(built);
+    lom_free_texture(same);
+    lom_free_texture(supplied);
+}
+
 static void floats_are_kept_finite(void)
 {
     const float pixels[4] = { NAN, INFINITY, -INFINITY, 1 };
@@ -263,6 +338,8 @@ int main(int argc, char **argv)
     RUN(supplied_levels_are_kept);
     RUN(finishing_follows_level_zero);
     RUN(rows_of_targets_begin_with_a_cache_line);
+    RUN(updated_textures_are_new_ones);
+    RUN(updates_of_another_size_are_refused);
     RUN(floats_are_kept_finite);
     RUN(bad_descriptors_are_refused);
     return check_result();

@@ -85,6 +85,51 @@ static void textures_belong_to_their_device(void)
     lom_free_texture(free_one);
 }
 
+static bool update(lom_device *device, lom_texture *texture, const void *pixels, size_t size)
+{
+    bool done = lom_update_texture(device, texture, pixels, size);
+    CHECK(done == (lom_device_error(device)->code == LOM_OK), "done or an error, not both");
+    CHECK(done || is_sentence(lom_device_error(device)), "\"%s\"", lom_device_error(device)->text);
+    return done;
+}
+
+static void textures_are_updated_by_their_device(void)
+{
+    static const uint8_t old[16] = { 1, 2, 3, 4 }, new[16] = { 50, 60, 70, 80, 90 };
+    lom_error error = { 0 };
+    for (int wrong = 0; wrong < 6; wrong++) {
+        lom_device *one = lom_open_device(&(lom_device_desc){ .threads = 1 });
+        lom_device *other = lom_open_device(&(lom_device_desc){ .threads = 1 });
+        lom_texture *texture = lom_make_texture(one, &(lom_texture_desc){ .width = 2, .height = 2, .pixels = old });
+        lom_texture *loose = lom_create_texture(&(lom_texture_desc){ .width = 2, .height = 2 }, &error);
+        CHECK(update(one, loose, new, sizeof new) && update(one, texture, new, sizeof new), "%s",
+              lom_device_error(one)->text);
+        lom_image *image = lom_read_texture(texture, 0, 0, &error);
+        CHECK(image != NULL && memcmp(image->pixels, new, sizeof new) == 0, "other pixels");
+        lom_free_image(image);
+        if (wrong == 0)
+            CHECK(!update(one, NULL, old, sizeof old), "no texture");
+        if (wrong == 1)
+            CHECK(!update(one, texture, NULL, sizeof old), "no pixels");
+        if (wrong == 2)
+            CHECK(!update(one, texture, old, sizeof old - 1), "another size");
+        if (wrong == 3)
+            CHECK(!update(other, texture, old, sizeof old), "a texture of another device");
+        if (wrong == 4) {
+            lom_begin_pass(one, &(lom_pass_desc){ .color = { loose } });
+            CHECK(!update(one, texture, old, sizeof old), "within a pass");
+        }
+        if (wrong == 5)
+            CHECK(!lom_update_texture(NULL, texture, old, sizeof old), "no device");
+        image = lom_read_texture(texture, 0, 0, &error);
+        CHECK(image != NULL && memcmp(image->pixels, new, sizeof new) == 0, "%d: it changed", wrong);
+        lom_free_image(image);
+        lom_free_texture(loose);
+        lom_close_device(one);
+        lom_close_device(other);
+    }
+}
+
 /* ---- draws ---- */
 
 static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
@@ -257,6 +302,7 @@ int main(int argc, char **argv)
     RUN(null_is_the_zero_descriptor);
     RUN(a_null_device_is_one_that_has_failed);
     RUN(textures_belong_to_their_device);
+    RUN(textures_are_updated_by_their_device);
     RUN(vertices_that_are_drawn_exist);
     RUN(numbers_out_of_range_are_refused);
     return check_result();
