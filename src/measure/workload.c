@@ -220,7 +220,8 @@ void lom_free_workload(lom_workload *w)
 bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error *error)
 {
     const lom_workload_task *task = workload->kind->task;
-    return task == NULL || task->prepare == NULL || task->prepare(workload, device, error);
+    return lom_check_device(device, error) &&
+           (task == NULL || task->prepare == NULL || task->prepare(workload, device, error));
 }
 
 bool lom_draw_prepared(lom_workload *workload, lom_device *device, lom_error *error)

@@ -184,40 +184,48 @@ static bool find_sizes(struct frame *f, lom_error *error)
 
 bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_error *error)
 {
-    return find_sizes(&(struct frame){ .scene = scene, .desc = desc != NULL ? desc : &defaults }, error);
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool drawable = find_sizes(&(struct frame){ .scene = scene, .desc = desc != NULL ? desc : &defaults }, error);
+    lom_leave_float_state(&state);
+    return drawable;
+}
+
+static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
+{
+    lom_renderer *renderer = f->renderer;
+    lom_counters before = lom_device_counters(renderer->device);
+    f->wave_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) : 0;
+    lom_move_scene(renderer, f->time);
+    look(f);
+    lom_error failed = { 0 };
+    lom_image *drawn =
+        renderer->reference != NULL ? lom_draw_reference(f, &failed) : draw_stages(f, out->stage, &failed);
+    double start = milliseconds();
+    out->image = lom_output_image(f->scene, drawn, &failed);
+    if (drawn != NULL)
+        out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
+    out->shallow_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) - f->wave_steps : 0;
+    out->counters = subtract(lom_device_counters(renderer->device), before);
+    assert((out->image != NULL) == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
+    return lom_pass_error(&failed, error);
 }
 
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
+    lom_float_state state;
+    lom_enter_float_state(&state); /* before the sizes and the time, which are computed too */
     desc = desc != NULL ? desc : &defaults;
-    const lom_scene *scene = renderer->scene;
     struct frame f = { .renderer = renderer,
-                       .scene = scene,
+                       .scene = renderer->scene,
                        .plan = &out->plan,
                        .desc = desc,
+                       .number = desc->frame,
+                       .time = desc->frame / renderer->scene->output.fps,
                        .impostors = &out->impostors,
                        .spray = &out->spray };
     *out = (lom_frame){ .image = NULL };
-    f.number = desc->frame;
-    f.time = desc->frame / scene->output.fps;
-    if (!find_sizes(&f, error))
-        return false;
-    lom_counters before = lom_device_counters(renderer->device);
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    f.wave_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) : 0;
-    lom_move_scene(renderer, f.time);
-    look(&f);
-    lom_error failed = { 0 };
-    lom_image *drawn =
-        renderer->reference != NULL ? lom_draw_reference(&f, &failed) : draw_stages(&f, out->stage, &failed);
-    double start = milliseconds();
-    out->image = lom_output_image(scene, drawn, &failed);
-    if (drawn != NULL)
-        out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
+    bool drawn = find_sizes(&f, error) && draw_frame(&f, out, error);
     lom_leave_float_state(&state);
-    out->shallow_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) - f.wave_steps : 0;
-    out->counters = subtract(lom_device_counters(renderer->device), before);
-    assert((out->image != NULL) == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
-    return lom_pass_error(&failed, error);
+    return drawn;
 }

@@ -4,6 +4,7 @@
 #include "waves/fft_plan.h"
 
 #include "base/threads.h"
+#include "pipeline/check_device.h"
 #include "pipeline/device.h"
 
 #include <stdatomic.h>
@@ -86,7 +87,7 @@ lom_fft *lom_create_fft(int size, const lom_device *device, lom_error *error)
         lom_fail(error, LOM_ERROR_USAGE, "A transform of size %d is no power of two within 2..%d.", size, LOM_FFT_MAX);
         return NULL;
     }
-    lom_fft *fft = lom_allocate(1, sizeof *fft, error);
+    lom_fft *fft = lom_check_device(device, error) ? lom_allocate(1, sizeof *fft, error) : NULL;
     if (fft == NULL)
         return NULL;
     size_t n = (size_t)size;

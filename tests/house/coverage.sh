@@ -13,6 +13,8 @@ awk -v least="$LEAST" -F"[':%]" '
     function share(part, all) { return all > 0 ? 100 * part / all : 100 }
     /^File / { file = $2; sub(".*/src/", "src/", file); ours = file ~ /^src\//; next }
     !ours { next }
+    /^No executable lines/ { ours = 0 }
+    /^Lines executed/ && file in all { ours = 0; next } # of all files together, the last of their blocks
     /^Lines executed/ { split($0, word, " of "); all[file] = word[2]; ran[file] = int($2 * word[2] / 100 + 0.5) }
     /^Taken at least once/ { split($0, word, " of "); ways[file] = word[2]; taken[file] = int($2 * word[2] / 100 + 0.5) }
     END {

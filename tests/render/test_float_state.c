@@ -130,6 +130,19 @@ static uint64_t compare(lom_error *error)
     return hash;
 }
 
+/* The sentence about a frame that is too large, with its numbers. */
+static uint64_t refuse_frame(lom_error *error)
+{
+    lom_scene *scene = lom_read_scene(small_path("scene.toml"), NULL, 0, error);
+    static const lom_frame_desc little = { .memory = 1e-6 };
+    lom_error refused = { 0 };
+    bool small = scene != NULL && lom_check_frame(scene, &little, &refused);
+    lom_free_scene(scene);
+    return small || refused.code != LOM_ERROR_LIMIT
+               ? 0
+               : lom_hash_bytes(LOM_HASH_START, refused.text, strlen(refused.text));
+}
+
 static void check_task(task *run, const char *name)
 {
     lom_error error = { 0 };
@@ -163,6 +176,7 @@ static void meshes_do_not_see_it(void)
 
 static void scenes_do_not_see_it(void)
 {
+    check_task(refuse_frame, "the limit of a frame");
     check_task(draw_alone, "a scene");
     check_task(draw_with_workers, "a scene with workers");
 }

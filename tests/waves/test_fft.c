@@ -284,9 +284,15 @@ static uint64_t hash_plane(uint64_t hash, const float *plane, int size)
 
 static uint64_t hash_on(int threads, int lanes, bool plain, int size)
 {
+    lom_error error = { 0 };
     lom_device *device = open(threads, lanes, plain);
+    lom_fft *fft = lom_create_fft(size, device, &error);
+    CHECK(fft != NULL, "%s", error.text);
+    if (fft == NULL) {
+        lom_close_device(device);
+        return 0;
+    }
     square s = make_square(size);
-    lom_fft *fft = lom_create_fft(size, device, NULL);
     fill_random(&s, 77);
     lom_transform_square(fft, device, 1, s.re, s.im);
     uint64_t hash = hash_plane(hash_plane(LOM_HASH_START, s.re, size), s.im, size);
