@@ -27,8 +27,7 @@ static void load_set(void)
                                  .detail_size = 50,
                                  .visible = true };
     const struct lom_cloud_quality quality = { .error = 0.05, .stop = 0.004, .light_scale = 0.5, .octaves = 4 };
-    set = lom_load_clouds(clouds, CLOUDS, &params, &quality, &error);
-    CHECK(set != NULL && set->count == CLOUDS, "%s", error.text);
+    CHECK(lom_load_clouds(clouds, CLOUDS, &params, &quality, &set, &error) && set->count == CLOUDS, "%s", error.text);
 }
 
 static void phases(void)

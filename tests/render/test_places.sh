@@ -6,78 +6,88 @@
 scene=$folder/places.toml
 pool_heights
 
-# The scene is written for a move (metres a axis) and a scale: $(p X Y Z) is a place, $(l A B ...) lengths.
-p() { awk -v s="$scale" -v m="$move" 'BEGIN { split(m, by, " "); printf "[%.15g, %.15g, %.15g]", ARGV[1] * s + by[1],
-    ARGV[2] * s + by[2], ARGV[3] * s + by[3] }' "$@"; }
-l() { awk -v s="$scale" 'BEGIN { for (i = 1; i < ARGC; i++) printf("%s%.15g", (i > 1 ? ", " : ""), ARGV[i] * s) }' "$@"; }
-y() { awk -v s="$scale" -v m="$move" 'BEGIN { split(m, by, " "); printf "%.15g", ARGV[1] * s + by[2] }' "$@"; }
-xz() { awk -v s="$scale" -v m="$move" 'BEGIN { split(m, by, " "); printf "[%.15g, %.15g]", ARGV[1] * s + by[1],
-    ARGV[2] * s + by[3] }' "$@"; }
-per() { awk -v s="$scale" 'BEGIN { printf "%.15g", ARGV[1] / s }' "$@"; }
+# A scene is written with places {p X Y Z}, of which {y Y} and {xz X Z} are parts, lengths {l A B ...} and what is per
+# length {per A}: at the move (metres an axis) and the scale these become numbers.
+at_move_and_scale() {
+    awk -v s="$scale" -v m="$move" 'BEGIN { split(m, by, " ") }
+    function number(x) { return sprintf("%.15g", x) }
+    function numbers(word, kind, n, a, i, text) {
+        n = split(word, a, " "); kind = a[1]
+        if (kind == "p") return "[" number(a[2] * s + by[1]) ", " number(a[3] * s + by[2]) ", " number(a[4] * s + by[3]) "]"
+        if (kind == "xz") return "[" number(a[2] * s + by[1]) ", " number(a[3] * s + by[3]) "]"
+        if (kind == "y") return number(a[2] * s + by[2])
+        if (kind == "per") return number(a[2] / s)
+        for (i = 2; i <= n; i++) text = text (i > 2 ? ", " : "") number(a[i] * s)
+        return text
+    }
+    { while (match($0, /[{][^}]*[}]/))
+          $0 = substr($0, 1, RSTART - 1) numbers(substr($0, RSTART + 1, RLENGTH - 2)) substr($0, RSTART + RLENGTH)
+      print }'
+}
 
 entity() { # name, mesh, place, turn
     printf '[[entity]]\nname = "%s"\nmesh = "%s/assets/entities/%s.obj"\nposition = %s\nrotation = [0, %s, 0]\nscale = [%s]\n' \
-        "$1" "$PWD" "$2" "$3" "$4" "$(l 1 1 1)"
+        "$1" "$PWD" "$2" "$3" "$4" "{l 1 1 1}"
 }
 camera() { # place, yaw, pitch
     printf '[output]\nwidth = 64\nheight = 40\n[camera]\nposition = %s\nyaw = %s\npitch = %s\nnear = %s\n' \
-        "$1" "$2" "$3" "$(l 0.1)"
+        "$1" "$2" "$3" "{l 0.1}"
 }
 sky() { printf '[light]\nelevation = %s\nazimuth = 60\n[sky]\ngradient = true\n' "$1"; }
-haze() { printf '[haze]\ndensity = %s\nbase = %s\nheight = %s\n' "$(per 0.01)" "$(y 0)" "$(l 5)"; }
+haze() { printf '[haze]\ndensity = %s\nbase = %s\nheight = %s\n' "{per 0.01}" "{y 0}" "{l 5}"; }
 houses() {
-    entity house cabin "$(p 0 0 0)" 30
-    entity stone boulder "$(p 4 0 1)" 10
-    entity wall cabin "$(p -6 -0.5 -7)" 80
+    entity house cabin "{p 0 0 0}" 30
+    entity stone boulder "{p 4 0 1}" 10
+    entity wall cabin "{p -6 -0.5 -7}" 80
 }
 water() { # model, waves
     printf '[water]\nlevel = %s\nposition = %s\nsize = [%s]\ntile = %s\nshore_depth = %s\n' \
-        "$(y 0.3)" "$(xz 0 0)" "$(l 60 60)" "$(l 3)" "$(l 1)"
+        "{y 0.3}" "{xz 0 0}" "{l 60 60}" "{l 3}" "{l 1}"
     printf 'waves.kind = "%s"\nwaves.height = %s\nwaves.length = [%s]\nwaves.count = 6\nwaves.patch = %s\n' \
-        "$2" "$(l 0.05)" "$(l 4 1)" "$(l 16)"
+        "$2" "{l 0.05}" "{l 4 1}" "{l 16}"
     printf 'waves.size = 64\nwaves.cascades = 2\nwaves.wind_speed = 3\n'
     printf 'optics.absorption = [%s, %s, %s]\nfoam.amount = 1\nfoam.tile = %s\nfoam.shore_depth = %s\n' \
-        "$(per 0.4)" "$(per 0.1)" "$(per 0.08)" "$(l 2)" "$(l 0.09)"
+        "{per 0.4}" "{per 0.1}" "{per 0.08}" "{l 2}" "{l 0.09}"
     printf '[quality]\nwater = "%s"\nentity_shadows = 256\n' "$1"
 }
 
-write_entities() { camera "$(p 1 3 12)" 3 -12; sky 35; haze; houses; printf '[quality]\nentity_shadows = 256\n'; }
+write_entities() { camera "{p 1 3 12}" 3 -12; sky 35; haze; houses; printf '[quality]\nentity_shadows = 256\n'; }
 write_flat() { write_entities; echo 'shading = "flat"'; }
 write_gouraud() { write_entities; echo 'shading = "gouraud"'; }
 write_follow() {
-    camera "[$(l 2 3 11)]" 5 -12
+    camera "[{l 2 3 11}]" 5 -12
     printf 'follow = "house"\nperson = "third"\n'
     sky 35
     houses
 }
 ground() { # the terrain's middle is at x = z = 0: it moves up and down
-    camera "$(p -3 2.2 14)" 8 -9
+    camera "{p -3 2.2 14}" 8 -9
     sky 20
-    printf '[terrain]\nheight_map = "height.pgm"\nsize = [%s]\nheight = %s\nbase = %s\n' "$(l 80 80)" "$(l 14)" "$(y -3)"
+    printf '[terrain]\nheight_map = "height.pgm"\nsize = [%s]\nheight = %s\nbase = %s\n' "{l 80 80}" "{l 14}" "{y -3}"
     printf 'tile = %s\n[[terrain.layer]]\nmap = "%s/assets/terrain/rock.png"\nmapping = "triplanar"\ntile = %s\n' \
-        "$(l 7)" "$PWD" "$(l 6)"
-    printf 'from_height = %s\nblend = %s\n' "$(y 0)" "$(l 1)"
-    entity stone boulder "$(p -4 0.4 5)" 20
+        "{l 7}" "$PWD" "{l 6}"
+    printf 'from_height = %s\nblend = %s\n' "{y 0}" "{l 1}"
+    entity stone boulder "{p -4 0.4 5}" 20
 }
 write_terrain() { ground; printf '[quality]\nterrain_shadows = true\nentity_shadows = 256\n'; }
 write_pool() { ground; water "$model" gerstner; echo 'terrain_shadows = true'; }
-write_water() { camera "$(p 1 3 12)" 3 -12; sky 35; houses; water "$model" "$waves"; }
+write_water() { camera "{p 1 3 12}" 3 -12; sky 35; houses; water "$model" "$waves"; }
 write_clouds() {
-    camera "$(p 1 30 120)" 3 2
+    camera "{p 1 30 120}" 3 2
     sky 50
-    printf '[[cloud]]\nposition = %s\nsize = [%s]\nseed = 3\n' "$(p 0 60 -60)" "$(l 100 40 90)"
+    printf '[[cloud]]\nposition = %s\nsize = [%s]\nseed = 3\n' "{p 0 60 -60}" "{l 100 40 90}"
     water tinted gerstner
 }
 write_spray() {
-    camera "$(p 0 2 9)" 0 -5
+    camera "{p 0 2 9}" 0 -5
     sky 35
     printf '[[spray]]\nname = "drops"\ncount = 300\nfrom = %s\nto = %s\nvelocity = [0, 4, 0]\nspread = 1\n' \
-        "$(p -1 0 0)" "$(p 1 0 0)"
+        "{p -1 0 0}" "{p 1 0 0}"
     printf 'size = [0.1, 0.3]\nopacity = 0.8\n'
 }
 
 draw() { # picture
-    "write_$kind" >"$scene"
+    "write_$kind" | at_move_and_scale >"$scene"
     "$lom" render "$scene" -o "$1" --threads 1 --quiet >"$folder/log" 2>&1
 }
 
