@@ -52,9 +52,9 @@ struct lom_cloud_set {
 };
 
 /* Makes or reads the volumes of the visible clouds. *loaded is NULL when there are none, or the model is off. */
-bool lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                     const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error);
-void lom_free_clouds(struct lom_cloud_set *set);
+bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds *params,
+                        const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error);
+void lom_free_cloud_set(struct lom_cloud_set *set);
 
 /* cloud_wind.c: how far the wind has taken a cloud at a time; puts all clouds there. */
 lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time);

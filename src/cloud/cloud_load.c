@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-void lom_free_clouds(struct lom_cloud_set *set)
+void lom_free_cloud_set(struct lom_cloud_set *set)
 {
     if (set == NULL)
         return;
@@ -123,8 +123,8 @@ static bool load_shared(struct lom_cloud_set *set, lom_error *error)
     return set->jitter != NULL || !set->quality.jitter;
 }
 
-bool lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                     const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error)
+bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds *params,
+                        const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error)
 {
     size_t visible = 0;
     *loaded = NULL;
@@ -145,6 +145,6 @@ bool lom_load_clouds(const lom_cloud *clouds, size_t count, const lom_clouds *pa
     if (done)
         *loaded = set;
     else
-        lom_free_clouds(set);
+        lom_free_cloud_set(set);
     return done;
 }

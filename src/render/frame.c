@@ -20,15 +20,15 @@ static const struct stage {
     const char *name;
 } stages[] = {
     { lom_prepare_ground, "terrain" }, /* its levels of detail and its shadow */
-    { lom_prepare_entity_shadows, "entity_shadow" },
+    { lom_prepare_entities, "entity_shadow" },
     { lom_prepare_clouds, "cloud_light" }, /* their light */
-    { lom_prepare_sea_stage, "waves" },    /* the waves, and what they do to the light on what follows */
+    { lom_prepare_water, "waves" },        /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },              /* terrain, entities and sky */
     { lom_draw_lake_stage, "lake" },       /* tinted or planar water over them */
     { lom_find_sea_stage, "sea_waves" },   /* the waves of a sea where one is seen */
     { lom_draw_sea_stage, "sea" },         /* or water with waves */
     { lom_draw_cloud_stage, "clouds" },    /* clouds over all */
-    { lom_draw_spray_stage, "spray" },     /* drops, nearer than most clouds */
+    { lom_draw_spray, "spray" },           /* drops, nearer than most clouds */
 };
 
 static void report(const struct frame *f, const char *pass)
@@ -57,7 +57,7 @@ lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char 
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color)
 {
     return (lom_pass_desc){ .color = { color },
-                            .depth = f->renderer->depth,
+                            .depth = f->renderer->targets.depth,
                             .frame_width = f->width,
                             .frame_height = f->height,
                             .origin_x = f->crop.x,
@@ -81,7 +81,7 @@ static bool draw_opaque(struct frame *f, lom_error *error)
     lom_step *step = lom_add_step(f, "scene", true, "terrain, entities and sky, from the camera");
     step->width = f->crop.width;
     step->height = f->crop.height;
-    lom_pass_desc pass = lom_frame_pass(f, r->color);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.color);
     lom_begin_pass(r->device, &pass);
     lom_draw_scene(r, &f->view);
     return lom_end_pass(r->device);
@@ -127,7 +127,7 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
     }
     f->done = (double)count / (double)(count + 1);
     report(f, "output");
-    return done ? lom_read_texture(r->color, 0, 0, error) : NULL;
+    return done ? lom_read_texture(r->targets.color, 0, 0, error) : NULL;
 }
 
 static const lom_frame_desc defaults = { .frame = 0 };
@@ -195,8 +195,9 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
 {
     lom_renderer *renderer = f->renderer;
     lom_counters before = lom_device_counters(renderer->device);
-    f->wave_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) : 0;
-    lom_move_scene(renderer, f->time);
+    f->wave_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) : 0;
+    renderer->moment.light = lom_scene_light_at(&renderer->moment, f->time);
+    lom_move_entities(renderer, f->time);
     look(f);
     lom_error failed = { 0 };
     lom_image *drawn =
@@ -205,7 +206,7 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
     out->image = lom_output_image(f->scene, drawn, &failed);
     if (drawn != NULL)
         out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
-    out->shallow_steps = renderer->waves != NULL ? lom_wave_steps(renderer->waves) - f->wave_steps : 0;
+    out->shallow_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) - f->wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);
     assert((out->image != NULL) == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
     return lom_pass_error(&failed, error);

@@ -1,10 +1,8 @@
-/* A frame while it is drawn: what its stages share. A stage is a file frame_NAME.c with one function, named in the
- * table of frame.c; it draws into the frame's targets and adds a step to the plan for each pass that it runs or leaves
- * out. */
+/* A frame while it is drawn: what its stages share. A stage is one function of a room, named in the table of frame.c;
+ * it draws into the frame's targets and adds a step to the plan for each pass that it runs or leaves out. */
 #ifndef LOM_RENDER_FRAME_H
 #define LOM_RENDER_FRAME_H
 
-#include "cloud/cloud_draw.h"
 #include "render/renderer.h"
 
 struct frame {
@@ -39,26 +37,5 @@ lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color);
 
 /* A frame that the reference draws instead of the stages: linear RGB32F of the crop, NULL on failure. */
 lom_image *lom_draw_reference(struct frame *f, lom_error *error);
-
-/* The stages of other files. False: the error, or the device's, says why. */
-bool lom_prepare_ground(struct frame *f, lom_error *error);
-bool lom_prepare_entity_shadows(struct frame *f, lom_error *error);
-bool lom_draw_lake_stage(struct frame *f, lom_error *error);
-bool lom_prepare_sea_stage(struct frame *f, lom_error *error);
-bool lom_find_sea_stage(struct frame *f, lom_error *error); /* where the scene leaves water to be seen */
-bool lom_draw_sea_stage(struct frame *f, lom_error *error);
-bool lom_prepare_clouds(struct frame *f, lom_error *error); /* makes their light before anything is drawn */
-bool lom_draw_cloud_stage(struct frame *f, lom_error *error);
-bool lom_draw_spray_stage(struct frame *f, lom_error *error);
-
-/* frame_impostor.c: whether this frame goes on with the run's impostors; then lom_draw_clouds by them. */
-bool lom_begin_impostors(struct frame *f, lom_error *error);
-bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
-                        const lom_pass_desc *pass, size_t *count, lom_error *error);
-
-/* frame_cloud.c: draws the clouds that this view sees over a picture that is finished, in a pass like `pass`; depth is
- * the picture's. The renderer has clouds. *count: how many are in view. */
-bool lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
-                     size_t *count, lom_error *error);
 
 #endif

@@ -2,26 +2,9 @@
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
 #include "render/renderer.h"
-#include "sky/sky_draw.h"
+#include "water/water_models.h"
 
 #include <assert.h>
-
-static bool load_sun(lom_renderer *renderer, lom_error *error)
-{
-    enum { SIZE = 256 };
-    if (!renderer->scene->sky.sun)
-        return true;
-    lom_image *picture = lom_make_sun_picture(SIZE, renderer->scene->sky.sun_rays, error);
-    if (picture != NULL)
-        renderer->sun = lom_make_texture(
-            renderer->device, &(lom_texture_desc){ .width = SIZE,
-                                                   .height = SIZE,
-                                                   .format = LOM_FORMAT_R32F,
-                                                   .pixels = picture->pixels,
-                                                   .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
-    lom_free_image(picture);
-    return renderer->sun != NULL;
-}
 
 static bool load(lom_renderer *renderer, lom_error *error)
 {
@@ -32,10 +15,12 @@ static bool load(lom_renderer *renderer, lom_error *error)
             lom_add_warnings(&renderer->warnings, lom_reference_warnings(renderer->reference));
         return renderer->reference != NULL;
     }
-    const bool srgb = scene->output.transfer == LOM_TRANSFER_SRGB;
-    return lom_load_sky(renderer->device, &scene->sky, srgb, &renderer->sky, error) && load_sun(renderer, error) &&
-           lom_load_terrain(renderer, error) && lom_load_entities(renderer, error) && lom_load_water(renderer, error) &&
-           lom_load_waves(renderer, error) && lom_load_scene_clouds(renderer, error) && lom_load_spray(renderer, error);
+    static bool (*const rooms[])(lom_renderer *, lom_error *) = { lom_load_sky,   lom_load_ground, lom_load_entities,
+                                                                  lom_load_water, lom_load_clouds, lom_load_spray };
+    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++)
+        if (!rooms[i](renderer, error))
+            return false;
+    return true;
 }
 
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)
@@ -64,21 +49,13 @@ void lom_free_renderer(lom_renderer *renderer)
 {
     if (renderer == NULL)
         return;
-    for (size_t i = 0; i < renderer->entity_count; i++) {
-        lom_free_mesh(renderer->entities[i].mesh);
-        lom_release(renderer->entities[i].parts);
-    }
-    for (size_t i = 0; i < renderer->path_count; i++)
-        lom_release(renderer->paths[i]);
     lom_free_reference(renderer->reference);
-    lom_free_wave_field(renderer->waves);
-    lom_free_polar_mesh(&renderer->polar);
-    lom_free_scene_clouds(renderer);
     lom_free_spray(renderer);
-    lom_free_ground(&renderer->ground);
-    lom_release(renderer->entities);
-    lom_release(renderer->paths);
-    lom_release(renderer->textures);
+    lom_free_clouds(renderer);
+    lom_free_water(renderer);
+    lom_free_entities(renderer);
+    lom_free_ground(renderer);
+    lom_free_textures(renderer);
     lom_close_device(renderer->device);
     lom_release(renderer);
 }

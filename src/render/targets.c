@@ -2,6 +2,7 @@
  * output format, encoded once. */
 #include "pipeline/check_device.h"
 #include "render/renderer.h"
+#include "water/water_models.h"
 
 static int scaled(int size, double scale)
 {
@@ -21,14 +22,18 @@ static lom_texture *make_target(lom_renderer *renderer, int width, int height, l
 
 static void release_targets(lom_renderer *r)
 {
-    lom_texture **targets[] = {
-        &r->color,      &r->depth, &r->mask, &r->reflection, &r->reflection_depth, &r->refraction, &r->refraction_depth,
-        &r->spray.layer
-    };
-    if (r->reflection_depth == r->refraction_depth)
-        r->reflection_depth = NULL;
-    if (r->mask == r->refraction)
-        r->mask = NULL;
+    lom_texture **targets[] = { &r->targets.color,
+                                &r->targets.depth,
+                                &r->targets.mask,
+                                &r->targets.reflection,
+                                &r->targets.reflection_depth,
+                                &r->targets.refraction,
+                                &r->targets.refraction_depth,
+                                &r->targets.spray };
+    if (r->targets.reflection_depth == r->targets.refraction_depth)
+        r->targets.reflection_depth = NULL;
+    if (r->targets.mask == r->targets.refraction)
+        r->targets.mask = NULL;
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
         lom_release_texture(r->device, *targets[i]);
         *targets[i] = NULL;
@@ -52,35 +57,38 @@ static void make_water_targets(lom_renderer *r, int width, int height)
         refraction_height = scaled(height, scene->quality.refraction_scale);
     /* Rough water mirrors a blurred picture. */
     lom_mips levels = lom_water_models[scene->quality.water].has_waves ? LOM_MIPS_ALL : LOM_MIPS_NONE;
-    r->reflection = make_target(r, reflection_width, reflection_height, color_format(scene), levels);
-    r->refraction = make_target(r, refraction_width, refraction_height, color_format(scene), LOM_MIPS_NONE);
-    r->refraction_depth = make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
+    r->targets.reflection = make_target(r, reflection_width, reflection_height, color_format(scene), levels);
+    r->targets.refraction = make_target(r, refraction_width, refraction_height, color_format(scene), LOM_MIPS_NONE);
+    r->targets.refraction_depth =
+        make_target(r, refraction_width, refraction_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
     /* The mask is read before that picture is drawn. */
-    bool same = r->target_width == refraction_width && r->target_height == refraction_height &&
+    bool same = r->targets.drawn_width == refraction_width && r->targets.drawn_height == refraction_height &&
                 color_format(scene) != LOM_FORMAT_RGBA32F;
-    r->mask = same ? r->refraction : make_target(r, r->target_width, r->target_height, LOM_FORMAT_R8, LOM_MIPS_NONE);
+    r->targets.mask =
+        same ? r->targets.refraction
+             : make_target(r, r->targets.drawn_width, r->targets.drawn_height, LOM_FORMAT_R8, LOM_MIPS_NONE);
     /* The planar lake never looks up how far away what it mirrors is, and draws that picture first. */
     bool shared = !lom_water_models[scene->quality.water].has_waves && reflection_width == refraction_width &&
                   reflection_height == refraction_height;
-    r->reflection_depth = shared
-                              ? r->refraction_depth
-                              : make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
+    r->targets.reflection_depth =
+        shared ? r->targets.refraction_depth
+               : make_target(r, reflection_width, reflection_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
 }
 
 bool lom_make_targets(lom_renderer *r, int width, int height, int target_width, int target_height, lom_error *error)
 {
-    if (r->color != NULL && r->width == width && r->height == height && r->target_width == target_width &&
-        r->target_height == target_height)
+    if (r->targets.color != NULL && r->targets.width == width && r->targets.height == height &&
+        r->targets.drawn_width == target_width && r->targets.drawn_height == target_height)
         return true;
     release_targets(r);
-    r->width = width;
-    r->height = height;
-    r->target_width = target_width;
-    r->target_height = target_height;
-    r->color = make_target(r, target_width, target_height, color_format(r->scene), LOM_MIPS_NONE);
-    r->depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
+    r->targets.width = width;
+    r->targets.height = height;
+    r->targets.drawn_width = target_width;
+    r->targets.drawn_height = target_height;
+    r->targets.color = make_target(r, target_width, target_height, color_format(r->scene), LOM_MIPS_NONE);
+    r->targets.depth = make_target(r, target_width, target_height, LOM_FORMAT_DEPTH32F, LOM_MIPS_NONE);
     if (r->spray.sprites != NULL)
-        r->spray.layer = make_target(r, target_width, target_height, LOM_FORMAT_RGBA32F, LOM_MIPS_NONE);
+        r->targets.spray = make_target(r, target_width, target_height, LOM_FORMAT_RGBA32F, LOM_MIPS_NONE);
     if (r->scene->water.present && r->scene->water.enabled)
         make_water_targets(r, width, height);
     return lom_check_device(r->device, error);

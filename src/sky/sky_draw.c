@@ -33,7 +33,7 @@ static uint8_t *join_faces(const lom_sky_params *sky, int *size, lom_error *erro
     return pixels;
 }
 
-bool lom_load_sky(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error)
+bool lom_load_sky_box(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error)
 {
     int size = 0;
     *box = NULL;
@@ -84,8 +84,8 @@ struct lom_gradient_uniform lom_sky_gradient_of(const lom_sky_params *sky, const
     return u;
 }
 
-void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const float to_light[3],
-                  const lom_mat4 *projection, const lom_mat4 *view)
+void lom_draw_sky_box(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const float to_light[3],
+                      const lom_mat4 *projection, const lom_mat4 *view)
 {
     static const float corners[3][2] = { { -1, -1 }, { 3, -1 }, { -1, 3 } };
     struct lom_sky_uniforms uniforms = { .box = box, .gradient = lom_sky_gradient_of(sky, box, to_light) };

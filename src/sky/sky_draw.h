@@ -9,7 +9,7 @@
 
 /* The sky box as a cube texture of the device, *box; srgb: its pictures are decoded. *box is NULL where the sky is a
  * colour. */
-bool lom_load_sky(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error);
+bool lom_load_sky_box(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error);
 
 /* What the shaders get of a sky that is a gradient; off where it is not. */
 struct lom_gradient_uniform lom_sky_gradient_of(const lom_sky_params *sky, const lom_texture *box,
@@ -17,8 +17,8 @@ struct lom_gradient_uniform lom_sky_gradient_of(const lom_sky_params *sky, const
 
 /* Draws the sky where nothing has been drawn (reversed depth is still 0) as seen through projection * view; box may be
  * NULL: a gradient or one colour. */
-void lom_draw_sky(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const float to_light[3],
-                  const lom_mat4 *projection, const lom_mat4 *view);
+void lom_draw_sky_box(lom_device *device, const lom_sky_params *sky, const lom_texture *box, const float to_light[3],
+                      const lom_mat4 *projection, const lom_mat4 *view);
 /* Adds the sun's picture there, in the light's colour. */
 void lom_draw_sun(lom_device *device, const lom_sky_params *sky, const lom_texture *picture,
                   const struct lom_light_uniform *light, const lom_mat4 *projection, const lom_mat4 *view);

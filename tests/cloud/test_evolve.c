@@ -27,7 +27,8 @@ static void load_set(void)
                                  .detail_size = 50,
                                  .visible = true };
     const struct lom_cloud_quality quality = { .error = 0.05, .stop = 0.004, .light_scale = 0.5, .octaves = 4 };
-    CHECK(lom_load_clouds(clouds, CLOUDS, &params, &quality, &set, &error) && set->count == CLOUDS, "%s", error.text);
+    CHECK(lom_load_cloud_set(clouds, CLOUDS, &params, &quality, &set, &error) && set->count == CLOUDS, "%s",
+          error.text);
 }
 
 static void phases(void)
@@ -185,6 +186,6 @@ int main(int argc, char **argv)
     RUN(clouds_swell);
     RUN(what_does_not_evolve_stays);
     RUN(flat_cloud);
-    lom_free_clouds(set);
+    lom_free_cloud_set(set);
     return check_result();
 }

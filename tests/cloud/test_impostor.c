@@ -372,7 +372,7 @@ static struct lom_cloud_set *load(lom_cloud clouds[], size_t count, const lom_cl
     }
     lom_error error = { 0 };
     struct lom_cloud_set *set;
-    CHECK(lom_load_clouds(clouds, count, params, &quality, &set, &error), "%s", error.text);
+    CHECK(lom_load_cloud_set(clouds, count, params, &quality, &set, &error), "%s", error.text);
     return set;
 }
 
@@ -402,7 +402,7 @@ static void test_painters_order_with_ties(void)
     for (size_t i = 0; i < count; i++)
         CHECK(order[i] == expected[i], "place %zu: cloud %zu instead of %zu", i, order[i], expected[i]);
     CHECK(lom_order_clouds(set, &view, false, order) == 6 && order[0] == 5, "without culling all are drawn");
-    lom_free_clouds(set);
+    lom_free_cloud_set(set);
 }
 
 /* The border is empty, colour never exceeds opacity without light, and no dark fringe: what is not the cloud is 0 in
@@ -437,7 +437,7 @@ static void i6_plate_border_is_empty(void)
     CHECK(seen > image->width * image->height / 20, "%d texels hold the cloud", seen);
     lom_free_image(image);
     lom_close_device(device);
-    lom_free_clouds(set);
+    lom_free_cloud_set(set);
 }
 
 int main(int argc, char **argv)

@@ -4,7 +4,7 @@
  * closed forms. */
 #include "check.h"
 
-#include "render/ground.h"
+#include "render/ground/ground.h"
 
 enum { SIZE = 150 }; /* vertices: no whole number of blocks */
 
@@ -32,14 +32,14 @@ static void load(uint16_t (*height)(int x, int y))
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++)
             *(uint16_t *)lom_image_pixel(map, x, y, 0) = height(x, y);
-    CHECK(lom_load_ground(&ground, &terrain, map, &(lom_quality){ .ambient_occlusion = true, .mipmaps = true }, device,
-                          &error),
+    CHECK(lom_make_ground_blocks(&ground, &terrain, map, &(lom_quality){ .ambient_occlusion = true, .mipmaps = true },
+                                 device, &error),
           "%s", error.text);
 }
 
 static void release(void)
 {
-    lom_free_ground(&ground);
+    lom_free_ground_blocks(&ground);
     lom_free_image(map);
     lom_close_device(device);
 }

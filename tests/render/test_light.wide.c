@@ -1,7 +1,7 @@
 /* Proves what lighting makes of extremes: shininess of 0 and of a million, normals of no length, light from the side
  * and from behind, colours beyond what is shown; and that a fragment's light does not depend on the lanes beside it. */
 #include "check.h"
-#include "render/light.h"
+#include "shading/surface_light.h"
 
 static struct lom_view_uniform view_of(float x, float y, float z, float color)
 {

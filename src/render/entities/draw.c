@@ -1,0 +1,104 @@
+/* Entities in a pass. In: how the pass looks at them. Out: a draw for each part of those in view; their depth as the
+ * sun sees them. Compiled for speed. */
+#include "render/entities/shaders.h"
+#include "render/renderer.h"
+
+static void set_attributes(lom_draw_desc *draw, const lom_mesh *mesh)
+{
+    const uint8_t *data = (const uint8_t *)mesh->vertices;
+    size_t size = mesh->vertex_count * sizeof(lom_mesh_vertex), stride = sizeof(lom_mesh_vertex);
+    draw->attribute[0] = (lom_attribute){ data, size, stride, LOM_ATTRIBUTE_FLOAT3 };
+    draw->attribute[1] = (lom_attribute){ data + 12, size - 12, stride, LOM_ATTRIBUTE_FLOAT3 };
+    draw->attribute[2] = (lom_attribute){ data + 24, size - 24, stride, LOM_ATTRIBUTE_FLOAT2 };
+    draw->attribute[3] = (lom_attribute){ data + 32, size - 32, stride, LOM_ATTRIBUTE_FLOAT4 };
+    draw->indices = mesh->indices;
+}
+
+/* Whether a placed entity is turned inside out by a negative scale. */
+static bool is_mirroring(const lom_mat4 *m)
+{
+    const double(*r)[4] = m->m;
+    double determinant = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
+                         r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+                         r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
+    return determinant < 0;
+}
+
+static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_entity_phong,
+                                             [LOM_SHADING_GOURAUD] = &lom_entity_gouraud,
+                                             [LOM_SHADING_FLAT] = &lom_entity_flat };
+
+static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *entity,
+                        const struct lom_view_uniform *uniform, const struct lom_scene_view *view)
+{
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
+    lom_mat4 offset_from_model = entity->world_from_model;
+    offset_from_model.m[0][3] -= view->eye.x;
+    offset_from_model.m[1][3] -= view->eye.y;
+    offset_from_model.m[2][3] -= view->eye.z;
+    lom_mat4 clip_from_model = lom_multiply(&clip_from_offset, &offset_from_model);
+    struct lom_entity_uniforms uniforms = { .view = *uniform,
+                                            .clip_from_model = lom_round_matrix(&clip_from_model),
+                                            .offset_from_model = lom_round_matrix(&offset_from_model),
+                                            .normal_from_model = lom_round_matrix(&entity->normal_from_model) };
+    lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
+                           .uniforms = &uniforms,
+                           .cull = LOM_CULL_BACK,
+                           .front_clockwise = view->mirrored != is_mirroring(&entity->world_from_model) };
+    set_attributes(&draw, entity->drawn);
+    for (size_t i = 0; i < entity->drawn->part_count; i++) {
+        uniforms.material = entity->parts[i].material;
+        draw.first = entity->parts[i].first;
+        draw.count = entity->parts[i].count;
+        lom_draw(renderer->device, &draw);
+    }
+}
+
+void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world)
+{
+    lom_mat4 clip_from_model = lom_multiply(clip_from_world, &entity->world_from_model);
+    struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_model) };
+    lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .count = entity->drawn->index_count };
+    set_attributes(&draw, entity->drawn);
+    lom_draw(renderer->device, &draw);
+}
+
+struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye)
+{
+    if (!shadow->falls)
+        return (struct lom_shadow_map_uniform){ .map = NULL };
+    const float size = (float)lom_texture_width(shadow->map);
+    struct lom_shadow_map_uniform u = {
+        .map = shadow->map, .size = size, .texel = 1 / size, .offset = (float)(2.5 * shadow->texel)
+    };
+    double s[4], t[4];
+    for (int i = 0; i < 4; i++) {
+        s[i] = shadow->clip_from_world.m[0][i] / 2 + (i == 3 ? 0.5 : 0);
+        t[i] = -shadow->clip_from_world.m[1][i] / 2 + (i == 3 ? 0.5 : 0);
+    }
+    lom_center_row(u.s, s, eye);
+    lom_center_row(u.t, t, eye);
+    lom_center_row(u.depth, shadow->clip_from_world.m[2], eye);
+    return u;
+}
+
+static bool is_shown(const struct lom_loaded_entity *entity, const struct lom_culler *culler)
+{
+    return !entity->is_hidden && lom_is_visible(culler, &entity->bounds);
+}
+
+void lom_draw_entities(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *uniform,
+                       const struct lom_scene_view *view)
+{
+    for (size_t i = 0; i < renderer->entities.count; i++)
+        if (is_shown(&renderer->entities.items[i], culler))
+            draw_entity(renderer, &renderer->entities.items[i], uniform, view);
+}
+
+bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *culler)
+{
+    for (size_t i = 0; i < renderer->entities.count; i++)
+        if (is_shown(&renderer->entities.items[i], culler))
+            return true;
+    return false;
+}

@@ -1,0 +1,116 @@
+/* The shaders of entities: textured meshes with Phong's reflection, at three shading frequencies; and the depth alone,
+ * as the sun sees them. */
+#include "render/entities/shaders.h"
+#include "shading/surface_light.h"
+
+enum { OFFSET = 0, NORMAL = 3, UV = 6, COLOR = 8, TEXTURED = 8, HIGHLIGHT = 11 };
+
+struct corner {
+    lom_float3 offset, normal;
+};
+
+static struct corner transform(lom_vertex *out, const lom_attributes *in, const struct lom_entity_uniforms *entity)
+{
+    lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
+    struct corner c = { lom_transform3(&entity->offset_from_model, model),
+                        lom_rotate3(&entity->normal_from_model,
+                                    (lom_float3){ in->attribute[1].x, in->attribute[1].y, in->attribute[1].z }) };
+    out->position = lom_transform4(&entity->clip_from_model, model);
+    out->distance[0] = lom_transform_row(entity->view.plane, c.offset);
+    out->varying[OFFSET] = c.offset.x;
+    out->varying[OFFSET + 1] = c.offset.y;
+    out->varying[OFFSET + 2] = c.offset.z;
+    out->varying[UV] = in->attribute[2].x;
+    out->varying[UV + 1] = in->attribute[2].y;
+    return c;
+}
+
+static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    struct corner c = transform(out, in, uniforms);
+    out->varying[NORMAL] = c.normal.x;
+    out->varying[NORMAL + 1] = c.normal.y;
+    out->varying[NORMAL + 2] = c.normal.z;
+    out->varying[COLOR] = in->attribute[3].x;
+    out->varying[COLOR + 1] = in->attribute[3].y;
+    out->varying[COLOR + 2] = in->attribute[3].z;
+}
+
+static void store3(lom_float *varying, lom_float3 v)
+{
+    varying[0] = v.x;
+    varying[1] = v.y;
+    varying[2] = v.z;
+}
+
+static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    struct corner c = transform(out, in, entity);
+    struct lom_lit lit =
+        lom_light_surface(&entity->view, &entity->material, c.offset, lom_normalize3(c.normal), lom_splat(1.0f));
+    lom_float3 color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
+    store3(out->varying + TEXTURED, lom_mul3(lit.textured, color));
+    store3(out->varying + HIGHLIGHT, lit.highlight);
+}
+
+LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
+{
+    return (lom_float3){ in->varying[v], in->varying[v + 1], in->varying[v + 2] };
+}
+
+static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_varyings *in)
+{
+    const lom_texture *texture = entity->material.texture;
+    if (texture == NULL)
+        return lom_splat3(1, 1, 1);
+    lom_float4 texel = lom_sample(texture, in->varying[UV], in->varying[UV + 1], lom_lod(texture, in, UV, UV + 1));
+    return (lom_float3){ texel.x, texel.y, texel.z };
+}
+
+static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                   lom_float3 textured, lom_float3 highlight)
+{
+    lom_float3 color = lom_add3(lom_mul3(textured, albedo(entity, in)), highlight);
+    lom_finish_surface(out, &entity->view, load3(in, OFFSET), color);
+}
+
+static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                  lom_float3 normal)
+{
+    struct lom_lit lit =
+        lom_light_surface(&entity->view, &entity->material, load3(in, OFFSET), normal, lom_splat(1.0f));
+    finish(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
+}
+
+static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    shade(out, in, uniforms, lom_normalize3(load3(in, NORMAL)));
+}
+
+static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    shade(out, in, uniforms, lom_face_normal(in, OFFSET, load3(in, NORMAL)));
+}
+
+static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    finish(out, in, uniforms, load3(in, TEXTURED), load3(in, HIGHLIGHT));
+}
+
+LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
+           .reads = 0x7ff, .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1, .reads = 0x7ff,
+           .differentiates = 3 << UV | 7 << OFFSET, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .varyings = 14, .clip_distances = 1,
+           .reads = 0x3f00 | 3 << UV | 7 << OFFSET, .differentiates = 3 << UV, .colors = 1,
+           .uniforms_size = sizeof(struct lom_entity_uniforms))
+
+static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_caster_uniforms *caster = uniforms;
+    lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
+    out->position = lom_transform4(&caster->clip_from_model, model);
+}
+
+LOM_DEPTH_SHADER(lom_caster_shader, caster_vertex, .attributes = 1, .uniforms_size = sizeof(struct lom_caster_uniforms))

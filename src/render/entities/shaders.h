@@ -1,0 +1,21 @@
+/* The shaders of entities and their uniforms: one for each shading frequency, flat (a normal a face), Gouraud (light at
+ * the vertices) and Phong (light at each fragment). */
+#ifndef LOM_RENDER_ENTITIES_SHADERS_H
+#define LOM_RENDER_ENTITIES_SHADERS_H
+
+#include "shading/surface.h"
+
+struct lom_entity_uniforms {
+    struct lom_view_uniform view;
+    struct lom_matrix_uniform clip_from_model, offset_from_model, normal_from_model; /* multiplied in double */
+    struct lom_material_uniform material;
+};
+
+struct lom_caster_uniforms {
+    struct lom_matrix_uniform clip_from_model;
+};
+
+extern const lom_shader lom_entity_phong, lom_entity_gouraud, lom_entity_flat;
+extern const lom_shader lom_caster_shader; /* depth alone */
+
+#endif

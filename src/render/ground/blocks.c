@@ -1,0 +1,237 @@
+/* Terrain for drawing. In: a height map. Out: the vertices of every block at every level of detail, how far each level
+ * is off, and a texture of normals and the sky's visibility.
+ * Level n of a block has the vertices whose column and row within the block are multiples of 2^n or the last. */
+#include "pipeline/check_device.h"
+#include "render/ground/ground.h"
+
+#include "geometry/terrain.h"
+
+struct loader {
+    struct lom_ground *ground;
+    int width; /* vertices of a row */
+    float (*surface)[4];
+    float *x;          /* of the columns */
+    float *z;          /* of the rows */
+    double spacing[2]; /* metres between columns and between rows */
+    double base;
+};
+
+static void take_row(void *context, int row, const lom_mesh_vertex *vertices)
+{
+    struct loader *loader = context;
+    size_t first = (size_t)row * (size_t)loader->width;
+    for (int i = 0; i < loader->width; i++) {
+        const lom_mesh_vertex *v = &vertices[i];
+        float *surface = loader->surface[first + (size_t)i];
+        loader->ground->heights[first + (size_t)i] = v->position[1];
+        loader->x[i] = v->position[0];
+        for (int k = 0; k < 3; k++)
+            surface[k] = v->normal[k];
+        surface[3] = 1;
+    }
+    loader->z[row] = vertices[0].position[2];
+}
+
+/* Vertices of a level along an edge of so many quads, less one. */
+static int joined(int quads, int level)
+{
+    return (quads + (1 << level) - 1) >> level;
+}
+
+struct place { /* of a block in the grid, a level of it */
+    const struct loader *loader;
+    const struct lom_ground_block *block;
+    int x0, y0, level;
+};
+
+static float height_at(const struct place *p, int column, int row)
+{
+    return p->loader->ground->heights[(size_t)(p->y0 + row) * (size_t)p->loader->width + (size_t)(p->x0 + column)];
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* A quad of the level, its corners named as lom_make_terrain does, and how many quads of level 0 it joins. */
+struct cell {
+    int x, y, width, height;
+    float a, b, c, d;
+};
+
+static struct cell cell_at(const struct place *p, int column, int row)
+{
+    int step = 1 << p->level, x = column * step, y = row * step;
+    int x1 = smaller(x + step, p->block->columns), y1 = smaller(y + step, p->block->rows);
+    return (struct cell){
+        x, y, x1 - x, y1 - y, height_at(p, x, y), height_at(p, x1, y), height_at(p, x, y1), height_at(p, x1, y1)
+    };
+}
+
+/* The cosine between up and the normal of a triangle that rises by these heights over the quad's width and length. */
+static float cosine_of(const struct place *p, const struct cell *cell, float across, float down)
+{
+    double s = (double)across / (cell->width * p->loader->spacing[0]);
+    double t = (double)down / (cell->height * p->loader->spacing[1]);
+    return (float)(1 / lom_double_sqrt(1 + s * s + t * t));
+}
+
+/* The largest distance of a vertex of level 0 from the plane of the triangle above or below it. */
+static float error_of_cell(const struct place *p, const struct cell *cell)
+{
+    float upper = cosine_of(p, cell, cell->b - cell->a, cell->c - cell->a);
+    float lower = cosine_of(p, cell, cell->d - cell->c, cell->d - cell->b), worst = 0;
+    for (int j = 0; j <= cell->height; j++) {
+        float t = (float)j / (float)cell->height;
+        for (int i = 0; i <= cell->width; i++) {
+            float s = (float)i / (float)cell->width, here = height_at(p, cell->x + i, cell->y + j);
+            bool first = s + t <= 1;
+            float above = cell->a + s * (cell->b - cell->a) + t * (cell->c - cell->a);
+            float below = cell->d + (1 - s) * (cell->c - cell->d) + (1 - t) * (cell->b - cell->d);
+            float off = ((first ? above : below) - here) * (first ? upper : lower);
+            off = off < 0 ? -off : off;
+            worst = off > worst ? off : worst;
+        }
+    }
+    return worst;
+}
+
+static float error_of_level(const struct place *p)
+{
+    float worst = 0;
+    for (int row = 0; row < joined(p->block->rows, p->level); row++)
+        for (int column = 0; column < joined(p->block->columns, p->level); column++) {
+            struct cell cell = cell_at(p, column, row);
+            float error = error_of_cell(p, &cell);
+            worst = error > worst ? error : worst;
+        }
+    return worst;
+}
+
+static void copy_level(const struct place *p, float (*to)[3])
+{
+    int step = 1 << p->level;
+    for (int j = 0; j <= joined(p->block->rows, p->level); j++)
+        for (int i = 0; i <= joined(p->block->columns, p->level); i++, to++) {
+            int column = smaller(i * step, p->block->columns), row = smaller(j * step, p->block->rows);
+            (*to)[0] = p->loader->x[p->x0 + column];
+            (*to)[1] = height_at(p, column, row);
+            (*to)[2] = p->loader->z[p->y0 + row];
+        }
+}
+
+static void find_bounds(const struct place *p, lom_box *box)
+{
+    float low = height_at(p, 0, 0), high = low;
+    for (int j = 0; j <= p->block->rows; j++)
+        for (int i = 0; i <= p->block->columns; i++) {
+            float y = height_at(p, i, j);
+            low = y < low ? y : low;
+            high = y > high ? y : high;
+        }
+    double base = p->loader->base;
+    box->low = (lom_vec3){ (double)p->loader->x[p->x0], base + (double)low, (double)p->loader->z[p->y0] };
+    box->high = (lom_vec3){ (double)p->loader->x[p->x0 + p->block->columns], base + (double)high,
+                            (double)p->loader->z[p->y0 + p->block->rows] };
+}
+
+/* Sizes of all blocks and the places of their vertices. */
+static bool lay_out(struct lom_ground *ground, lom_error *error)
+{
+    size_t count = (size_t)ground->across * (size_t)ground->down, next = 0;
+    ground->blocks = lom_allocate(count, sizeof *ground->blocks, error);
+    ground->level = lom_allocate(count, sizeof *ground->level, error);
+    ground->order = lom_allocate(count, sizeof *ground->order, error);
+    ground->distance = lom_allocate(count, sizeof *ground->distance, error);
+    ground->pattern = lom_allocate(count, sizeof *ground->pattern, error);
+    ground->patterns = lom_allocate(LOM_GROUND_PATTERNS, sizeof *ground->patterns, error);
+    if (ground->blocks == NULL || ground->level == NULL || ground->order == NULL || ground->distance == NULL ||
+        ground->pattern == NULL || ground->patterns == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        struct lom_ground_block *b = &ground->blocks[i];
+        b->columns = smaller(LOM_GROUND_BLOCK, ground->columns - (int)(i % (size_t)ground->across) * LOM_GROUND_BLOCK);
+        b->rows = smaller(LOM_GROUND_BLOCK, ground->rows - (int)(i / (size_t)ground->across) * LOM_GROUND_BLOCK);
+        for (int level = 0; level < LOM_GROUND_LEVELS; level++) {
+            b->first[level] = next;
+            next += (size_t)(joined(b->columns, level) + 1) * (size_t)(joined(b->rows, level) + 1);
+        }
+    }
+    ground->position_count = next;
+    ground->position = lom_allocate(next, sizeof *ground->position, error);
+    return ground->position != NULL;
+}
+
+static void fill_blocks(const struct loader *loader)
+{
+    struct lom_ground *ground = loader->ground;
+    for (int i = 0; i < ground->across * ground->down; i++) {
+        struct lom_ground_block *b = &ground->blocks[i];
+        struct place p = { loader, b, i % ground->across * LOM_GROUND_BLOCK, i / ground->across * LOM_GROUND_BLOCK, 0 };
+        find_bounds(&p, &b->bounds);
+        b->error[0] = 0;
+        for (p.level = 0; p.level < LOM_GROUND_LEVELS; p.level++) {
+            copy_level(&p, ground->position + b->first[p.level]);
+            if (p.level > 0)
+                b->error[p.level] = error_of_level(&p);
+        }
+    }
+}
+
+static bool make_surface(const struct loader *loader, int height, bool mipmaps, lom_device *device, lom_error *error)
+{
+    loader->ground->surface = lom_make_texture(
+        device, &(lom_texture_desc){ .width = loader->width,
+                                     .height = height,
+                                     .format = LOM_FORMAT_RGBA32F,
+                                     .pixels = loader->surface,
+                                     .mips = mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
+                                     .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    return lom_check_device(device, error);
+}
+
+bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, const lom_image *map,
+                            const lom_quality *quality, lom_device *device, lom_error *error)
+{
+    size_t vertices = (size_t)map->width * (size_t)map->height;
+    *ground = (struct lom_ground){ .columns = map->width - 1, .rows = map->height - 1 };
+    ground->across = joined(ground->columns, LOM_GROUND_LEVELS - 1);
+    ground->down = joined(ground->rows, LOM_GROUND_LEVELS - 1);
+    ground->heights = lom_allocate(vertices, sizeof(float), error);
+    struct loader loader = { .ground = ground,
+                             .width = map->width,
+                             .base = t->base,
+                             .spacing = { t->size[0] / ground->columns, t->size[1] / ground->rows },
+                             .surface = lom_allocate(vertices, 4 * sizeof(float), error),
+                             .x = lom_allocate((size_t)map->width, sizeof(float), error),
+                             .z = lom_allocate((size_t)map->height, sizeof(float), error) };
+    bool done = ground->heights != NULL && loader.surface != NULL && loader.x != NULL && loader.z != NULL &&
+                lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
+                lay_out(ground, error);
+    if (done)
+        fill_blocks(&loader);
+    if (done && quality->ambient_occlusion)
+        done =
+            lom_find_sky_visibility(ground->heights, map->width, map->height, t->size, &loader.surface[0][3], 4, error);
+    done = done && make_surface(&loader, map->height, quality->mipmaps, device, error);
+    lom_release(loader.surface);
+    lom_release(loader.x);
+    lom_release(loader.z);
+    return done;
+}
+
+void lom_free_ground_blocks(struct lom_ground *ground)
+{
+    for (size_t i = 0; i < ground->pattern_count; i++)
+        lom_release(ground->patterns[i].indices);
+    lom_release(ground->patterns);
+    lom_release(ground->blocks);
+    lom_release(ground->level);
+    lom_release(ground->pattern);
+    lom_release(ground->order);
+    lom_release(ground->distance);
+    lom_release(ground->position);
+    lom_release(ground->heights);
+    lom_free_texture(ground->shadow);
+}

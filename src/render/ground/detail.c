@@ -1,0 +1,168 @@
+/* Level of detail of terrain. In: the whole frame's camera and an error in pixels. Out: a level for each block, the
+ * order from near to far, and the triangles of a block.
+ *
+ * Seen from a distance d, a metre is at most scale / d pixels on the screen, so a level is good enough where
+ * error * scale <= pixels * d, with d to the nearest point of the block's box. Neighbours are kept within one level of
+ * each other; the finer one leaves out every second vertex of the edge they share, which then has the same vertices on
+ * both sides, so there are no cracks (Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004, section 4, has the other
+ * ways). Compiled for speed. */
+#include "render/ground/ground.h"
+
+/* ---- levels ---- */
+
+static double outside(double x, double low, double high)
+{
+    return x < low ? low - x : x > high ? x - high : 0;
+}
+
+static double distance_to(const lom_box *box, lom_vec3 p)
+{
+    return lom_vec3_length((lom_vec3){ outside(p.x, box->low.x, box->high.x), outside(p.y, box->low.y, box->high.y),
+                                       outside(p.z, box->low.z, box->high.z) });
+}
+
+static int coarsest(const struct lom_ground_block *block, double distance, double scale, double pixels)
+{
+    int level = 0;
+    while (level + 1 < LOM_GROUND_LEVELS && (double)block->error[level + 1] * scale <= pixels * distance)
+        level++;
+    return level;
+}
+
+/* Sweeps until no block is more than one level coarser than a neighbour: the largest such assignment below the wishes,
+ * whatever the order of the sweeps. */
+static void bind_neighbours(struct lom_ground *ground)
+{
+    int across = ground->across, down = ground->down;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int i = 0; i < across * down; i++) {
+            int *level = &ground->level[i], x = i % across, y = i / across, finest = LOM_GROUND_LEVELS;
+            if (x > 0 && level[-1] < finest)
+                finest = level[-1];
+            if (x + 1 < across && level[1] < finest)
+                finest = level[1];
+            if (y > 0 && level[-across] < finest)
+                finest = level[-across];
+            if (y + 1 < down && level[across] < finest)
+                finest = level[across];
+            if (*level > finest + 1) {
+                *level = finest + 1;
+                changed = true;
+            }
+        }
+    }
+}
+
+/* From near to far in BUCKETS steps of distance; within a step the blocks keep their order. */
+static void sort_blocks(struct lom_ground *ground)
+{
+    enum { BUCKETS = 256 };
+    size_t count = (size_t)ground->across * (size_t)ground->down, next[BUCKETS + 1] = { 0 };
+    double farthest = 0;
+    for (size_t i = 0; i < count; i++)
+        farthest = ground->distance[i] > farthest ? ground->distance[i] : farthest;
+    for (size_t i = 0; i < count; i++) {
+        double part = farthest > 0 ? ground->distance[i] / farthest : 0;
+        ground->distance[i] = lom_double_floor(part * (BUCKETS - 1));
+        next[lom_int_of(ground->distance[i]) + 1]++;
+    }
+    for (int i = 0; i < BUCKETS; i++)
+        next[i + 1] += next[i];
+    for (size_t i = 0; i < count; i++)
+        ground->order[next[lom_int_of(ground->distance[i])]++] = (uint32_t)i;
+}
+
+/* ---- triangles ---- */
+
+/* The vertex at (x, y) of the pattern, moved to the even one before it on an edge whose neighbour is coarser. */
+static uint32_t vertex_at(const struct lom_ground_pattern *p, int x, int y)
+{
+    bool upright = (x == 0 && (p->edges & LOM_EDGE_LEFT) != 0) || (x == p->columns && (p->edges & LOM_EDGE_RIGHT) != 0);
+    bool level = (y == 0 && (p->edges & LOM_EDGE_TOP) != 0) || (y == p->rows && (p->edges & LOM_EDGE_BOTTOM) != 0);
+    if (upright && y < p->rows)
+        y &= ~1;
+    if (level && x < p->columns)
+        x &= ~1;
+    return (uint32_t)y * (uint32_t)(p->columns + 1) + (uint32_t)x;
+}
+
+static void add_triangle(struct lom_ground_pattern *p, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (a == b || b == c || c == a)
+        return;
+    p->indices[p->count] = a;
+    p->indices[p->count + 1] = b;
+    p->indices[p->count + 2] = c;
+    p->count += 3;
+}
+
+static bool fill_pattern(struct lom_ground_pattern *p)
+{
+    p->indices = lom_allocate((size_t)p->columns * (size_t)p->rows * 6, sizeof *p->indices, NULL);
+    if (p->indices == NULL)
+        return false;
+    for (int y = 0; y < p->rows; y++)
+        for (int x = 0; x < p->columns; x++) {
+            uint32_t a = vertex_at(p, x, y), b = vertex_at(p, x + 1, y);
+            uint32_t c = vertex_at(p, x, y + 1), d = vertex_at(p, x + 1, y + 1);
+            add_triangle(p, a, c, b);
+            add_triangle(p, b, c, d);
+        }
+    return true;
+}
+
+/* Patterns are made when a block first needs them: one for each size, level and set of edges. */
+static int find_pattern(struct lom_ground *ground, int columns, int rows, int edges)
+{
+    size_t i = 0;
+    for (; i < ground->pattern_count; i++) {
+        const struct lom_ground_pattern *p = &ground->patterns[i];
+        if (p->columns == columns && p->rows == rows && p->edges == edges)
+            return (int)i;
+    }
+    if (i == LOM_GROUND_PATTERNS)
+        return -1;
+    struct lom_ground_pattern *added = &ground->patterns[i];
+    *added = (struct lom_ground_pattern){ columns, rows, edges, NULL, 0 };
+    if (!fill_pattern(added))
+        return -1;
+    ground->pattern_count++;
+    return (int)i;
+}
+
+static int coarser_edges(const struct lom_ground *ground, int block)
+{
+    const int *level = &ground->level[block];
+    int x = block % ground->across, y = block / ground->across, edges = 0;
+    if (x > 0 && level[-1] > *level)
+        edges |= LOM_EDGE_LEFT;
+    if (x + 1 < ground->across && level[1] > *level)
+        edges |= LOM_EDGE_RIGHT;
+    if (y > 0 && level[-ground->across] > *level)
+        edges |= LOM_EDGE_TOP;
+    if (y + 1 < ground->down && level[ground->across] > *level)
+        edges |= LOM_EDGE_BOTTOM;
+    return edges;
+}
+
+bool lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, lom_error *error)
+{
+    int count = ground->across * ground->down;
+    for (int i = 0; i < count; i++) {
+        const struct lom_ground_block *block = &ground->blocks[i];
+        ground->distance[i] = distance_to(&block->bounds, eye);
+        ground->level[i] = pixels > 0 ? coarsest(block, ground->distance[i], scale, pixels) : 0;
+    }
+    bind_neighbours(ground);
+    sort_blocks(ground);
+    for (int i = 0; i < count; i++) {
+        const struct lom_ground_block *b = &ground->blocks[i];
+        int level = ground->level[i], join = (1 << level) - 1;
+        ground->pattern[i] =
+            find_pattern(ground, (b->columns + join) >> level, (b->rows + join) >> level, coarser_edges(ground, i));
+        if (ground->pattern[i] < 0)
+            return lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for the triangles of the terrain.");
+    }
+    return true;
+}

@@ -1,0 +1,137 @@
+/* Terrain in a pass. In: how the pass looks at it and what the frame chose (ground.h). Out: a draw for each block in
+ * view, near ones first, so that they hide the ones behind before these are shaded. Compiled for speed. */
+#include "render/ground/shaders.h"
+#include "render/renderer.h"
+
+static double fraction(double x)
+{
+    return x - lom_double_floor(x);
+}
+
+/* A map that is laid from the middle of the terrain's base on, `tile` metres a repetition (0: once over it all). */
+static struct lom_laid_uniform lay(const lom_texture *map, double tile, const double size[2], const double eye[3])
+{
+    static const int axis[LOM_SIDES][2] = { { 2, 1 }, { 0, 2 }, { 0, 1 } };
+    struct lom_laid_uniform laid = { .map = map };
+    for (int side = 0; side < LOM_SIDES; side++)
+        for (int k = 0; k < 2; k++) {
+            double scale = (axis[side][k] == 1 ? -1 : 1) / (tile > 0 ? tile : size[k]);
+            laid.scale[side][k] = (float)scale;
+            laid.shift[side][k] = (float)fraction(eye[axis[side][k]] * scale);
+        }
+    return laid;
+}
+
+void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_vec3 eye, float scale[2], float shift[2])
+{
+    const double quads[2] = { ground->columns, ground->rows }, at[2] = { eye.x, eye.z };
+    for (int i = 0; i < 2; i++) {
+        double exact = quads[i] / (size[i] * (quads[i] + 1));
+        scale[i] = (float)exact;
+        shift[i] = (float)(0.5 + at[i] * exact);
+    }
+}
+
+/* A bound that lies so little beyond a height that this is a step: 1 / it is a float. */
+static const double least_blend = 1e-30;
+
+static struct lom_layer_uniform layer_uniform(const lom_renderer *renderer, size_t number, const double eye[3])
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    const lom_terrain_layer *from = &t->layers[number];
+    const double height = t->base + eye[1];
+    return (struct lom_layer_uniform){ .laid =
+                                           lay(lom_find_texture(renderer, from->map, true), from->tile, t->size, eye),
+                                       .from_height = (float)(from->from_height - height),
+                                       .to_height = (float)(from->to_height - height),
+                                       .from_slope = (float)from->from_slope,
+                                       .to_slope = (float)from->to_slope,
+                                       .blend = (float)(from->blend > least_blend ? from->blend : least_blend),
+                                       .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f,
+                                       .grain = (float)from->grain / renderer->ground.brightness_below[number],
+                                       .grain_offset = (float)from->grain,
+                                       .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
+}
+
+static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer, const struct lom_view_uniform *view,
+                                                    lom_vec3 place)
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    const double eye[3] = { place.x, place.y - t->base, place.z };
+    struct lom_terrain_uniforms u = {
+        .view = *view,
+        .surface = renderer->ground.surface,
+        .base = lay(lom_find_texture(renderer, t->texture, true), t->tile, t->size, eye),
+        .detail = lay(lom_find_texture(renderer, t->detail_map, false), t->detail_tile, t->size, eye),
+        .normals = lay(lom_find_texture(renderer, t->normal_map, false), t->detail_tile, t->size, eye),
+        .layer_count = (int)t->layer_count
+    };
+    lom_map_ground(&renderer->ground, t->size, place, u.surface_scale, u.surface_shift);
+    for (int i = 0; i < 3; i++) {
+        u.eye[i] = (float)eye[i];
+        u.eye_rest[i] = (float)(eye[i] - (double)u.eye[i]);
+        u.material.ambient[i] = (float)t->material.ambient[i];
+        u.material.diffuse[i] = (float)t->material.diffuse[i];
+        u.material.specular[i] = (float)t->material.specular[i];
+    }
+    u.material.shininess = (float)t->material.shininess;
+    for (size_t i = 0; i < t->layer_count; i++)
+        u.layer[i] = layer_uniform(renderer, i, eye);
+    return u;
+}
+
+static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_terrain_phong,
+                                             [LOM_SHADING_GOURAUD] = &lom_terrain_gouraud,
+                                             [LOM_SHADING_FLAT] = &lom_terrain_flat };
+
+void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
+                     lom_vec3 eye, bool mirrored)
+{
+    const struct lom_ground *ground = &renderer->ground;
+    if (ground->blocks == NULL)
+        return;
+    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, view, eye);
+    lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
+                           .uniforms = &uniforms,
+                           .cull = LOM_CULL_BACK,
+                           .front_clockwise = mirrored };
+    for (int i = 0; i < ground->across * ground->down; i++) {
+        uint32_t number = ground->order[i];
+        const struct lom_ground_block *block = &ground->blocks[number];
+        const struct lom_ground_pattern *pattern = &ground->patterns[ground->pattern[number]];
+        if (!lom_is_visible(culler, &block->bounds))
+            continue;
+        size_t first = block->first[ground->level[number]];
+        size_t vertices = (size_t)(pattern->columns + 1) * (size_t)(pattern->rows + 1);
+        draw.attribute[0] = (lom_attribute){ ground->position + first, vertices * sizeof *ground->position,
+                                             sizeof *ground->position, LOM_ATTRIBUTE_FLOAT3 };
+        draw.indices = pattern->indices;
+        draw.count = pattern->count;
+        lom_draw(renderer->device, &draw);
+    }
+}
+
+bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler)
+{
+    for (int i = 0; i < ground->across * ground->down; i++)
+        if (lom_is_visible(culler, &ground->blocks[i].bounds))
+            return true;
+    return false;
+}
+
+/* Terrain's shadows are as sharp as the vertices that throw them tell: the edge is as high as a part of the way between
+ * two of them, half a metre where these are 1.6 m apart. */
+static const double shadow_edge = 0.3125;
+
+void lom_set_ground_light(struct lom_light_uniform *u, const lom_renderer *renderer, lom_vec3 eye)
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    const struct lom_ground *ground = &renderer->ground;
+    u->ground_shadow = ground->shadow;
+    if (ground->shadow == NULL)
+        return;
+    double across = t->size[0] / ground->columns, down = t->size[1] / ground->rows;
+    lom_map_ground(ground, t->size, eye, u->ground_scale, u->ground_shift);
+    u->ground_height = (float)(eye.y - t->base);
+    u->ground_sharpness = (float)(1 / (shadow_edge * (across < down ? across : down)));
+}

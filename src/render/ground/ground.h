@@ -1,0 +1,97 @@
+/* Terrain as it is drawn: square blocks of the height map's grid, each held at several levels of detail, and one
+ * texture with what the surface's light needs.
+ *
+ * Invariant: floats count heights from the terrain's base, wherever in the world it is. */
+#ifndef LOM_RENDER_GROUND_GROUND_H
+#define LOM_RENDER_GROUND_GROUND_H
+
+#include "render/scene_view.h"
+
+#include <lom/scene.h>
+
+struct frame;
+
+enum { LOM_MAX_TERRAIN_LAYERS = 8 };
+
+enum {
+    LOM_GROUND_BLOCK = 32, /* quads along an edge of a block, fewer at the far borders of the map */
+    LOM_GROUND_LEVELS = 6, /* level n joins 2^n quads along each axis into one */
+    LOM_GROUND_PATTERNS = 4 * LOM_GROUND_LEVELS * 16 /* sizes of a block, levels, sets of edges */
+};
+
+/* The edges of a block where the neighbour is one level coarser. */
+enum { LOM_EDGE_LEFT = 1, LOM_EDGE_RIGHT = 2, LOM_EDGE_TOP = 4, LOM_EDGE_BOTTOM = 8 };
+
+struct lom_ground_block {
+    int columns, rows;               /* quads at level 0 */
+    lom_box bounds;                  /* in the world */
+    size_t first[LOM_GROUND_LEVELS]; /* its vertices at each level in lom_ground.position, row by row */
+    float error[LOM_GROUND_LEVELS];  /* metres that the level's surface is off level 0 at most */
+};
+
+/* Triangles of a grid of columns x rows quads whose vertices are numbered row by row. */
+struct lom_ground_pattern {
+    int columns, rows, edges;
+    uint32_t *indices;
+    size_t count;
+};
+
+struct lom_ground {
+    int across, down;  /* blocks */
+    int columns, rows; /* quads of the whole grid */
+    struct lom_ground_block *blocks;
+    float (*position)[3]; /* from the middle of the base */
+    size_t position_count;
+    float *heights; /* of all vertices over the base, (columns + 1) x (rows + 1) */
+    /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
+    lom_texture *surface;
+    lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
+    lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
+    float brightness_below[LOM_MAX_TERRAIN_LAYERS]; /* mean of the picture below a layer with grain, above 0 */
+    struct lom_ground_pattern *patterns;
+    size_t pattern_count;
+
+    /* What a frame has chosen, the same for all of its passes. */
+    int *level;      /* of each block */
+    int *pattern;    /* of each block: its triangles, without cracks to its neighbours */
+    uint32_t *order; /* blocks from near to far */
+    double *distance;
+};
+
+bool lom_load_ground(lom_renderer *renderer, lom_error *error);
+/* Chooses levels of detail and casts the shadow. */
+bool lom_prepare_ground(struct frame *f, lom_error *error);
+void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
+                     lom_vec3 eye, bool mirrored);
+void lom_free_ground(lom_renderer *renderer);
+
+/* Whether any of it would be drawn. */
+bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler);
+/* The shadow that it throws, for places less the eye. */
+void lom_set_ground_light(struct lom_light_uniform *light, const lom_renderer *renderer, lom_vec3 eye);
+
+/* Reads the terrain of a scene, with the dials ambient_occlusion and mipmaps; `surface` belongs to the device. False on
+ * failure; freed with lom_free_ground_blocks. */
+bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map,
+                            const lom_quality *quality, lom_device *device, lom_error *error);
+/* Texture coordinates of the textures with a texel a vertex are (x, z) scale + shift for places less the eye. */
+void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_vec3 eye, float scale[2],
+                    float shift[2]);
+void lom_free_ground_blocks(struct lom_ground *ground);
+
+/* The share of the sky (0..1, weighted by the cosine to the vertical) that each vertex sees over the heights around
+ * it, from a grid of at most 256 x 256 of them. share: width x height numbers, `stride` floats apart. */
+bool lom_find_sky_visibility(const float *heights, int width, int height, const double size[2], float *share,
+                             size_t stride, lom_error *error);
+
+/* For each vertex of width x height heights the height up to which terrain shadows a place there: the largest
+ * h - d tan e of the heights h at a distance d > 0 towards the light, which stands at the elevation e. Below -1e29
+ * where nothing does. */
+bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
+                            float *shadow, lom_error *error);
+
+/* Chooses every block's level: the coarsest whose error is at most `pixels` on the screen, neighbours at most one level
+ * apart, and sorts the blocks by distance. scale: pixels of 1 m at 1 m distance; pixels 0: full density. */
+bool lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, lom_error *error);
+
+#endif

@@ -1,0 +1,42 @@
+/* The shaders of terrain and their uniforms: one for each shading frequency, flat (a normal a face), Gouraud (light at
+ * the vertices) and Phong (light at each fragment). */
+#ifndef LOM_RENDER_GROUND_SHADERS_H
+#define LOM_RENDER_GROUND_SHADERS_H
+
+#include "render/ground/ground.h"
+#include "shading/surface.h"
+
+/* The sides from which a map is laid on: a map's coordinates run along z and down, x and z, x and down. */
+enum { LOM_SIDE_X, LOM_SIDE_ABOVE, LOM_SIDE_Z, LOM_SIDES };
+
+/* A map laid over the terrain: its coordinates on a side are offset * scale + shift; the shifts are less whole
+ * repetitions. */
+struct lom_laid_uniform {
+    const lom_texture *map; /* NULL: none */
+    float scale[LOM_SIDES][2], shift[LOM_SIDES][2];
+};
+
+struct lom_layer_uniform {
+    struct lom_laid_uniform laid;
+    float from_height, to_height; /* metres over the eye */
+    float from_slope, to_slope;   /* radians */
+    float blend, slope_blend;     /* above 0 */
+    float grain;                  /* how far the brightness below moves its weight, over the mean of that brightness */
+    float grain_offset;           /* grain, where the brightness is the mean */
+    bool triplanar;               /* laid on from three sides instead of from above */
+};
+
+struct lom_terrain_uniforms {
+    struct lom_view_uniform view;
+    struct lom_material_uniform material;     /* without its texture */
+    float eye[3], eye_rest[3];                /* from the middle of the terrain's base, and what its rounding left */
+    const lom_texture *surface;               /* normal and visible share of the sky, at the vertices */
+    float surface_scale[2], surface_shift[2]; /* its coordinates are (x, z) surface_scale + surface_shift */
+    struct lom_laid_uniform base, detail, normals;
+    int layer_count;
+    struct lom_layer_uniform layer[LOM_MAX_TERRAIN_LAYERS];
+};
+
+extern const lom_shader lom_terrain_phong, lom_terrain_gouraud, lom_terrain_flat;
+
+#endif

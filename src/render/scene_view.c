@@ -1,0 +1,148 @@
+/* The scene itself in a pass. In: how the pass looks at it. Out: draws of terrain blocks, entities and sky; what lies
+ * outside the view or wholly behind the clip plane is left out, which changes no pixel. Compiled for speed. */
+#include "render/renderer.h"
+
+struct lom_light_uniform lom_scene_light(const lom_scene *scene)
+{
+    const lom_light *light = &scene->light;
+    struct lom_light_uniform u = { .to_light = { (float)-light->direction.x, (float)-light->direction.y,
+                                                 (float)-light->direction.z } };
+    for (int i = 0; i < 3; i++) {
+        u.color[i] = (float)(light->color[i] * light->intensity);
+        u.ambient[i] = (float)light->ambient[i];
+        u.ground[i] = (float)light->ground[i];
+    }
+    return u;
+}
+
+/* The antiderivative of the haze's profile (shading/haze.h). */
+static double haze_integral(const lom_haze *haze, double y)
+{
+    double above = y > haze->base ? y - haze->base : 0;
+    return y <= haze->base ? y - haze->base : -haze->height * lom_double_expm1(-above / haze->height);
+}
+
+struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored)
+{
+    const lom_haze *haze = &scene->haze;
+    struct lom_haze_uniform u = { .glow_exponent = (float)haze->glow_exponent,
+                                  .base = (float)(haze->base - eye_height) };
+    if (!haze->present)
+        return u;
+    for (int i = 0; i < 3; i++) {
+        u.density[i] = (float)haze->density[i];
+        u.color[i] = (float)haze->color[i];
+        u.glow[i] = (float)haze->glow[i];
+        u.on |= u.density[i] > 0;
+    }
+    u.gray = u.density[0] == u.density[1] && u.density[1] == u.density[2];
+    if (haze->height > 0) {
+        double mirror = scene->water.level;
+        u.height = (float)haze->height;
+        u.inverse_height = (float)(1 / haze->height);
+        u.start = (float)(mirrored ? 2 * haze_integral(haze, mirror) - haze_integral(haze, 2 * mirror - eye_height)
+                                   : haze_integral(haze, eye_height));
+    }
+    return u;
+}
+
+/* The row of a matrix for offsets that is `row` for places. */
+void lom_center_row(float out[4], const double row[4], lom_vec3 eye)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)row[i];
+    out[3] = (float)(row[3] + row[0] * eye.x + row[1] * eye.y + row[2] * eye.z);
+}
+
+struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_vec3 eye)
+{
+    struct lom_light_uniform u = lom_scene_light(renderer->scene);
+    lom_set_ground_light(&u, renderer, eye);
+    lom_set_cloud_light(&u, renderer, eye);
+    return u;
+}
+
+lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view)
+{
+    lom_mat4 turned = *view;
+    for (int i = 0; i < 3; i++)
+        turned.m[i][3] = 0;
+    return lom_multiply(projection, &turned);
+}
+
+static double magnitude(double x)
+{
+    return x < 0 ? -x : x;
+}
+
+/* Whether the highest value of the clip plane over the box, seen from the eye, is below 0 by more than floats round. */
+static bool is_behind_plane(const double plane[4], lom_vec3 eye, const lom_box *box)
+{
+    const double low[3] = { box->low.x, box->low.y, box->low.z }, high[3] = { box->high.x, box->high.y, box->high.z };
+    const double from[3] = { eye.x, eye.y, eye.z };
+    double value = plane[3], size = 0;
+    for (int i = 0; i < 3; i++)
+        value += plane[i] * from[i];
+    size = magnitude(value);
+    for (int i = 0; i < 3; i++) {
+        double term = plane[i] * ((plane[i] > 0 ? high[i] : low[i]) - from[i]);
+        value += term;
+        size += magnitude(term);
+    }
+    return value < -0x1p-20 * size;
+}
+
+bool lom_is_visible(const struct lom_culler *culler, const lom_box *box)
+{
+    return lom_box_visibility(&culler->frustum, *box) != LOM_OUTSIDE &&
+           !is_behind_plane(culler->plane, culler->eye, box);
+}
+
+static struct lom_caustics_uniform caustics_uniform(const struct lom_caustics *caustics, lom_vec3 eye)
+{
+    if (caustics->map == NULL)
+        return (struct lom_caustics_uniform){ .map = NULL };
+    return (struct lom_caustics_uniform){ .map = caustics->map,
+                                          .corner = { (float)(caustics->corner[0] - eye.x),
+                                                      (float)(caustics->corner[1] - eye.z) },
+                                          .scale = (float)(1 / caustics->size),
+                                          .level = (float)(caustics->level - eye.y),
+                                          .strength = (float)caustics->strength,
+                                          .fade = (float)(1 / caustics->fade),
+                                          .lod_scale = (float)caustics->lod_scale };
+}
+
+static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
+    struct lom_view_uniform u = { .clip_from_offset = lom_round_matrix(&clip_from_offset),
+                                  .light = lom_renderer_light(renderer, view->eye),
+                                  .haze = lom_scene_haze(renderer->scene, view->eye.y, view->mirrored),
+                                  .caustics = caustics_uniform(&view->caustics, view->eye) };
+    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
+        u.entity_shadow[i] = lom_entity_shadow_uniform(&renderer->entities.shadows[i], view->eye);
+    lom_center_row(u.plane, view->plane, view->eye);
+    return u;
+}
+
+static struct lom_culler culler_of(const struct lom_scene_view *view)
+{
+    lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
+    return (struct lom_culler){ lom_view_frustum(&clip_from_world, false), view->plane, view->eye };
+}
+
+void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    struct lom_view_uniform uniform = view_uniform(renderer, view);
+    struct lom_culler culler = culler_of(view);
+    lom_draw_ground(renderer, &culler, &uniform, view->eye, view->mirrored);
+    lom_draw_entities(renderer, &culler, &uniform, view);
+    if (view->sky)
+        lom_draw_sky(renderer, view, &uniform.light);
+}
+
+bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    struct lom_culler culler = culler_of(view);
+    return lom_shows_ground(&renderer->ground, &culler) || lom_shows_entities(renderer, &culler);
+}

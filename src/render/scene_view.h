@@ -1,0 +1,52 @@
+/* The scene as a pass sees it: what is in view, the light and the air there, and all that is drawn of it. */
+#ifndef LOM_RENDER_SCENE_VIEW_H
+#define LOM_RENDER_SCENE_VIEW_H
+
+#include "shading/surface.h"
+
+#include <lom/render.h>
+
+/* The light that the water's waves focus on what is below its level, over a square of x and z. */
+struct lom_caustics {
+    const lom_texture *map; /* NULL: none */
+    double corner[2], size, level;
+    double strength, fade; /* metres below the level over which they appear */
+    double lod_scale;      /* texels of the map a pixel covers, per metre of distance */
+};
+
+/* How a pass looks at the scene. */
+struct lom_scene_view {
+    lom_mat4 projection, view;
+    lom_vec3 eye;
+    double plane[4]; /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
+    bool mirrored;   /* front faces are clockwise */
+    bool sky;
+    struct lom_caustics caustics;
+};
+
+/* What a pass can show of a box. */
+struct lom_culler {
+    lom_frustum frustum;
+    const double *plane; /* of the view */
+    lom_vec3 eye;
+};
+bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
+
+/* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
+ * nothing. */
+void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
+/* Whether any of it but the sky would be drawn. */
+bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
+
+struct lom_light_uniform lom_scene_light(const lom_scene *scene);
+/* The same for places less the eye, with the shadows of clouds and terrain that the frame has made. */
+struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_vec3 eye);
+/* The haze for places less an eye at this height; mirrored: the eye below the water's plane from which its reflection
+ * is drawn. */
+struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored);
+/* From places less the eye to clip space: the view's rotation alone, since it takes the eye to 0. */
+lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view);
+/* The row of a matrix for offsets that is `row` for places. */
+void lom_center_row(float out[4], const double row[4], lom_vec3 eye);
+
+#endif

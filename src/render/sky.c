@@ -1,0 +1,37 @@
+/* The sky in a pass. In: the scene's sky. Out: its box and the sun's picture as textures, drawn where a pass shows
+ * nothing else. */
+#include "render/renderer.h"
+#include "sky/sky_draw.h"
+
+static bool load_sun(lom_renderer *renderer, lom_error *error)
+{
+    enum { SIZE = 256 };
+    if (!renderer->scene->sky.sun)
+        return true;
+    lom_image *picture = lom_make_sun_picture(SIZE, renderer->scene->sky.sun_rays, error);
+    if (picture != NULL)
+        renderer->sky.sun = lom_make_texture(
+            renderer->device, &(lom_texture_desc){ .width = SIZE,
+                                                   .height = SIZE,
+                                                   .format = LOM_FORMAT_R32F,
+                                                   .pixels = picture->pixels,
+                                                   .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    lom_free_image(picture);
+    return renderer->sky.sun != NULL;
+}
+
+bool lom_load_sky(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    const bool srgb = scene->output.transfer == LOM_TRANSFER_SRGB;
+    return lom_load_sky_box(renderer->device, &scene->sky, srgb, &renderer->sky.box, error) &&
+           load_sun(renderer, error);
+}
+
+void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_light_uniform *light)
+{
+    const lom_sky_params *sky = &renderer->scene->sky;
+    lom_draw_sky_box(renderer->device, sky, renderer->sky.box, light->to_light, &view->projection, &view->view);
+    if (renderer->sky.sun != NULL)
+        lom_draw_sun(renderer->device, sky, renderer->sky.sun, light, &view->projection, &view->view);
+}

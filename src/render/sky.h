@@ -1,0 +1,16 @@
+/* The pictures of a scene's sky. */
+#ifndef LOM_RENDER_SKY_H
+#define LOM_RENDER_SKY_H
+
+#include "render/scene_view.h"
+
+struct lom_drawn_sky {
+    lom_texture *box; /* a cube; NULL: the sky is a gradient or one colour */
+    lom_texture *sun; /* its picture, or NULL */
+};
+
+bool lom_load_sky(lom_renderer *renderer, lom_error *error);
+/* Draws the sky and the sun behind everything that the pass holds. */
+void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_light_uniform *light);
+
+#endif

@@ -1,0 +1,152 @@
+/* The drops of a frame. In: the frame whose scene, water and clouds are drawn. Out: all emitters' drops over them, in
+ * one order, the farthest first. Drops are laid over one another in floats, in a picture of their own that then is laid
+ * over the frame: thousands of faint ones would vanish in the rounding of 8 bits. Invariant: a drop that is out of
+ * view, hidden or clear changes no byte. */
+#include "render/frame.h"
+#include "shading/square.h"
+
+static bool is_in_view(const lom_spray *spray, const lom_emitter *emitter, const lom_frustum *frustum)
+{
+    double low[3], high[3], speed = 0;
+    lom_bound_emitter(emitter, low, high);
+    for (int i = 0; i < 3; i++)
+        speed += (high[i] - low[i]) / emitter->life; /* a mean; drag and gravity change a speed by no more than that */
+    double radius = spray->size[0] > spray->size[1] ? spray->size[0] : spray->size[1];
+    double reach = 2 * radius + spray->stretch * (2 * speed + 9.80665 * emitter->life);
+    lom_box box = { { low[0] - reach, low[1] - reach, low[2] - reach },
+                    { high[0] + reach, high[1] + reach, high[2] + reach } };
+    return lom_box_visibility(frustum, box) != LOM_OUTSIDE;
+}
+
+/* Moves the drops of the emitters that may be seen, and makes sprites of those that are. */
+static bool move_drops(struct frame *f, const struct lom_spray_view *view, struct lom_sprites *sprites,
+                       lom_error *error)
+{
+    const lom_scene *scene = f->scene;
+    lom_mat4 clip = lom_multiply(&view->projection, &view->view);
+    lom_frustum frustum = lom_view_frustum(&clip, false);
+    for (size_t i = 0; i < scene->spray_count; i++) {
+        const lom_spray *spray = &scene->sprays[i];
+        lom_emitter emitter = lom_spray_emitter(spray);
+        if (!spray->visible || emitter.count == 0 || !is_in_view(spray, &emitter, &frustum))
+            continue;
+        if (!lom_place_particles(&emitter, f->time, f->renderer->spray.particles, error))
+            return false;
+        lom_add_sprites(sprites, spray, view, f->renderer->spray.particles, emitter.count);
+        f->spray->moved += emitter.count;
+    }
+    f->spray->drawn = sprites->count;
+    return true;
+}
+
+/* Two triangles a sprite, the farthest sprite first. */
+static void set_indices(struct lom_drawn_spray *m, const struct lom_sprites *sprites)
+{
+    static const uint32_t corners[6] = { 0, 1, 2, 2, 1, 3 };
+    lom_order_particles(sprites->depth, sprites->count, m->order, m->indices);
+    for (size_t i = 0; i < sprites->count; i++)
+        for (size_t k = 0; k < 6; k++)
+            m->indices[6 * i + k] = 4 * m->order[i] + corners[k];
+}
+
+static int pixel(double ndc, int size, int margin)
+{
+    double at = lom_double_floor((0.5 + 0.5 * ndc) * size) + margin;
+    return at < 0 ? 0 : at > size ? size : lom_int_of(at);
+}
+
+/* The pixels that sprites reach. */
+static lom_rect reach_of(const struct frame *f, const struct lom_sprites *sprites)
+{
+    if (!f->scene->quality.scissor)
+        return (lom_rect){ 0, 0, f->width, f->height };
+    int x0 = pixel(sprites->low[0], f->width, -1), x1 = pixel(sprites->high[0], f->width, 2);
+    int y0 = pixel(-sprites->high[1], f->height, -1), y1 = pixel(-sprites->low[1], f->height, 2);
+    return (lom_rect){ x0, y0, x1 > x0 ? x1 - x0 : 1, y1 > y0 ? y1 - y0 : 1 };
+}
+
+static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct lom_spray_view *view)
+{
+    const lom_renderer *r = f->renderer;
+    struct lom_spray_uniforms u = { .light = lom_renderer_light(r, view->eye),
+                                    .haze = lom_scene_haze(f->scene, view->eye.y, false),
+                                    .near_plane = (float)view->near_plane,
+                                    .origin = { (float)f->crop.x, (float)f->crop.y },
+                                    .depth = r->targets.depth,
+                                    .sprites = r->spray.sprites[0].middle };
+    lom_mat4 clip = lom_clip_from_offset(&view->projection, &view->view);
+    u.clip_from_offset = lom_round_matrix(&clip);
+    return u;
+}
+
+static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, const struct lom_sprites *sprites)
+{
+    lom_renderer *r = f->renderer;
+    lom_rect reach = reach_of(f, sprites);
+    struct lom_spray_uniforms u = uniforms_of(f, view);
+    lom_step *step = lom_add_step(f, "spray", true, "%zu drops of %llu, the farthest first, then over the frame",
+                                  sprites->count, (unsigned long long)f->spray->moved);
+    step->width = f->crop.width;
+    step->height = f->crop.height;
+    step->scissor = reach;
+    set_indices(&r->spray, sprites);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.spray);
+    pass.depth = NULL;
+    pass.scissor = reach;
+    lom_begin_pass(r->device, &pass);
+    lom_draw(r->device, &(lom_draw_desc){ .shader = &lom_spray_shader,
+                                          .uniforms = &u,
+                                          .indices = r->spray.indices,
+                                          .count = 6 * sprites->count,
+                                          .vertex_count = 4 * sprites->count,
+                                          .depth_test_off = true,
+                                          .blend = { lom_blend_over } });
+    lom_end_pass(r->device);
+    struct lom_spray_layer_uniforms layer = { { (float)f->crop.x, (float)f->crop.y }, r->targets.spray };
+    pass = lom_frame_pass(f, r->targets.color);
+    pass.depth = NULL;
+    pass.color_load[0] = LOM_LOAD_KEEP;
+    pass.scissor = reach;
+    lom_begin_pass(r->device, &pass);
+    lom_draw_square(r->device, &lom_spray_layer_shader, &layer, &lom_blend_over);
+    return lom_end_pass(r->device);
+}
+
+static const char *reason_without(const struct frame *f)
+{
+    const lom_scene *scene = f->scene;
+    if (scene->spray_count == 0)
+        return "the scene has no emitter";
+    if (!scene->quality.spray)
+        return "quality.spray is off";
+    if (f->renderer->spray.capacity == 0)
+        return "no emitter that is visible has a drop";
+    return f->below ? "the eye is under water" : NULL;
+}
+
+bool lom_draw_spray(struct frame *f, lom_error *error)
+{
+    const char *reason = reason_without(f);
+    if (reason != NULL) {
+        lom_add_step(f, "spray", false, "%s", reason);
+        return true;
+    }
+    const lom_vec3 light = f->scene->light.direction;
+    struct lom_spray_view view = { .projection = f->view.projection,
+                                   .view = f->view.view,
+                                   .eye = f->view.eye,
+                                   .near_plane = f->camera.near_plane,
+                                   .width = f->width,
+                                   .height = f->height,
+                                   .to_light = { -light.x, -light.y, -light.z } };
+    struct lom_sprites sprites = {
+        .sprite = f->renderer->spray.sprites, .depth = f->renderer->spray.depth, .low = { 1, 1 }, .high = { -1, -1 }
+    };
+    if (!move_drops(f, &view, &sprites, error))
+        return false;
+    if (sprites.count != 0)
+        return draw_sprites(f, &view, &sprites);
+    lom_add_step(f, "spray", false, f->spray->moved != 0 ? "none of %llu drops is in view" : "no emitter is in view",
+                 (unsigned long long)f->spray->moved);
+    return true;
+}

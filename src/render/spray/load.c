@@ -1,0 +1,32 @@
+/* Room for the drops of a scene. In: its emitters. Out: memory for the drops of all that are visible. */
+#include "render/renderer.h"
+
+bool lom_load_spray(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    struct lom_drawn_spray *m = &renderer->spray;
+    size_t largest = 0;
+    for (size_t i = 0; i < scene->spray_count; i++) {
+        size_t count = scene->sprays[i].visible ? (size_t)scene->sprays[i].count : 0;
+        m->capacity += count;
+        largest = count > largest ? count : largest;
+    }
+    if (m->capacity == 0 || !scene->quality.spray)
+        return true;
+    m->particles = lom_allocate(largest, sizeof *m->particles, error);
+    m->sprites = lom_allocate(m->capacity, sizeof *m->sprites, error);
+    m->depth = lom_allocate(m->capacity, sizeof *m->depth, error);
+    m->order = lom_allocate(m->capacity, sizeof *m->order, error);
+    m->indices = lom_allocate(m->capacity, 6 * sizeof *m->indices, error); /* the order's scratch, too */
+    return m->particles != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->indices != NULL;
+}
+
+void lom_free_spray(lom_renderer *renderer)
+{
+    struct lom_drawn_spray *m = &renderer->spray;
+    lom_release(m->particles);
+    lom_release(m->sprites);
+    lom_release(m->depth);
+    lom_release(m->order);
+    lom_release(m->indices);
+}

@@ -1,0 +1,25 @@
+/* Drops as they are drawn. */
+#ifndef LOM_RENDER_SPRAY_SPRAY_H
+#define LOM_RENDER_SPRAY_SPRAY_H
+
+#include "spray/spray.h"
+
+#include <lom/render.h>
+
+struct frame;
+
+/* What drops need in a frame: room for all of them. */
+struct lom_drawn_spray {
+    size_t capacity; /* drops of visible emitters; 0: none */
+    lom_particle *particles;
+    struct lom_sprite *sprites;
+    float *depth;
+    uint32_t *order, *indices;
+};
+
+bool lom_load_spray(lom_renderer *renderer, lom_error *error);
+/* Moves the drops and draws them over all, a step of the plan. */
+bool lom_draw_spray(struct frame *f, lom_error *error);
+void lom_free_spray(lom_renderer *renderer);
+
+#endif

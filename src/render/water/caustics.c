@@ -1,0 +1,118 @@
+/* Caustics of a frame. In: the waves at its time, the sun, the bed. Out: a texture of the light on the bed, which the
+ * shaders of terrain and entities look up below the water's level. Invariant: a function of the whole frame's camera,
+ * never of a crop. */
+#include "pipeline/check_device.h"
+#include "render/water/passes.h"
+#include "water/caustics.h"
+
+static bool make_targets(lom_renderer *r, int size)
+{
+    if (r->water.photons != NULL)
+        return true;
+    r->water.photons =
+        lom_make_texture(r->device, &(lom_texture_desc){ .width = size, .height = size, .format = LOM_FORMAT_RGBA32F });
+    return r->water.photons != NULL;
+}
+
+/* The square that is lit: before the eye, its corner on a whole cell so that cells stand still in the world. */
+static void place_square(const struct frame *f, double corner[2], double cell)
+{
+    double size = f->scene->water.optics.caustics_size;
+    double x = -f->view.view.m[2][0], z = -f->view.view.m[2][2];
+    double flat = lom_double_sqrt(x * x + z * z), ahead = 0.42 * size / (flat > 1e-6 ? flat : 1e-6);
+    ahead = flat > 0.3 ? ahead : 0;
+    corner[0] = lom_double_floor((f->view.eye.x + ahead * x - size / 2) / cell) * cell;
+    corner[1] = lom_double_floor((f->view.eye.z + ahead * z - size / 2) / cell) * cell;
+}
+
+static struct lom_photon_uniforms photon_uniforms(const struct frame *f, const double corner[2], double cell)
+{
+    const lom_terrain *t = &f->scene->terrain;
+    const lom_renderer *r = f->renderer;
+    struct lom_photon_uniforms u = { .waves = f->waves,
+                                     .cell = (float)cell,
+                                     .eta = (float)(1 / f->scene->water.optics.index),
+                                     .bed = r->water.bed,
+                                     .bed_base = (float)(t->base - f->view.eye.y) };
+    struct lom_light_uniform light = lom_scene_light(f->scene);
+    const int texels[2] = { lom_texture_width(r->water.bed), lom_texture_height(r->water.bed) };
+    memcpy(u.to_light, light.to_light, sizeof u.to_light);
+    const double eye[2] = { f->view.eye.x, f->view.eye.z };
+    for (int i = 0; i < 2; i++) { /* vertices are the texels' centres */
+        double step = t->size[i] / (texels[i] - 1);
+        u.corner[i] = (float)(corner[i] - eye[i]);
+        u.bed_corner[i] = (float)(-t->size[i] / 2 - step / 2 - eye[i]);
+        u.bed_scale[i] = (float)(1 / (step * texels[i]));
+    }
+    return u;
+}
+
+static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
+{
+    lom_renderer *r = f->renderer;
+    lom_step *step = lom_add_step(f, "caustics", true, "where the waves send the sunlight on the bed");
+    step->width = step->height = lom_texture_width(r->water.photons);
+    lom_pass_desc pass = { .color = { r->water.photons } };
+    lom_begin_pass(r->device, &pass);
+    lom_draw(r->device, &(lom_draw_desc){ .shader = &lom_photon_shader, .uniforms = u, .count = 3 });
+    return lom_end_pass(r->device);
+}
+
+static bool gather(lom_renderer *r, lom_error *error)
+{
+    lom_image *photons = lom_read_texture(r->water.photons, 0, 0, error);
+    lom_image *light = photons != NULL ? lom_gather_photons(photons, error) : NULL;
+    lom_release_texture(r->device, r->water.caustics);
+    r->water.caustics = NULL;
+    if (light != NULL)
+        r->water.caustics = lom_make_texture(
+            r->device, &(lom_texture_desc){ .width = light->width,
+                                            .height = light->height,
+                                            .format = LOM_FORMAT_R32F,
+                                            .pixels = light->pixels,
+                                            .mips = LOM_MIPS_ALL,
+                                            .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    lom_free_image(photons);
+    lom_free_image(light);
+    return r->water.caustics != NULL;
+}
+
+/* Why there are none; NULL: there are. */
+static const char *reason_without(const struct frame *f)
+{
+    if (!(f->scene->water.optics.caustics > 0))
+        return "water.optics.caustics is 0";
+    if (f->renderer->water.bed == NULL)
+        return "there is no terrain for them to fall on";
+    if (!(f->scene->light.direction.y < -0.05))
+        return "the sun is too low";
+    if (f->waves.trochoid_count == 0 && f->waves.cascade_count == 0)
+        return "still water focuses no light";
+    return NULL;
+}
+
+bool lom_draw_caustics(struct frame *f, lom_error *error)
+{
+    const lom_water_optics *optics = &f->scene->water.optics;
+    const char *reason = reason_without(f);
+    if (reason != NULL) {
+        lom_add_step(f, "caustics", false, "%s", reason);
+        return true;
+    }
+    double cell = optics->caustics_size / optics->caustics_texels, corner[2];
+    if (!make_targets(f->renderer, optics->caustics_texels))
+        return false;
+    place_square(f, corner, cell);
+    struct lom_photon_uniforms u = photon_uniforms(f, corner, cell);
+    if (!draw_photons(f, &u) || !gather(f->renderer, error))
+        return false;
+    double pixel_angle = 2 / f->view.projection.m[1][1] / f->height;
+    f->view.caustics = (struct lom_caustics){ .map = f->renderer->water.caustics,
+                                              .corner = { corner[0], corner[1] },
+                                              .size = optics->caustics_size,
+                                              .level = f->scene->water.level,
+                                              .strength = optics->caustics,
+                                              .fade = optics->caustics_size / 150,
+                                              .lod_scale = 1.5 * pixel_angle / cell };
+    return true;
+}

@@ -1,0 +1,148 @@
+/* The planar lake of a frame (spec, part A). In: the frame whose opaque scene is drawn. Out: the water over it.
+ *
+ *   visibility (where is water?) -> reflection, refraction (only there) -> water over the scene
+ *
+ * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
+#include "render/water/passes.h"
+#include "water/lake.h"
+
+static lom_lake_view lake_view(const struct frame *f)
+{
+    const lom_renderer *r = f->renderer;
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
+    return (lom_lake_view){ .clip_from_offset = lom_round_matrix(&clip_from_offset),
+                            .eye = f->view.eye,
+                            .near_plane = f->camera.near_plane,
+                            .time = f->time,
+                            .frame_width = f->width,
+                            .frame_height = f->height,
+                            .light = lom_renderer_light(r, f->view.eye),
+                            .normal_map = r->water.normal_map,
+                            .flow_map = r->water.flow_map };
+}
+
+static bool is_in_view(const struct frame *f)
+{
+    const lom_water_params *w = &f->scene->water;
+    lom_box box = { { w->position[0] - w->size[0] / 2, w->level, w->position[1] - w->size[1] / 2 },
+                    { w->position[0] + w->size[0] / 2, w->level, w->position[1] + w->size[1] / 2 } };
+    lom_mat4 clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
+    lom_frustum frustum = lom_view_frustum(&clip_from_world, false);
+    return lom_box_visibility(&frustum, box) != LOM_OUTSIDE;
+}
+
+static bool draw_visibility(struct frame *f, lom_error *error)
+{
+    lom_renderer *r = f->renderer;
+    lom_lake_view v = lake_view(f);
+    lom_step *step = lom_add_step(f, "visibility", true, "which pixels show the water's surface");
+    step->width = f->crop.width;
+    step->height = f->crop.height;
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.mask);
+    pass.depth_load = LOM_LOAD_KEEP;
+    lom_begin_pass(r->device, &pass);
+    lom_draw_lake(r->device, &lom_lake_mask_shader, &f->scene->water, &v);
+    return lom_end_pass(r->device) && lom_find_water(f, error);
+}
+
+/* A picture of the scene in the water's colour, where lookups from the visible water can reach. */
+static bool draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
+                         const struct lom_scene_view *view, lom_error *error)
+{
+    const lom_water_params *water = &f->scene->water;
+    int width = lom_texture_width(color), height = lom_texture_height(color);
+    float clear[4] = { (float)water->color[0], (float)water->color[1], (float)water->color[2], 1 };
+    lom_rect all = { 0, 0, width, height };
+    double reach = water->flow ? water->flow_strength : 0;
+    return lom_draw_picture(f, step, color, depth, view, clear,
+                            water->projection ? lom_water_reach(f, &lom_whole_view, reach, width, height) : all, error);
+}
+
+/* Step 1: the view times a mirror in the plane; nothing below the plane (less the offset). */
+static bool draw_reflection(struct frame *f, lom_error *error)
+{
+    const lom_water_params *water = &f->scene->water;
+    struct lom_scene_view view = f->view;
+    lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, water->level);
+    if (!water->reflection) {
+        lom_add_step(f, "reflection", false, "water.reflection is off");
+        return true;
+    }
+    view.view = lom_multiply(&f->view.view, &mirror);
+    view.eye.y = 2 * water->level - f->view.eye.y;
+    view.mirrored = true;
+    view.plane[0] = view.plane[2] = 0;
+    view.plane[1] = 1;
+    view.plane[3] = water->clip_offset - water->level;
+    lom_step *step =
+        lom_add_step(f, "reflection", true, "terrain, entities and sky above the water, mirrored in its plane");
+    return draw_picture(f, step, f->renderer->targets.reflection, f->renderer->targets.reflection_depth, &view, error);
+}
+
+/* Step 2: the scene below the plane (plus the offset), with its depth. */
+static bool draw_refraction(struct frame *f, lom_error *error)
+{
+    const lom_water_params *water = &f->scene->water;
+    struct lom_scene_view view = f->view;
+    if (!water->refraction && !water->soft_shore && !water->specular) {
+        lom_add_step(f, "refraction", false, "water.refraction and everything that reads its depth are off");
+        return true;
+    }
+    view.plane[0] = view.plane[2] = 0;
+    view.plane[1] = -1;
+    view.plane[3] = water->level + water->clip_offset;
+    view.sky = false;
+    lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities below the water, with their depth");
+    return draw_picture(f, step, f->renderer->targets.refraction, f->renderer->targets.refraction_depth, &view, error);
+}
+
+/* The surface by the shader of its model. */
+static bool draw_quad(struct frame *f, const lom_lake_view *view)
+{
+    const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
+    lom_begin_water(f, model->text);
+    lom_draw_lake(f->renderer->device, model->shader, &f->scene->water, view);
+    return lom_end_pass(f->renderer->device);
+}
+
+static bool draw_surface(struct frame *f)
+{
+    lom_renderer *r = f->renderer;
+    const lom_water_params *water = &f->scene->water;
+    lom_lake_view view = lake_view(f);
+    bool below = water->refraction || water->soft_shore || water->specular;
+    view.reflection = water->reflection ? r->targets.reflection : NULL;
+    view.refraction = below ? r->targets.refraction : NULL;
+    view.refraction_depth = below ? r->targets.refraction_depth : NULL;
+    return draw_quad(f, &view);
+}
+
+/* The cheapest model: a blended quad of one colour. */
+static bool draw_tinted(struct frame *f)
+{
+    lom_lake_view view = lake_view(f);
+    lom_add_step(f, "reflection", false, "tinted water reflects nothing");
+    lom_add_step(f, "refraction", false, "tinted water is blended over the scene");
+    return draw_quad(f, &view);
+}
+
+bool lom_draw_lake_stage(struct frame *f, lom_error *error)
+{
+    const lom_water_params *water = &f->scene->water;
+    const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
+    if (!water->present)
+        return lom_skip_water(f, "the scene has no water");
+    if (!water->enabled)
+        return lom_skip_water(f, "water.enabled is false");
+    if (model->has_waves)
+        return true;
+    if (!is_in_view(f))
+        return lom_skip_water(f, "the water's quad is outside the view");
+    if (!model->is_looked_up)
+        return draw_tinted(f);
+    if (!draw_visibility(f, error))
+        return false;
+    if (f->water.width == 0)
+        return lom_skip_water(f, "the scene hides all of the water");
+    return draw_reflection(f, error) && draw_refraction(f, error) && draw_surface(f);
+}

@@ -1,0 +1,96 @@
+/* Water for drawing. In: the scene. Out: its maps, the pattern of its foam, its bed and its waves. */
+#include "pipeline/check_device.h"
+#include "render/renderer.h"
+#include "scene/scene_water.h"
+#include "spray/make_foam.h"
+#include "water/lake.h"
+#include "water/water_models.h"
+
+static bool load_maps(lom_renderer *renderer, lom_error *error)
+{
+    const lom_water_params *w = &renderer->scene->water;
+    if (!w->present || w->normal_map == NULL)
+        return true;
+    renderer->water.normal_map = lom_load_texture(renderer, w->normal_map, false, error);
+    if (renderer->water.normal_map == NULL)
+        return false;
+    if (w->flow_map != NULL)
+        renderer->water.flow_map = lom_load_texture(renderer, w->flow_map, false, error);
+    if (w->flow_map != NULL || !w->flow)
+        return renderer->water.flow_map != NULL || !w->flow;
+    lom_image *file = lom_read_image(w->normal_map, error);
+    lom_image *flow = file == NULL ? NULL : lom_make_flow_map(file, error);
+    lom_image *rgba = flow == NULL ? NULL : lom_convert_image(flow, LOM_FORMAT_RGBA8, error);
+    if (rgba != NULL)
+        renderer->water.flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = rgba->width,
+                                                                                           .height = rgba->height,
+                                                                                           .pixels = rgba->pixels,
+                                                                                           .mips = LOM_MIPS_ALL });
+    lom_free_image(file);
+    lom_free_image(flow);
+    lom_free_image(rgba);
+    return renderer->water.flow_map != NULL;
+}
+
+static bool load_foam(lom_renderer *renderer, lom_error *error)
+{
+    const lom_water_foam *foam = &renderer->scene->water.foam;
+    if (!(foam->amount > 0) && !(foam->shore_depth > 0))
+        return true;
+    lom_image *pattern = lom_make_foam(256, 1, error);
+    if (pattern == NULL)
+        return false;
+    renderer->water.foam = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = pattern->width,
+                                                                                   .height = pattern->height,
+                                                                                   .format = LOM_FORMAT_R8,
+                                                                                   .pixels = pattern->pixels,
+                                                                                   .mips = LOM_MIPS_ALL });
+    lom_free_image(pattern);
+    return lom_check_device(renderer->device, error);
+}
+
+static bool load_waves(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    const struct lom_ground *ground = &renderer->ground;
+    if (!scene->water.present || !lom_water_models[scene->quality.water].has_waves)
+        return true;
+    renderer->water.site =
+        lom_scene_wave_site(scene, &(struct lom_bed){ ground->heights,
+                                                      ground->columns,
+                                                      ground->rows,
+                                                      { scene->terrain.size[0], scene->terrain.size[1] },
+                                                      scene->terrain.base });
+    const struct lom_wave_source source = { &renderer->water.site, renderer->water.normal_map, renderer->device };
+    if (!load_foam(renderer, error))
+        return false;
+    renderer->water.waves = lom_load_wave_field(&source, error);
+    return renderer->water.waves != NULL;
+}
+
+/* The terrain's heights as a texture, where caustics need them. */
+static bool load_bed(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    if (renderer->ground.heights == NULL || !scene->water.present ||
+        !lom_water_models[scene->quality.water].has_waves || !(scene->water.optics.caustics > 0))
+        return true;
+    renderer->water.bed = lom_make_texture(
+        renderer->device, &(lom_texture_desc){ .width = renderer->ground.columns + 1,
+                                               .height = renderer->ground.rows + 1,
+                                               .format = LOM_FORMAT_R32F,
+                                               .pixels = renderer->ground.heights,
+                                               .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
+    return lom_check_device(renderer->device, error);
+}
+
+bool lom_load_water(lom_renderer *renderer, lom_error *error)
+{
+    return load_bed(renderer, error) && load_maps(renderer, error) && load_waves(renderer, error);
+}
+
+void lom_free_water(lom_renderer *renderer)
+{
+    lom_free_wave_field(renderer->water.waves);
+    lom_free_polar_mesh(&renderer->water.polar);
+}

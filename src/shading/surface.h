@@ -1,0 +1,41 @@
+/* Uniforms that the surfaces of a scene share: what they are made of, and what a pass sees them by. */
+#ifndef LOM_SHADING_SURFACE_H
+#define LOM_SHADING_SURFACE_H
+
+#include "shading/haze.h"
+
+struct lom_material_uniform {
+    float ambient[3], diffuse[3], specular[3], shininess;
+    const lom_texture *texture; /* multiplies ambient and diffuse; NULL: white */
+};
+
+/* The sunlight that waves focus on what is below the level: a map over x and z. */
+struct lom_caustics_uniform {
+    const lom_texture *map; /* NULL: none */
+    float corner[2], scale; /* s = (x - corner[0]) scale */
+    float level, strength;
+    float fade;      /* 1 / metres below the level over which they appear */
+    float lod_scale; /* texels of the map a pixel covers, per metre of distance */
+};
+
+/* How near to the sun entities reach, seen from it. */
+struct lom_shadow_map_uniform {
+    const lom_texture *map;     /* depth, 0 where there is none; NULL: no shadows */
+    float s[4], t[4], depth[4]; /* rows: texture coordinates and depth of an offset (x, y, z, 1) */
+    float size, texel;          /* texels a side, and 1 / size */
+    float offset;               /* metres that a place is moved along its normal, so that it does not shade itself */
+};
+
+enum { LOM_ENTITY_SHADOWS = 2 };
+
+/* What every surface of a pass shares. Offsets are places less the eye. */
+struct lom_view_uniform {
+    struct lom_matrix_uniform clip_from_offset;
+    struct lom_light_uniform light;
+    struct lom_haze_uniform haze;
+    float plane[4]; /* clip distance 0 is plane . (offset, 1); (0, 0, 0, 1) keeps everything */
+    struct lom_caustics_uniform caustics;
+    struct lom_shadow_map_uniform entity_shadow[LOM_ENTITY_SHADOWS];
+};
+
+#endif
