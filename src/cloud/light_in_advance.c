@@ -3,6 +3,8 @@
  * order. */
 #include <lom/cloud.h>
 
+#include "base/own_float_state.h"
+
 static int byte_of(const lom_image *density, int x, int y, int z)
 {
     const void *p = lom_image_pixel(density, x, y, z);
@@ -40,6 +42,7 @@ static double gray_of(const lom_image *density, const int voxel[3], const double
 lom_image *lom_light_cloud_in_advance(const lom_image *density, const double to_light[3], double lighter,
                                       double dark_light, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     lom_image *lit = lom_create_image(density->width, density->height, density->depth, LOM_FORMAT_RGBA8, error);
     double length = lom_double_sqrt(to_light[0] * to_light[0] + to_light[1] * to_light[1] + to_light[2] * to_light[2]);
     double step[3];

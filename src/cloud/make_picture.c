@@ -2,6 +2,7 @@
  * opacity. Invariant: the border is clear. */
 #include <lom/cloud.h>
 
+#include "base/own_float_state.h"
 #include "geometry/noise.h"
 
 /* Perlin noise of 32, 64, 128 and 256 cells a side, each of half the weight, in [-1, 1]. */
@@ -15,6 +16,7 @@ static double four_octaves(const lom_noise *noise, double x, double y)
 
 lom_image *lom_make_cloud_picture(int size, uint64_t seed, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (size < 8 || size > 1024) {
         lom_fail(error, LOM_ERROR_USAGE, "A flat cloud has 8 to 1024 pixels a side, not %d.", size);
         return NULL;

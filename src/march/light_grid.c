@@ -3,6 +3,7 @@
  * sun. */
 #include "march/light_grid.h"
 
+#include "base/own_float_state.h"
 #include "lanes/variants.h"
 #include "march/cells.h"
 
@@ -81,6 +82,7 @@ static int scaled(int size, double scale)
 
 lom_light_grid *lom_create_light_grid(const lom_image *density, double scale, const float eroded[256], lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (density == NULL || !(scale > 0 && scale <= 1) || density->width > LOM_MAX_VOLUME ||
         density->height > LOM_MAX_VOLUME || density->depth > LOM_MAX_VOLUME) {
         lom_fail(error, LOM_ERROR_USAGE, "A grid of light is made from a volume of at most %d voxels a side.",
@@ -304,6 +306,7 @@ bool lom_sweep_sun_by(lom_slice_sweep *sweep, lom_light_grid *grid, const lom_li
 
 bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     return lom_sweep_sun_by(sweeps[lom_widest_variant(false)], grid, desc, error);
 }
 
@@ -319,6 +322,7 @@ static uint32_t diffuse_byte(double depth)
 
 void lom_sweep_sky(lom_light_grid *g, const float size[3], float extinction)
 {
+    LOM_OWN_FLOAT_STATE;
     double scale = (double)extinction * (double)size[1] / g->height / 65535;
     size_t row = (size_t)g->width;
     for (int z = 0; z < g->depth; z++)

@@ -1,6 +1,7 @@
 /* Media for marching. In: densities of 8 or 16 bits or floats. Out: cells with the four corners of a slice side by
  * side, how far each cell is from one that holds anything, and how sharply the density bends. Invariant: a cell of
  * distance above 0 has eight corners of density 0. */
+#include "base/own_float_state.h"
 #include "march/cells.h"
 
 #include <string.h>
@@ -96,6 +97,7 @@ static float find_bend(const lom_medium *m)
 
 lom_medium *lom_create_medium(const lom_image *image, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (image == NULL ||
         (image->format != LOM_FORMAT_R8 && image->format != LOM_FORMAT_R16 && image->format != LOM_FORMAT_R32F)) {
         lom_fail(error, LOM_ERROR_USAGE, "A medium is made from one channel of 8 or 16 bits or floats.");
@@ -145,6 +147,7 @@ void lom_free_detail(lom_detail *detail)
 
 lom_detail *lom_create_detail(const lom_image *noise, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     int n = noise != NULL ? noise->width : 0;
     if (n < 1 || n > 256 || (n & (n - 1)) != 0 || noise->height != n || noise->depth != n ||
         noise->format != LOM_FORMAT_R8) {

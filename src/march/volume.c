@@ -1,6 +1,7 @@
 /* Volumes for marching. In: an image of colour and density; out: cells with their eight corners side by side, and how
  * far each cell is from the nearest one that holds anything. Invariant: a distance is exact or capped at 255, so a
  * cell nearer than it to this one is empty. */
+#include "base/own_float_state.h"
 #include "march/cells.h"
 
 #include <string.h>
@@ -70,6 +71,7 @@ static void store_densities(lom_volume *volume)
 
 lom_volume *lom_create_volume(const lom_image *image, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (image == NULL || (image->format != LOM_FORMAT_RGBA8 && image->format != LOM_FORMAT_R8)) {
         lom_fail(error, LOM_ERROR_USAGE, "A volume is made from an RGBA8 or R8 image.");
         return NULL;

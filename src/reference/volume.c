@@ -2,6 +2,8 @@
  * optical depths. */
 #include "reference/volume.h"
 
+#include "base/own_float_state.h"
+
 #include <string.h>
 
 /* ---- making ---- */
@@ -41,6 +43,7 @@ static bool check_volume(const lom_reference_volume_desc *d, lom_error *error)
 
 lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_desc *d, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (!check_volume(d, error))
         return NULL;
     lom_reference_volume *v = lom_allocate(1, sizeof *v, error);

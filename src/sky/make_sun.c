@@ -1,5 +1,6 @@
 /* The picture of the sun. In: a size, how strong its rays are. Out: how bright each place around the sun is: a disc, a
  * glow that falls off in all directions, faint rays. 0 at the edge, so that the square it is on does not show. */
+#include "base/own_float_state.h"
 #include "base/range.h"
 #include "sky/sky_draw.h"
 
@@ -19,6 +20,7 @@ static double rays_at(double angle)
 
 lom_image *lom_make_sun_picture(int size, double rays, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (!lom_check_range(rays, 0, 1, error, "The strength of the sun's rays"))
         return NULL;
     lom_image *image = lom_create_image(size, size, 1, LOM_FORMAT_R32F, error);

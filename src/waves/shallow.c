@@ -1,5 +1,6 @@
 /* Making shallow water, and what is done to it from outside. In: a bed, sources, obstacles. Out: depths a step later.
  * Invariant: the volume changes by what is counted as gained and lost, and by nothing else. */
+#include "base/own_float_state.h"
 #include "base/range.h"
 #include "waves/shallow_state.h"
 
@@ -74,6 +75,7 @@ static lom_shallow *allocate(const lom_shallow_desc *d, lom_error *error)
 
 lom_shallow *lom_create_shallow(const lom_shallow_desc *desc, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     lom_shallow_desc d = desc != NULL ? *desc : (lom_shallow_desc){ .columns = 0 };
     if (!resolve_desc(&d, error) || !check_cells(&d, error))
         return NULL;
@@ -221,6 +223,7 @@ static bool check_lists(const lom_shallow_source *sources, int source_count, con
 bool lom_step_shallow(lom_shallow *s, const lom_shallow_source *sources, int source_count,
                       const lom_shallow_obstacle *obstacles, int obstacle_count, lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     if (!check_lists(sources, source_count, obstacles, obstacle_count, error))
         return false;
     memcpy(s->bed, s->ground, (size_t)s->desc.columns * (size_t)s->desc.rows * sizeof *s->bed);
@@ -235,6 +238,7 @@ bool lom_step_shallow(lom_shallow *s, const lom_shallow_source *sources, int sou
 
 lom_shallow_view lom_view_shallow(const lom_shallow *s)
 {
+    LOM_OWN_FLOAT_STATE;
     const lom_shallow_desc *d = &s->desc;
     double volume = 0;
     for (size_t i = 0; i < (size_t)d->columns * (size_t)d->rows; i++)

@@ -2,6 +2,8 @@
  * out: wave vectors, phases and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
 #include "waves/wave_field.h"
 
+#include "base/own_float_state.h"
+
 #include <stdio.h>
 
 static const double turn = 6.283185307179586, gravity = 9.80665;
@@ -75,6 +77,7 @@ static int make_trochoids(const lom_water_waves *waves, lom_trochoid *out, lom_t
 int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WAVES], lom_trochoid_report *report,
                        lom_error *error)
 {
+    LOM_OWN_FLOAT_STATE;
     lom_trochoid_report unread;
     if (!check_trochoids(waves, error))
         return -1;

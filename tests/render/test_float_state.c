@@ -5,7 +5,12 @@
 #include "hostile.h"
 #include "small_scene.h"
 
+#include <lom/cloud.h>
+#include <lom/march.h>
+#include <lom/shallow.h>
+#include <lom/sky.h>
 #include <lom/texture.h>
+#include <lom/waves.h>
 
 /* A task gives a hash of what it made; 0 on failure. */
 typedef uint64_t task(lom_error *error);
@@ -143,6 +148,73 @@ static uint64_t refuse_frame(lom_error *error)
                : lom_hash_bytes(LOM_HASH_START, refused.text, strlen(refused.text));
 }
 
+static uint64_t make_pictures(lom_error *error)
+{
+    static const double rays = 0.3;
+    return hash_and_free(lom_make_sun_picture(16, rays, error),
+                         hash_and_free(lom_make_cloud_picture(16, 3, error), LOM_HASH_START));
+}
+
+/* Densities of all sizes. */
+static lom_image *make_density(lom_error *error)
+{
+    lom_image *image = lom_create_image(8, 7, 6, LOM_FORMAT_R8, error);
+    for (size_t i = 0; image != NULL && i < lom_image_size(image); i++)
+        image->pixels[i] = (uint8_t)(i * 37 % 256);
+    return image;
+}
+
+static uint64_t light_volumes(lom_error *error)
+{
+    static const double to_light[3] = { 0.3, 1, 0.1 }, scale = 0.5, lighter = 0.7, dark = 0.3;
+    static const lom_light_desc sun = {
+        .size = { 9, 8, 7 }, .extinction = 0.3f, .to_light = { 0.6f, 0.8f, 0 }, .forward = 0.4f
+    };
+    float eroded[256];
+    for (int i = 0; i < 256; i++)
+        eroded[i] = (float)i / 256; /* exact */
+    lom_image *density = make_density(error);
+    if (density == NULL)
+        return 0;
+    uint64_t hash = hash_and_free(lom_light_cloud_in_advance(density, to_light, lighter, dark, error), LOM_HASH_START);
+    lom_light_grid *grid = lom_create_light_grid(density, scale, eroded, error);
+    if (grid != NULL && lom_sweep_sun(grid, &sun, error)) {
+        lom_sweep_sky(grid, sun.size, sun.extinction);
+        hash = lom_hash_bytes(hash, grid->light,
+                              (size_t)grid->width * (size_t)grid->height * (size_t)grid->depth * sizeof *grid->light);
+    }
+    lom_free_light_grid(grid);
+    lom_free_image(density);
+    return hash;
+}
+
+static uint64_t flow(lom_error *error)
+{
+    static const double bed[9] = { 0, 0.1, 0.3, 1.3, 1e-310, 0, 0.7, 0, 2 };
+    static const lom_shallow_desc desc = {
+        .columns = 3, .rows = 3, .cell = 0.7, .bed = bed, .level = 0.9, .step = 0.1
+    };
+    static const lom_shallow_source spring = { .x = 1.1, .z = 0.9, .radius = 0.8, .rate = 0.37 };
+    static const lom_shallow_obstacle body = { .x = 1, .z = 1, .half = { 0.8, 0.9 }, .heading = 0.4, .draft = 0.3 };
+    lom_shallow *water = lom_create_shallow(&desc, error);
+    for (int i = 0; water != NULL && i < 5; i++)
+        lom_step_shallow(water, &spring, 1, &body, 1, error);
+    uint64_t hash = water != NULL ? lom_hash_bytes(LOM_HASH_START, lom_view_shallow(water).depth, sizeof bed) : 0;
+    lom_free_shallow(water);
+    return hash;
+}
+
+static uint64_t make_waves(lom_error *error)
+{
+    static const lom_water_waves waves = {
+        .count = 4, .length = { 7, 1 }, .height = 0.3, .steepness = 0.6, .direction = 0.3, .spread = 0.5
+    };
+    lom_trochoid made[LOM_MAX_WAVES];
+    memset(made, 0, sizeof made);
+    return lom_make_trochoids(&waves, made, NULL, error) == 4 ? lom_hash_bytes(LOM_HASH_START, made, 4 * sizeof *made)
+                                                              : 0;
+}
+
 static void check_task(task *run, const char *name)
 {
     lom_error error = { 0 };
@@ -174,6 +246,14 @@ static void meshes_do_not_see_it(void)
     check_task(read_mesh, "a mesh");
 }
 
+static void what_is_made_does_not_see_it(void)
+{
+    check_task(make_pictures, "the sun and a flat cloud");
+    check_task(light_volumes, "light in a volume");
+    check_task(flow, "shallow water");
+    check_task(make_waves, "trochoids");
+}
+
 static void scenes_do_not_see_it(void)
 {
     check_task(refuse_frame, "the limit of a frame");
@@ -188,6 +268,7 @@ int main(int argc, char **argv)
     RUN(pictures_do_not_see_it);
     RUN(textures_do_not_see_it);
     RUN(meshes_do_not_see_it);
+    RUN(what_is_made_does_not_see_it);
     RUN(scenes_do_not_see_it);
     remove_small_scene();
     return check_result();
