@@ -81,6 +81,11 @@ LOM_INLINE void lom_store_places(int32_t *memory, const struct lom_tile *tile, c
     }
     int32_t values[LOM_LANES];
     lom_store_int(values, x);
+    if (lom_all(mask)) {
+        for (int i = 0; i < LOM_LANES; i++)
+            memory[places->pixel[i]] = values[i];
+        return;
+    }
     for (uint32_t bits = lom_bits(mask); bits != 0; bits &= bits - 1) {
         int i = __builtin_ctz(bits);
         memory[places->pixel[i]] = values[i];

@@ -147,33 +147,36 @@ static void list_window(struct lom_tile *tile, const lom_triangle *t)
     }
 }
 
-/* The same windows as raster_small, from one to the next by the steps of two edges; the third is what they leave of the
- * area. The biases of the top-left rule are part of all of them. */
-static void list_small(struct lom_tile *tile, const lom_triangle *t, const struct window_range *r)
+/* The same windows as raster_small; the third edge is what the other two leave of the area. The biases of the top-left
+ * rule are part of all of them. False, and nothing done, where they are many: those are mostly packets by themselves. */
+static bool list_small(struct lom_tile *tile, const lom_triangle *t)
 {
     struct lom_bounds b = lom_bounds_of(t);
+    struct window_range r = windows_of(tile, &b);
     struct small_edge e[3];
     bool cut = t->state >> TRIANGLE_CUT & 1;
+    if (((r.x1 - r.x0) / 4 + 1) * ((r.y1 - r.y0) / 4 + 1) > LIST_WINDOWS)
+        return false;
     find_small_edges(tile, t, &b, e);
     lom_int whole = lom_splat_int(t->small.area + e[0].bias + e[1].bias + e[2].bias);
-    lom_int right1 = lom_splat_int(4 * e[1].dx), right2 = lom_splat_int(4 * e[2].dx);
+    lom_int lanes1[PARTS], lanes2[PARTS], codes[PARTS];
     for (int part = 0; part < PARTS; part++) {
-        lom_int first1 = small_lanes(&e[1], part) + (e[1].start + e[1].bias + e[1].dx * r->x0);
-        lom_int first2 = small_lanes(&e[2], part) + (e[2].start + e[2].bias + e[2].dx * r->x0);
-        for (int y = r->y0; y <= r->y1; y += 4) {
-            lom_int e1 = first1 + e[1].dy * y, e2 = first2 + e[2].dy * y;
-            lom_int codes = window_codes(tile, part) + code_of(tile, r->x0, y);
-            for (int x = r->x0; x <= r->x1; x += 4) {
+        lanes1[part] = small_lanes(&e[1], part) + (e[1].start + e[1].bias);
+        lanes2[part] = small_lanes(&e[2], part) + (e[2].start + e[2].bias);
+        codes[part] = window_codes(tile, part);
+    }
+    for (int y = r.y0; y <= r.y1; y += 4)
+        for (int x = r.x0; x <= r.x1; x += 4) {
+            int32_t start1 = e[1].dx * x + e[1].dy * y, start2 = e[2].dx * x + e[2].dy * y, code = code_of(tile, x, y);
+            for (int part = 0; part < PARTS; part++) {
+                lom_int e1 = lanes1[part] + start1, e2 = lanes2[part] + start2;
                 lom_mask covered = (e1 | e2 | (whole - e1 - e2)) >= 0;
                 if (cut)
                     covered &= inside_bounds(tile, &b, x, y, part);
-                list_part(&tile->list, covered, codes);
-                e1 += right1;
-                e2 += right2;
-                codes += 8 + (4 << CODE_X); /* a window is two blocks of four words wide */
+                list_part(&tile->list, covered, codes[part] + code);
             }
         }
-    }
+    return true;
 }
 
 /* Whether the fragments of the draw's small triangles can be computed together, from their records alone. */
@@ -182,21 +185,16 @@ static bool packs(const struct lom_draw *draw)
     return !draw->constant && !draw->biased && !draw->desc.shader->quads;
 }
 
-/* False where the triangle has to be drawn by itself: it is large, crosses a clip distance, or has many windows, which
- * are mostly packets by themselves. */
+/* False where the triangle has to be drawn by itself. */
 static bool list_triangle(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
     struct lom_list *list = &tile->list;
-    struct lom_bounds b = lom_bounds_of(t);
-    struct window_range r = windows_of(tile, &b);
-    bool window = lom_kind_of(t) == TRIANGLE_WINDOW;
-    int windows = window ? 1 : ((r.x1 - r.x0) / 4 + 1) * ((r.y1 - r.y0) / 4 + 1), before = list->count;
-    if (lom_kind_of(t) == TRIANGLE_LARGE || t->state >> TRIANGLE_CLIP != 0 || windows > LIST_WINDOWS)
+    lom_triangle_kind kind = lom_kind_of(t);
+    int before = list->count;
+    if (t->state >> TRIANGLE_CLIP != 0 || kind == TRIANGLE_LARGE || (kind == TRIANGLE_SMALL && !list_small(tile, t)))
         return false;
-    if (window)
+    if (kind == TRIANGLE_WINDOW)
         list_window(tile, t);
-    else
-        list_small(tile, t, &r);
     list->row[list->triangles] = number * (int32_t)(sizeof *t / sizeof(float));
     list->triangles += list->count > before;
     if (list->count >= LIST_SIZE || list->triangles == LIST_TRIANGLES)
