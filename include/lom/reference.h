@@ -59,8 +59,8 @@ typedef struct lom_reference lom_reference;
  * are not looked at. Water is what the scene's [water] table describes, by what physics says of it: the share that is
  * reflected by Fresnel's equations, refraction by Snell's law, absorption by Beer and Lambert; its waves
  * ([water.waves], [surf], [shallow]) as fine triangles, else its normal map. Sunlight reaches the bed through a level
- * surface, and there is no foam. Light and entities with key frames stand where they are at 0 s; lom_trace_scene loads
- * such a scene again for its time. */
+ * surface, and there is no foam. Light and entities with key frames stand where they are at 0 s; lom_trace_scene places
+ * them for its time. */
 lom_reference *lom_create_reference(const lom_scene *scene, lom_error *error);
 void lom_free_reference(lom_reference *reference); /* NULL is allowed */
 /* What was passed over while loading, as lom_renderer_warning says. */

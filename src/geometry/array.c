@@ -1,22 +1,7 @@
-/* Growth by half of the length, so that appending is linear. In: elements, text. Out: memory of lom_allocate. */
+/* Text and numbers into memory. In: text. Out: bytes in memory of lom_allocate. */
 #include "array.h"
 
 #include <string.h>
-
-void *lom_grow(void *items, size_t *capacity, size_t count, size_t size, lom_error *error)
-{
-    if (count < *capacity)
-        return items;
-    size_t larger = count + count / 2 + 64;
-    void *copy = lom_allocate(larger, size, error);
-    if (copy == NULL)
-        return NULL;
-    if (count > 0)
-        memcpy(copy, items, count * size);
-    lom_release(items);
-    *capacity = larger;
-    return copy;
-}
 
 static void put_bytes(struct lom_output *output, const char *bytes, size_t size)
 {

@@ -1,13 +1,8 @@
-/* Arrays and byte buffers that grow. In: what is appended. Out: contiguous memory from lom_allocate; sizes are checked
- * before they are used. */
+/* Byte buffers that grow. In: what is appended. Out: contiguous memory from lom_allocate. */
 #ifndef LOM_GEOMETRY_ARRAY_H
 #define LOM_GEOMETRY_ARRAY_H
 
-#include <lom/base.h>
-
-/* Makes room for more than count elements of size bytes: gives items or a larger copy of its count elements (items is
- * then released), and changes *capacity. NULL on failure; items is still the caller's then. */
-void *lom_grow(void *items, size_t *capacity, size_t count, size_t size, lom_error *error);
+#include "base/grow.h"
 
 struct lom_output {
     lom_bytes bytes;

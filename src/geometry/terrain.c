@@ -204,6 +204,24 @@ bool lom_visit_terrain(const lom_image *map, double width, double length, double
     return good;
 }
 
+bool lom_read_terrain_heights(const lom_image *map, const double size[2], double height, float *heights,
+                              lom_error *error)
+{
+    struct terrain terrain = { map, size[0], size[1], height, 0 };
+    double *row = check_terrain(&terrain, error) ? lom_allocate((size_t)map->width, sizeof *row, error) : NULL;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool good = row != NULL;
+    for (int j = 0; good && j < map->height; j++) {
+        good = read_row(&terrain, j, row, error);
+        for (int i = 0; good && i < map->width; i++)
+            *heights++ = (float)row[i];
+    }
+    lom_leave_float_state(&state);
+    lom_release(row);
+    return good;
+}
+
 static void copy_row(void *context, int row, const lom_mesh_vertex *vertices)
 {
     const struct terrain_mesh *target = context;

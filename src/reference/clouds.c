@@ -3,7 +3,7 @@
  * the sun, the sky and the ground, and its own light alone. The noise that models add below the size of a voxel is no
  * part of the volume. */
 #include "cloud/cloud_draw.h"
-#include "reference/world.h"
+#include "reference/reference.h"
 
 #include <string.h>
 
@@ -30,10 +30,10 @@ static lom_image *load_density(const lom_cloud *cloud, lom_error *error)
     return lom_make_cloud(&(lom_cloud_desc){ cloud->kind, size[0], size[1], size[2], (uint64_t)cloud->seed }, error);
 }
 
-static bool place_cloud(lom_reference *world, const lom_cloud *cloud, const lom_image *density, lom_error *error)
+static bool place_cloud(lom_reference *reference, const lom_cloud *cloud, const lom_image *density, lom_error *error)
 {
-    const lom_clouds *all = &world->scene->clouds;
-    struct lom_ray_cloud *placed = &world->clouds[world->cloud_count];
+    const lom_clouds *all = &reference->scene->clouds;
+    struct lom_ray_cloud *placed = &reference->clouds[reference->cloud_count];
     lom_vec3 half = { cloud->size[0] / 2, cloud->size[1] / 2, cloud->size[2] / 2 };
     *placed = (struct lom_ray_cloud){ .cloud = cloud,
                                       .middle = cloud->position,
@@ -49,18 +49,18 @@ static bool place_cloud(lom_reference *world, const lom_cloud *cloud, const lom_
                                                                   .phase = { (lom_cloud_phase)all->phase, all->forward,
                                                                              all->backward, all->blend } },
                                     error);
-    world->cloud_count += placed->volume != NULL;
+    reference->cloud_count += placed->volume != NULL;
     return placed->volume != NULL;
 }
 
-bool lom_load_ray_clouds(lom_reference *world, lom_error *error)
+bool lom_load_ray_clouds(lom_reference *reference, lom_error *error)
 {
-    const lom_scene *scene = world->scene;
+    const lom_scene *scene = reference->scene;
     if (scene->cloud_count == 0 || scene->quality.clouds == LOM_CLOUDS_OFF)
         return true;
-    world->clouds = lom_allocate(scene->cloud_count, sizeof *world->clouds, error);
+    reference->clouds = lom_allocate(scene->cloud_count, sizeof *reference->clouds, error);
     lom_image **images = lom_allocate(scene->cloud_count, sizeof(lom_image *), error);
-    bool done = world->clouds != NULL && images != NULL;
+    bool done = reference->clouds != NULL && images != NULL;
     for (size_t i = 0; done && i < scene->cloud_count; i++) {
         size_t owner = 0;
         while (owner < i && (images[owner] == NULL || !is_same_density(&scene->cloud[owner], &scene->cloud[i])))
@@ -69,7 +69,7 @@ bool lom_load_ray_clouds(lom_reference *world, lom_error *error)
             continue;
         if (owner == i)
             images[i] = load_density(&scene->cloud[i], error);
-        done = images[owner] != NULL && place_cloud(world, &scene->cloud[i], images[owner], error);
+        done = images[owner] != NULL && place_cloud(reference, &scene->cloud[i], images[owner], error);
     }
     for (size_t i = 0; images != NULL && i < scene->cloud_count; i++)
         lom_free_image(images[i]);
@@ -77,11 +77,11 @@ bool lom_load_ray_clouds(lom_reference *world, lom_error *error)
     return done;
 }
 
-void lom_free_ray_clouds(lom_reference *world)
+void lom_free_ray_clouds(lom_reference *reference)
 {
-    for (size_t i = 0; i < world->cloud_count; i++)
-        lom_free_reference_volume(world->clouds[i].volume);
-    lom_release(world->clouds);
+    for (size_t i = 0; i < reference->cloud_count; i++)
+        lom_free_reference_volume(reference->clouds[i].volume);
+    lom_release(reference->clouds);
 }
 
 /* ---- rays ---- */
@@ -92,10 +92,10 @@ static lom_vec3 turned(const struct lom_ray_cloud *cloud, lom_vec3 v)
     return (lom_vec3){ cloud->cosine * v.x - cloud->sine * v.z, v.y, cloud->sine * v.x + cloud->cosine * v.z };
 }
 
-static struct lom_ray into_cloud(const lom_reference *world, const struct lom_ray_cloud *cloud,
+static struct lom_ray into_cloud(const lom_reference *reference, const struct lom_ray_cloud *cloud,
                                  const struct lom_ray *ray, double time)
 {
-    lom_vec3 middle = sum(cloud->middle, lom_cloud_way(&world->scene->clouds, cloud->cloud, time));
+    lom_vec3 middle = sum(cloud->middle, lom_cloud_way(&reference->scene->clouds, cloud->cloud, time));
     return (struct lom_ray){ turned(cloud, difference(ray->origin, middle)), turned(cloud, ray->direction) };
 }
 
@@ -108,13 +108,13 @@ static lom_vec3 surroundings(const void *context, lom_vec3 direction)
 
 /* What one cloud sends along a ray in its own axes from its entry on, in front of `light`; air in between turns it to
  * the haze. */
-static lom_vec3 before(const lom_reference *world, const struct lom_ray_cloud *cloud, const struct lom_ray *inner,
+static lom_vec3 before(const lom_reference *reference, const struct lom_ray_cloud *cloud, const struct lom_ray *inner,
                        double enter, double far, lom_vec3 light)
 {
     const double pi = 3.141592653589793;
-    const lom_clouds *all = &world->scene->clouds;
-    lom_vec3 sun = scaled(world->light, pi * all->brightness);
-    lom_reference_light around = { .to_sun = turned(cloud, world->to_light),
+    const lom_clouds *all = &reference->scene->clouds;
+    lom_vec3 sun = scaled(reference->light, pi * all->brightness);
+    lom_reference_light around = { .to_sun = turned(cloud, reference->to_light),
                                    .sun = { sun.x, sun.y, sun.z },
                                    .context = all,
                                    .surroundings = surroundings };
@@ -132,43 +132,44 @@ static lom_vec3 before(const lom_reference *world, const struct lom_ray_cloud *c
 }
 
 /* From far to near: the farthest entry that is nearer than the last one (of equal ones the later cloud comes first). */
-lom_vec3 lom_light_through_clouds(const lom_reference *world, const struct lom_ray *ray, double far, double time,
+lom_vec3 lom_light_through_clouds(const lom_reference *reference, const struct lom_ray *ray, double far, double time,
                                   lom_vec3 light)
 {
     double last = __builtin_inf();
-    size_t last_index = world->cloud_count;
+    size_t last_index = reference->cloud_count;
     for (;;) {
         double farthest = -1;
-        size_t next = world->cloud_count;
+        size_t next = reference->cloud_count;
         struct lom_ray inner = *ray;
-        for (size_t i = 0; i < world->cloud_count; i++) {
-            struct lom_ray in = into_cloud(world, &world->clouds[i], ray, time);
+        for (size_t i = 0; i < reference->cloud_count; i++) {
+            struct lom_ray in = into_cloud(reference, &reference->clouds[i], ray, time);
             double enter = 0, leave = far;
-            if (lom_cross_volume(world->clouds[i].volume, in.origin, in.direction, &enter, &leave) &&
+            if (lom_cross_volume(reference->clouds[i].volume, in.origin, in.direction, &enter, &leave) &&
                 enter >= farthest && (enter < last || (enter == last && i < last_index))) {
                 farthest = enter;
                 next = i;
                 inner = in;
             }
         }
-        if (next == world->cloud_count)
+        if (next == reference->cloud_count)
             return light;
-        light = before(world, &world->clouds[next], &inner, farthest, far, light);
+        light = before(reference, &reference->clouds[next], &inner, farthest, far, light);
         last = farthest;
         last_index = next;
     }
 }
 
-double lom_cloud_shadow(const lom_reference *world, lom_vec3 place, double time)
+double lom_cloud_shadow(const lom_reference *reference, lom_vec3 place, double time)
 {
-    const lom_clouds *all = &world->scene->clouds;
-    struct lom_ray ray = { place, world->to_light };
+    const lom_clouds *all = &reference->scene->clouds;
+    struct lom_ray ray = { place, reference->to_light };
     double depth = 0;
     if (!all->shadows)
         return 1;
-    for (size_t i = 0; i < world->cloud_count; i++) {
-        struct lom_ray inner = into_cloud(world, &world->clouds[i], &ray, time);
-        depth += lom_volume_optical_depth(world->clouds[i].volume, inner.origin, inner.direction, 0, __builtin_inf());
+    for (size_t i = 0; i < reference->cloud_count; i++) {
+        struct lom_ray inner = into_cloud(reference, &reference->clouds[i], &ray, time);
+        depth +=
+            lom_volume_optical_depth(reference->clouds[i].volume, inner.origin, inner.direction, 0, __builtin_inf());
     }
     return 1 + all->shadow_strength * lom_double_expm1(-depth);
 }

@@ -6,8 +6,8 @@
 #include <stdatomic.h>
 
 struct frame {
-    lom_reference *loaded; /* of this frame's time, where the scene moves; or NULL */
-    lom_reference world;   /* the reference with the waves of this frame */
+    lom_reference reference; /* as it was loaded, with what moves, and the waves, of this frame */
+    bool placed;             /* what it places is its own */
     struct lom_wave_surface waves;
     bool in_water; /* the camera */
     lom_reference_frame desc;
@@ -52,7 +52,7 @@ static lom_vec3 see(const struct frame *f, double x, double y)
     lom_vec3 world = { v[0][0] * ray[0] + v[1][0] * ray[1] + v[2][0] * ray[2],
                        v[0][1] * ray[0] + v[1][1] * ray[1] + v[2][1] * ray[2],
                        v[0][2] * ray[0] + v[1][2] * ray[1] + v[2][2] * ray[2] };
-    return lom_radiance_along(&f->world, (struct lom_ray){ f->camera.position, world },
+    return lom_radiance_along(&f->reference, (struct lom_ray){ f->camera.position, world },
                               f->camera.near_plane * length(world), f->desc.time, f->desc.depth, f->in_water);
 }
 
@@ -100,43 +100,28 @@ static bool check_frame(const lom_reference_frame *d, lom_error *error)
     return true;
 }
 
-static bool moves(const lom_scene *scene)
+/* The light and the entities where they are at the frame's time. */
+static bool move(struct frame *f, const lom_reference *loaded, lom_error *error)
 {
-    bool keys = scene->light.key_count != 0;
-    for (size_t i = 0; i < scene->entity_count; i++)
-        keys = keys || scene->entities[i].key_count != 0;
-    return keys;
-}
-
-/* The light and the entities where they are at the frame's time: the scene is loaded again for it. */
-static bool load_moment(struct frame *f, const lom_reference *reference, lom_error *error)
-{
-    f->world = *reference;
-    if (!moves(reference->source))
-        return true;
-    f->loaded = lom_create_reference_at(reference->source, f->desc.time, error);
-    if (f->loaded == NULL)
-        return false;
-    f->world = *f->loaded;
-    if (reference->own_water)
-        f->world.water = reference->water;
-    return true;
+    f->reference = *loaded;
+    f->placed = lom_world_moves(loaded->world);
+    return !f->placed || lom_place_reference(&f->reference, f->desc.time, error);
 }
 
 /* The camera and the waves around it. */
 static bool look(struct frame *f, lom_error *error)
 {
-    f->camera = lom_scene_camera_at(f->world.scene, f->desc.time);
+    f->camera = lom_scene_camera_at(f->reference.scene, f->desc.time);
     f->view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
     f->projection =
         lom_perspective(f->camera.field_of_view, (double)f->desc.width / f->desc.height, f->camera.near_plane);
     lom_vec3 eye = f->camera.position;
-    if (!lom_make_wave_surface(&f->waves, &f->world, eye, f->desc.time, error))
+    if (!lom_make_wave_surface(&f->waves, &f->reference, eye, f->desc.time, error))
         return false;
-    f->in_water = lom_water_above(&f->world, eye, f->desc.time) > 0;
+    f->in_water = lom_water_above(&f->reference, eye, f->desc.time) > 0;
     if (f->waves.triangles != NULL) {
-        f->world.waves = &f->waves;
-        f->in_water = lom_is_over_water(&f->world, eye) && eye.y < lom_wave_surface_height(&f->waves, eye.x, eye.z);
+        f->reference.waves = &f->waves;
+        f->in_water = lom_is_over_water(&f->reference, eye) && eye.y < lom_wave_surface_height(&f->waves, eye.x, eye.z);
     }
     return true;
 }
@@ -151,12 +136,13 @@ lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_f
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_pool *pool = lom_create_pool(desc->threads > 0 ? desc->threads : lom_default_threads(), error);
-    if (pool != NULL && load_moment(&f, reference, error) && look(&f, error))
+    if (pool != NULL && move(&f, reference, error) && look(&f, error))
         f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
     if (f.image != NULL)
         lom_run_pool(pool, trace_rows, &f);
     lom_free_wave_surface(&f.waves);
-    lom_free_reference(f.loaded);
+    if (f.placed)
+        lom_free_placed(&f.reference);
     lom_free_pool(pool);
     lom_leave_float_state(&state);
     return f.image;

@@ -2,7 +2,7 @@
  * T light + air (1 - T), T = exp(-optical depth). The extinction is density below the height `base` and density
  * exp(-(y - base) / height) above it, whose integral along a straight way is closed (C. Wenzel, "Real-time atmospheric
  * effects in games", SIGGRAPH 2006 course). */
-#include "reference/world.h"
+#include "reference/reference.h"
 
 /* The antiderivative of the profile over y. */
 static double integral(const lom_haze *haze, double y)
@@ -22,13 +22,13 @@ static double mean_profile(const lom_haze *haze, double from, double to)
     return (integral(haze, to) - integral(haze, from)) / (to - from);
 }
 
-lom_vec3 lom_light_through_haze(const lom_reference *world, const struct lom_ray *ray, double far, lom_vec3 light)
+lom_vec3 lom_light_through_haze(const lom_reference *reference, const struct lom_ray *ray, double far, lom_vec3 light)
 {
-    const lom_haze *haze = &world->scene->haze;
+    const lom_haze *haze = &reference->scene->haze;
     if (!haze->present || !(far < 1e300))
         return light;
     double way = far * mean_profile(haze, ray->origin.y, ray->origin.y + far * ray->direction.y);
-    double cosine = at_least(dot(ray->direction, world->to_light), 0);
+    double cosine = at_least(dot(ray->direction, reference->to_light), 0);
     double glow = cosine > 0 ? lom_double_exp(haze->glow_exponent * lom_double_log(cosine)) : 0;
     double *channel[3] = { &light.x, &light.y, &light.z };
     for (int i = 0; i < 3; i++) {

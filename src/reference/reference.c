@@ -1,35 +1,20 @@
 /* Making and freeing a reference, and changing its water. In: a scene. Out: everything that rays are traced through. */
-#include "reference/world.h"
+#include "reference/reference.h"
 
-static bool place_moment(lom_reference *reference, double time, lom_error *error)
-{
-    const lom_scene *scene = reference->source;
-    reference->moment = *scene;
-    reference->scene = &reference->moment;
-    reference->moment.light = lom_scene_light_at(scene, time);
-    reference->entities = lom_allocate(scene->entity_count, sizeof *reference->entities, error);
-    reference->moment.entities = reference->entities;
-    for (size_t i = 0; reference->entities != NULL && i < scene->entity_count; i++) {
-        const lom_entity *entity = &scene->entities[i];
-        reference->entities[i] = *entity;
-        if (entity->key_count == 0)
-            continue;
-        lom_entity_place at = lom_scene_entity_at(entity, time);
-        reference->entities[i].position = at.position;
-        reference->entities[i].rotation = at.rotation;
-    }
-    return reference->entities != NULL;
-}
-
-lom_reference *lom_create_reference_at(const lom_scene *scene, double time, lom_error *error)
+static lom_reference *create(struct lom_world *world, bool owns_world, lom_error *error)
 {
     lom_reference *reference = lom_allocate(1, sizeof *reference, error);
-    if (reference == NULL)
+    if (reference == NULL) {
+        if (owns_world)
+            lom_free_world(world);
         return NULL;
+    }
     lom_float_state state;
     lom_enter_float_state(&state);
-    reference->source = scene;
-    bool done = place_moment(reference, time, error) && lom_load_world(reference, error);
+    reference->world = world;
+    reference->owns_world = owns_world;
+    reference->scene = world->scene;
+    bool done = lom_load_reference(reference, error) && lom_place_reference(reference, 0, error);
     lom_leave_float_state(&state);
     if (done)
         return reference;
@@ -37,34 +22,34 @@ lom_reference *lom_create_reference_at(const lom_scene *scene, double time, lom_
     return NULL;
 }
 
+lom_reference *lom_create_reference_of(struct lom_world *world, lom_error *error)
+{
+    return create(world, false, error);
+}
+
 lom_reference *lom_create_reference(const lom_scene *scene, lom_error *error)
 {
-    return lom_create_reference_at(scene, 0, error);
+    struct lom_world *world = lom_create_world(scene, error);
+    return world == NULL ? NULL : create(world, true, error);
 }
 
 const lom_warnings *lom_reference_warnings(const lom_reference *reference)
 {
-    return &reference->warnings;
+    return &reference->world->warnings;
 }
 
 void lom_free_reference(lom_reference *reference)
 {
     if (reference == NULL)
         return;
-    for (size_t i = 0; i < reference->picture_count; i++) {
-        lom_free_picture(&reference->pictures[i].picture);
-        lom_release(reference->pictures[i].path);
-    }
+    lom_free_placed(reference);
     lom_free_ray_clouds(reference);
-    lom_free_picture(&reference->sky);
-    lom_free_ray_triangles(&reference->opaque);
+    lom_free_image(reference->sky_faces);
     lom_release(reference->pictures);
     lom_release(reference->layers);
     lom_release(reference->materials);
-    lom_release(reference->triangles);
-    lom_release(reference->corners);
-    lom_release(reference->points);
-    lom_release(reference->entities);
+    if (reference->owns_world)
+        lom_free_world(reference->world);
     lom_release(reference);
 }
 

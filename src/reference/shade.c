@@ -1,7 +1,7 @@
 /* What an opaque surface sends back along a ray. In: a hit. Out: radiance by Phong's reflection of the scene's
  * directional light and ambient light (pipeline specification, lighting and materials), the terrain with its layers;
  * the sky in a direction. */
-#include "reference/world.h"
+#include "reference/reference.h"
 
 static lom_vec3 product(lom_vec3 a, lom_vec3 b)
 {
@@ -20,14 +20,14 @@ struct surface {
     double u, v;
 };
 
-static struct surface find_surface(const lom_reference *world, const struct lom_ray_hit *hit)
+static struct surface find_surface(const lom_reference *reference, const struct lom_ray_hit *hit)
 {
-    const uint32_t *index = world->opaque.triangles[hit->triangle].corner;
-    const struct lom_ray_corner *c0 = &world->corners[index[0]], *c1 = &world->corners[index[1]],
-                                *c2 = &world->corners[index[2]];
+    const uint32_t *index = reference->opaque.triangles[hit->triangle].corner;
+    const struct lom_ray_corner *c0 = &reference->corners[index[0]], *c1 = &reference->corners[index[1]],
+                                *c2 = &reference->corners[index[2]];
     const double *b = hit->weight;
-    return (struct surface){ .place =
-                                 blended(world->points[index[0]], world->points[index[1]], world->points[index[2]], b),
+    return (struct surface){ .place = blended(reference->points[index[0]], reference->points[index[1]],
+                                              reference->points[index[2]], b),
                              .normal = unit(blended(c0->normal, c1->normal, c2->normal, b)),
                              .color = blended(c0->color, c1->color, c2->color, b),
                              .u = c0->u * b[0] + c1->u * b[1] + c2->u * b[2],
@@ -52,12 +52,12 @@ static lom_vec3 transmitted(const double absorption[3], double path)
  * a horizontal area is kept, so across the beam it is light (1 - R) cos / cos', over the path depth / cos'. The ambient
  * light, from everywhere, loses 0.066 at the surface (C. Mobley, Light and Water, 1994, 4.2) and is followed straight
  * down. */
-static struct incident find_light(const lom_reference *world, double depth)
+static struct incident find_light(const lom_reference *reference, double depth)
 {
-    struct incident in = { world->to_light, world->light, world->ambient, world->ground_light };
+    struct incident in = { reference->to_light, reference->light, reference->ambient, reference->ground_light };
     if (!(depth > 0))
         return in;
-    const lom_reference_water *water = &world->water;
+    const lom_reference_water *water = &reference->water;
     const lom_vec3 up = { 0, 1, 0 };
     double cosine = in.to_light.y, beam = 0, beam_path = 0;
     lom_vec3 down;
@@ -73,10 +73,11 @@ static struct incident find_light(const lom_reference *world, double depth)
 }
 
 /* Whether a triangle that throws shadows in this scene is hit from this side at low < t < high. */
-static bool is_blocked(const lom_reference *world, const struct lom_ray *ray, bool inside_out, double low, double high)
+static bool is_blocked(const lom_reference *reference, const struct lom_ray *ray, bool inside_out, double low,
+                       double high)
 {
-    const lom_quality *quality = &world->scene->quality;
-    struct lom_ray_triangles set = world->opaque;
+    const lom_quality *quality = &reference->scene->quality;
+    struct lom_ray_triangles set = reference->opaque;
     struct lom_ray_hit hit = { .t = high };
     set.inside_out = inside_out;
     while (lom_hit_triangles(&set, ray, low, &hit)) {
@@ -89,26 +90,26 @@ static bool is_blocked(const lom_reference *world, const struct lom_ray *ray, bo
     return false;
 }
 
-static bool is_open(const lom_reference *world, const struct lom_ray *ray, double high)
+static bool is_open(const lom_reference *reference, const struct lom_ray *ray, double high)
 {
     double low = 1e-6 * (1 + lom_double_sqrt(dot(ray->origin, ray->origin)));
-    return !is_blocked(world, ray, false, low, high) && !is_blocked(world, ray, true, low, high);
+    return !is_blocked(reference, ray, false, low, high) && !is_blocked(reference, ray, true, low, high);
 }
 
 /* Whether the sun's beam comes to a place: along its bent way to the surface of the water, then straight. */
-static bool is_lit(const lom_reference *world, lom_vec3 place, double depth, lom_vec3 to_light)
+static bool is_lit(const lom_reference *reference, lom_vec3 place, double depth, lom_vec3 to_light)
 {
-    const lom_quality *quality = &world->scene->quality;
+    const lom_quality *quality = &reference->scene->quality;
     struct lom_ray ray = { place, to_light };
     if (!quality->terrain_shadows && quality->entity_shadows == 0)
         return true;
     if (depth > 0) {
         double length = depth / to_light.y;
-        if (!is_open(world, &ray, length))
+        if (!is_open(reference, &ray, length))
             return false;
-        ray = (struct lom_ray){ along(place, to_light, length), world->to_light };
+        ray = (struct lom_ray){ along(place, to_light, length), reference->to_light };
     }
-    return is_open(world, &ray, 1e300);
+    return is_open(reference, &ray, 1e300);
 }
 
 /* ambient m.ambient + light (m.diffuse N.L + m.specular (R.E)^s), the first two terms times albedo; the ambient
@@ -128,17 +129,18 @@ static lom_vec3 reflect_light(const struct incident *in, const struct lom_ray_ma
 
 /* ---- terrain ---- */
 
-static lom_vec3 sample_layer(const lom_reference *world, const struct lom_ray_layer *layer, lom_vec3 place)
+static lom_vec3 sample_layer(const lom_reference *reference, const struct lom_ray_layer *layer, lom_vec3 place)
 {
-    return lom_sample_picture(&world->pictures[layer->picture].picture, place.x * layer->scale[0],
+    return lom_sample_picture(&reference->pictures[layer->picture].picture, place.x * layer->scale[0],
                               place.z * layer->scale[1]);
 }
 
 /* From the three sides, mixed by the squares of the normal's components, of which those below a fifth count nothing; x
  * and y, and y and z, as a picture that stands upright. */
-static lom_vec3 sample_sides(const lom_reference *world, const struct lom_ray_layer *layer, lom_vec3 place, lom_vec3 n)
+static lom_vec3 sample_sides(const lom_reference *reference, const struct lom_ray_layer *layer, lom_vec3 place,
+                             lom_vec3 n)
 {
-    const struct lom_picture *picture = &world->pictures[layer->picture].picture;
+    const struct lom_picture *picture = &reference->pictures[layer->picture].picture;
     const double share[3] = { at_least(n.x * n.x - 0.2, 0), at_least(n.y * n.y - 0.2, 0),
                               at_least(n.z * n.z - 0.2, 0) };
     const double s[3] = { place.z, place.x, place.x }, t[3] = { -place.y, place.z, -place.y };
@@ -169,75 +171,76 @@ static int find_sample(double place, double size, int samples, double *rest)
 }
 
 /* The normals of the four samples around a place, mixed over their square (docs/scene.md, [terrain]). */
-static lom_vec3 ground_facing(const lom_reference *world, lom_vec3 place)
+static lom_vec3 ground_facing(const lom_reference *reference, lom_vec3 place)
 {
-    const lom_terrain *t = &world->scene->terrain;
+    const lom_terrain *t = &reference->scene->terrain;
     double x, z;
-    int column = find_sample(place.x, t->size[0], world->ground_columns, &x);
-    int row = find_sample(place.z, t->size[1], world->ground_rows, &z);
-    const struct lom_ray_corner *c = world->corners + (size_t)row * (size_t)world->ground_columns + column,
-                                *d = c + world->ground_columns;
+    int column = find_sample(place.x, t->size[0], reference->ground_columns, &x);
+    int row = find_sample(place.z, t->size[1], reference->ground_rows, &z);
+    const struct lom_ray_corner *c = reference->corners + (size_t)row * (size_t)reference->ground_columns + column,
+                                *d = c + reference->ground_columns;
     return unit(mixed(mixed(c[0].normal, c[1].normal, x), mixed(d[0].normal, d[1].normal, x), z));
 }
 
-static lom_vec3 ground_color(const lom_reference *world, const struct surface *s)
+static lom_vec3 ground_color(const lom_reference *reference, const struct surface *s)
 {
-    const lom_terrain *t = &world->scene->terrain;
+    const lom_terrain *t = &reference->scene->terrain;
     double up = s->normal.y, slope = lom_double_acos(up < -1 ? -1 : up > 1 ? 1 : up);
     lom_vec3 color = { 1, 1, 1 };
-    if (world->ground_texture.picture >= 0)
-        color = sample_layer(world, &world->ground_texture, s->place);
+    if (reference->ground_texture.picture >= 0)
+        color = sample_layer(reference, &reference->ground_texture, s->place);
     for (size_t i = 0; i < t->layer_count; i++) {
         const lom_terrain_layer *layer = &t->layers[i];
         double weight = range_weight(s->place.y, layer->from_height, layer->to_height, layer->blend) *
                         range_weight(slope, layer->from_slope, layer->to_slope, layer->slope_blend);
         double bright = 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
-        double gain = layer->grain * (1 - bright / world->layers[i].below); /* docs/scene.md, [[terrain.layer]] */
+        double gain = layer->grain * (1 - bright / reference->layers[i].below); /* docs/scene.md, [[terrain.layer]] */
         weight = unit_interval(weight + 4 * weight * (1 - weight) * gain);
         if (!(weight > 0))
             continue;
         lom_vec3 over = layer->mapping == LOM_MAPPING_TRIPLANAR
-                            ? sample_sides(world, &world->layers[i], s->place, s->normal)
-                            : sample_layer(world, &world->layers[i], s->place);
+                            ? sample_sides(reference, &reference->layers[i], s->place, s->normal)
+                            : sample_layer(reference, &reference->layers[i], s->place);
         color = mixed(color, over, weight);
     }
-    if (world->ground_detail.picture >= 0)
-        color = scaled(product(color, sample_layer(world, &world->ground_detail, s->place)), 2);
+    if (reference->ground_detail.picture >= 0)
+        color = scaled(product(color, sample_layer(reference, &reference->ground_detail, s->place)), 2);
     return color;
 }
 
 /* The normal map's z points up the surface, its x and y along the ground's x and z. */
-static lom_vec3 ground_normal(const lom_reference *world, const struct surface *s)
+static lom_vec3 ground_normal(const lom_reference *reference, const struct surface *s)
 {
-    if (world->ground_normals.picture < 0)
+    if (reference->ground_normals.picture < 0)
         return s->normal;
-    lom_vec3 texel = sample_layer(world, &world->ground_normals, s->place);
+    lom_vec3 texel = sample_layer(reference, &reference->ground_normals, s->place);
     lom_vec3 bump = { texel.x * 2 - 1, 0, texel.y * 2 - 1 };
     return unit(along(bump, s->normal, texel.z * 2 - 1));
 }
 
 /* ---- all of it ---- */
 
-lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, const struct lom_ray_hit *hit,
+lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                        double time)
 {
-    struct surface s = find_surface(world, hit);
-    double depth = lom_water_above(world, s.place, time);
-    struct incident in = find_light(world, depth);
-    if (dot(in.light, in.light) > 0 && !is_lit(world, s.place, depth, in.to_light))
+    struct surface s = find_surface(reference, hit);
+    double depth = lom_water_above(reference, s.place, time);
+    struct incident in = find_light(reference, depth);
+    if (dot(in.light, in.light) > 0 && !is_lit(reference, s.place, depth, in.to_light))
         in.light = (lom_vec3){ 0, 0, 0 };
-    if (world->cloud_count > 0)
-        in.light = scaled(in.light, lom_cloud_shadow(world, s.place, time));
+    if (reference->cloud_count > 0)
+        in.light = scaled(in.light, lom_cloud_shadow(reference, s.place, time));
     lom_vec3 to_eye = scaled(ray->direction, -1);
-    uint32_t material = world->opaque.triangles[hit->triangle].material;
+    uint32_t material = reference->opaque.triangles[hit->triangle].material;
     if (material == LOM_TERRAIN_MATERIAL) {
-        s.normal = ground_facing(world, s.place);
-        return reflect_light(&in, &world->ground, ground_normal(world, &s), to_eye, ground_color(world, &s));
+        s.normal = ground_facing(reference, s.place);
+        return reflect_light(&in, &reference->ground, ground_normal(reference, &s), to_eye,
+                             ground_color(reference, &s));
     }
-    const struct lom_ray_material *m = &world->materials[material];
+    const struct lom_ray_material *m = &reference->materials[material];
     lom_vec3 albedo = s.color;
     if (m->picture >= 0)
-        albedo = product(albedo, lom_sample_picture(&world->pictures[m->picture].picture, s.u, s.v));
+        albedo = product(albedo, lom_sample_picture(&reference->pictures[m->picture].picture, s.u, s.v));
     return reflect_light(&in, m, s.normal, to_eye, albedo);
 }
 
@@ -255,14 +258,14 @@ static lom_vec3 gradient_light(const lom_sky_params *sky, lom_vec3 to_light, lom
     return (lom_vec3){ out[0], out[1], out[2] };
 }
 
-lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 d)
+lom_vec3 lom_sky_light(const lom_reference *reference, lom_vec3 d)
 {
-    const lom_sky_params *sky = &world->scene->sky;
-    if (world->sky.image == NULL && sky->gradient)
-        return scaled(gradient_light(sky, world->to_light, d), sky->intensity);
-    if (world->sky.image == NULL)
+    const lom_sky_params *sky = &reference->scene->sky;
+    if (reference->sky.image == NULL && sky->gradient)
+        return scaled(gradient_light(sky, reference->to_light, d), sky->intensity);
+    if (reference->sky.image == NULL)
         return scaled((lom_vec3){ sky->color[0], sky->color[1], sky->color[2] }, sky->intensity);
-    lom_vec3 turned = { world->sky_cosine * d.x + world->sky_sine * d.z, d.y,
-                        -world->sky_sine * d.x + world->sky_cosine * d.z };
-    return scaled(lom_sample_cube_picture(&world->sky, turned), sky->intensity);
+    lom_vec3 turned = { reference->sky_cosine * d.x + reference->sky_sine * d.z, d.y,
+                        -reference->sky_sine * d.x + reference->sky_cosine * d.z };
+    return scaled(lom_sample_cube_picture(&reference->sky, turned), sky->intensity);
 }

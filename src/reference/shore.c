@@ -5,16 +5,6 @@
 
 #include "waves/shallow_surface.h"
 
-/* Heights of the terrain's vertices over its base as the renderer has them. */
-static float *find_heights(const lom_reference *world, lom_error *error)
-{
-    size_t count = (size_t)world->ground_columns * (size_t)world->ground_rows;
-    float *heights = lom_allocate(count, sizeof *heights, error);
-    for (size_t i = 0; heights != NULL && i < count; i++)
-        heights[i] = (float)(world->points[i].y - world->scene->terrain.base);
-    return heights;
-}
-
 static bool make_surf(struct lom_wave_surface *surface, const struct lom_wave_site *site, double time, lom_error *error)
 {
     if (!lom_make_site_surf(&surface->surf, site, error))
@@ -51,22 +41,14 @@ static double finer(double shortest, double length)
     return shortest == 0 ? length : at_most(shortest, length);
 }
 
-bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *world, double time, double *shortest,
+bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *reference, double time, double *shortest,
                         lom_error *error)
 {
-    const lom_scene *scene = world->scene;
+    const lom_scene *scene = reference->scene;
     if (!scene->shallow.present && !(scene->surf.height > 0))
         return true;
-    bool ground = world->ground_columns > 0;
-    float *heights = ground ? find_heights(world, error) : NULL;
-    const double *size = scene->terrain.size;
-    const struct lom_wave_site site = lom_scene_wave_site(
-        scene,
-        &(struct lom_bed){
-            heights, world->ground_columns - 1, world->ground_rows - 1, { size[0], size[1] }, scene->terrain.base });
-    bool done = (!ground || heights != NULL) && make_surf(surface, &site, time, error) &&
-                make_shallow(surface, &site, time, error);
-    lom_release(heights);
+    const struct lom_wave_site site = lom_world_wave_site(reference->world);
+    bool done = make_surf(surface, &site, time, error) && make_shallow(surface, &site, time, error);
     if (done && surface->surf.cells != NULL) /* its steepest front is a twentieth of a wave */
         *shortest = finer(*shortest, surface->surf.length / 20);
     if (done && surface->shallow.first != NULL)

@@ -17,15 +17,15 @@ static double height_at(const lom_reference_water *w, double x, double z, double
     return w->height == NULL ? w->lowest : w->height(w->context, x, z, time);
 }
 
-bool lom_is_over_water(const lom_reference *world, lom_vec3 place)
+bool lom_is_over_water(const lom_reference *reference, lom_vec3 place)
 {
-    return has_water(&world->water) && covers(&world->water, place.x, place.z);
+    return has_water(&reference->water) && covers(&reference->water, place.x, place.z);
 }
 
-double lom_water_above(const lom_reference *world, lom_vec3 place, double time)
+double lom_water_above(const lom_reference *reference, lom_vec3 place, double time)
 {
-    const lom_reference_water *w = &world->water;
-    if (!lom_is_over_water(world, place) || place.y >= w->highest)
+    const lom_reference_water *w = &reference->water;
+    if (!lom_is_over_water(reference, place) || place.y >= w->highest)
         return 0;
     return at_least(height_at(w, place.x, place.z, time) - place.y, 0);
 }
@@ -105,18 +105,18 @@ static bool hit_field(const lom_reference_water *w, const struct lom_ray *ray, d
 
 /* The normal map's y and z are swapped because the surface faces up, and its up component is scaled; both maps drift
  * with time, and the flow map displaces the normals by a tenth of a repetition (docs/scene.md, [water]). */
-static lom_vec3 mapped_normal(const lom_reference *world, lom_vec3 place, double time)
+static lom_vec3 mapped_normal(const lom_reference *reference, lom_vec3 place, double time)
 {
-    const lom_water_params *w = &world->scene->water;
+    const lom_water_params *w = &reference->scene->water;
     double u = (place.x - w->position[0]) / w->tile, v = (place.z - w->position[1]) / w->tile;
-    if (world->flow_map != LOM_NO_PICTURE) {
+    if (reference->flow_map != LOM_NO_PICTURE) {
         double moved = time * w->flow_speed;
         moved -= lom_double_floor(moved);
-        lom_vec3 drift = lom_sample_picture(&world->pictures[world->flow_map].picture, u + moved, v);
+        lom_vec3 drift = lom_sample_picture(&reference->pictures[reference->flow_map].picture, u + moved, v);
         u += drift.x * 0.1;
         v += drift.y * 0.1 + moved;
     }
-    lom_vec3 texel = lom_sample_picture(&world->pictures[world->normal_map].picture, u, v);
+    lom_vec3 texel = lom_sample_picture(&reference->pictures[reference->normal_map].picture, u, v);
     return unit((lom_vec3){ texel.x * 2 - 1, texel.z * w->normal_up, texel.y * 2 - 1 });
 }
 
@@ -137,9 +137,9 @@ static lom_vec3 ripple(lom_vec3 normal, lom_vec3 place, double roughness)
     return unit((lom_vec3){ normal.x + up * deviation * slopes[0], up, normal.z + up * deviation * slopes[1] });
 }
 
-static void find_normals(const lom_reference *world, double time, struct lom_crossing *c)
+static void find_normals(const lom_reference *reference, double time, struct lom_crossing *c)
 {
-    const lom_reference_water *w = &world->water;
+    const lom_reference_water *w = &reference->water;
     c->facet = (lom_vec3){ 0, 1, 0 };
     if (w->slope != NULL) {
         double slope[2];
@@ -147,19 +147,19 @@ static void find_normals(const lom_reference *world, double time, struct lom_cro
         c->normal = normal_of_slope(slope);
         c->facet = w->height != NULL ? c->normal : c->facet;
     } else {
-        c->normal = world->normal_map == LOM_NO_PICTURE ? c->facet : mapped_normal(world, c->place, time);
+        c->normal = reference->normal_map == LOM_NO_PICTURE ? c->facet : mapped_normal(reference, c->place, time);
     }
-    c->normal = ripple(c->normal, c->place, world->water.roughness);
+    c->normal = ripple(c->normal, c->place, reference->water.roughness);
 }
 
-bool lom_cross_water(const lom_reference *world, const struct lom_ray *ray, double time, bool from_below, double low,
-                     double high, struct lom_crossing *c)
+bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
+                     double low, double high, struct lom_crossing *c)
 {
-    const lom_reference_water *w = &world->water;
-    if (world->waves != NULL) {
-        if (!lom_hit_waves(world->waves, ray, from_below, low, high, c))
+    const lom_reference_water *w = &reference->water;
+    if (reference->waves != NULL) {
+        if (!lom_hit_waves(reference->waves, ray, from_below, low, high, c))
             return false;
-        c->normal = ripple(c->normal, c->place, world->water.roughness);
+        c->normal = ripple(c->normal, c->place, reference->water.roughness);
         return true;
     }
     if (!has_water(w) || !(w->height == NULL ? hit_plane(w, ray, from_below, low, high, &c->t)
@@ -167,6 +167,6 @@ bool lom_cross_water(const lom_reference *world, const struct lom_ray *ray, doub
         return false;
     c->place = along(ray->origin, ray->direction, c->t);
     c->place.y = height_at(w, c->place.x, c->place.z, time);
-    find_normals(world, time, c);
+    find_normals(reference, time, c);
     return true;
 }

@@ -10,61 +10,11 @@ static double decode_srgb(double x)
     return x <= 0.04045 ? x / 12.92 : lom_double_pow((x + 0.055) / 1.055, 2.4);
 }
 
-static void set_decoding(struct lom_picture *picture, bool srgb)
+void lom_set_picture(struct lom_picture *picture, const lom_image *image, bool srgb)
 {
+    picture->image = image;
     for (int code = 0; code < 256; code++)
         picture->decoded[code] = srgb ? decode_srgb(code / 255.0) : code / 255.0;
-}
-
-bool lom_make_picture(struct lom_picture *picture, const lom_image *image, bool srgb, lom_error *error)
-{
-    bool deep = lom_describe_format(image->format)->bits > 8;
-    picture->image = lom_convert_image(image, deep ? LOM_FORMAT_RGBA16 : LOM_FORMAT_RGBA8, error);
-    set_decoding(picture, srgb);
-    return picture->image != NULL;
-}
-
-bool lom_load_picture(struct lom_picture *picture, const char *path, bool srgb, lom_error *error)
-{
-    lom_image *file = lom_read_image(path, error);
-    bool done = file != NULL && lom_make_picture(picture, file, srgb, error);
-    lom_free_image(file);
-    return done;
-}
-
-/* Face `face` of the cube; the first decides the size. */
-static bool load_face(struct lom_picture *cube, const char *path, int face, lom_error *error)
-{
-    lom_image *file = lom_read_image(path, error);
-    lom_image *image = file == NULL ? NULL : lom_convert_image(file, LOM_FORMAT_RGBA8, error);
-    bool done = image != NULL;
-    lom_free_image(file);
-    if (done && face == 0)
-        cube->image = lom_create_image(image->width, image->height, 6, LOM_FORMAT_RGBA8, error);
-    done = done && cube->image != NULL;
-    if (done && (image->width != cube->image->width || image->height != image->width))
-        done = lom_fail(error, LOM_ERROR_INPUT,
-                        "%s: the faces of a sky box are squares of one size, and this one is %dx%d.", path,
-                        image->width, image->height);
-    if (done)
-        memcpy(lom_image_pixel(cube->image, 0, 0, face), image->pixels, lom_image_size(image));
-    lom_free_image(image);
-    return done;
-}
-
-bool lom_load_cube(struct lom_picture *cube, const char *const paths[6], bool srgb, lom_error *error)
-{
-    set_decoding(cube, srgb);
-    for (int face = 0; face < 6; face++)
-        if (!load_face(cube, paths[face], face, error))
-            return false;
-    return true;
-}
-
-void lom_free_picture(struct lom_picture *picture)
-{
-    lom_free_image(picture->image);
-    picture->image = NULL;
 }
 
 static lom_vec3 texel(const struct lom_picture *picture, int x, int y, int z)

@@ -6,18 +6,12 @@
 
 /* A picture, or the six of a cube (+x, -x, +y, -y, +z, -z) as the slices of one. */
 struct lom_picture {
-    lom_image *image;    /* RGBA8 or RGBA16 */
-    double decoded[256]; /* what the codes of RGBA8 mean */
+    const lom_image *image; /* RGBA8 or RGBA16; outlives the picture */
+    double decoded[256];    /* what the codes of RGBA8 mean */
 };
 
-/* A picture from a file. srgb: 8-bit samples are sRGB-encoded; deeper ones are taken as they are, as the renderer does.
- */
-bool lom_load_picture(struct lom_picture *picture, const char *path, bool srgb, lom_error *error);
-/* From an image, which is not kept. */
-bool lom_make_picture(struct lom_picture *picture, const lom_image *image, bool srgb, lom_error *error);
-/* Six square pictures of one size. */
-bool lom_load_cube(struct lom_picture *picture, const char *const paths[6], bool srgb, lom_error *error);
-void lom_free_picture(struct lom_picture *picture);
+/* srgb: 8-bit samples are sRGB-encoded; deeper ones are taken as they are, as the renderer does. */
+void lom_set_picture(struct lom_picture *picture, const lom_image *image, bool srgb);
 
 /* Repeated in both directions; texel (i, j) has its centre at ((i + 0.5) / width, (j + 0.5) / height). */
 lom_vec3 lom_sample_picture(const struct lom_picture *picture, double s, double t);

@@ -4,7 +4,7 @@
  * Radiance is not divided by the squared index where it leaves the water, nor is what the ground below sends up thrown
  * back down again by the surface: in uniform light over white ground without absorption the two cancel, and each
  * without the other would be wrong by that much. */
-#include "reference/world.h"
+#include "reference/reference.h"
 
 struct path {
     struct lom_ray ray; /* of unit direction */
@@ -15,7 +15,7 @@ struct path {
 };
 
 struct tracer {
-    const lom_reference *world;
+    const lom_reference *reference;
     double time;
 };
 
@@ -30,10 +30,10 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path);
  * the water's color states. */
 static lom_vec3 cross_medium(const struct tracer *tracer, const struct path *path, lom_vec3 beyond, double t)
 {
-    const lom_reference *world = tracer->world;
-    const lom_reference_water *water = &world->water;
-    double slant = world->slant, rate = 1 - slant * path->ray.direction.y;
-    double depth = lom_water_above(world, path->ray.origin, tracer->time);
+    const lom_reference *reference = tracer->reference;
+    const lom_reference_water *water = &reference->water;
+    double slant = reference->slant, rate = 1 - slant * path->ray.direction.y;
+    double depth = lom_water_above(reference, path->ray.origin, tracer->time);
     double *channel[3] = { &beyond.x, &beyond.y, &beyond.z };
     for (int i = 0; i < 3; i++) {
         double a = water->absorption[i], thickness = a * t;
@@ -46,12 +46,12 @@ static lom_vec3 cross_medium(const struct tracer *tracer, const struct path *pat
 
 /* What a directional light of radiance `light` on a white diffuse surface looks like as a disc of this radius: with
  * irradiance pi light, pi light / (pi sin^2 radius). */
-static lom_vec3 sun_disc(const lom_reference *world, lom_vec3 direction)
+static lom_vec3 sun_disc(const lom_reference *reference, lom_vec3 direction)
 {
-    double radius = world->scene->quality.reference.sun, sine = lom_double_sin(radius);
-    if (dot(direction, world->to_light) < lom_double_cos(radius))
+    double radius = reference->scene->quality.reference.sun, sine = lom_double_sin(radius);
+    if (dot(direction, reference->to_light) < lom_double_cos(radius))
         return (lom_vec3){ 0, 0, 0 };
-    return scaled(world->light, world->scene->water.optics.glitter / (sine * sine));
+    return scaled(reference->light, reference->scene->water.optics.glitter / (sine * sine));
 }
 
 /* d on the side of the plane that n points to: mirrored when it is not. */
@@ -65,7 +65,7 @@ static lom_vec3 kept_in_front(lom_vec3 d, lom_vec3 n)
  * it. */
 static lom_vec3 divide(const struct tracer *tracer, const struct path *path, const struct lom_crossing *c)
 {
-    const lom_reference_water *water = &tracer->world->water;
+    const lom_reference_water *water = &tracer->reference->water;
     double side = path->in_water ? -1 : 1, index = path->in_water ? 1 / water->index : water->index;
     lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side);
     struct path next = {
@@ -87,31 +87,31 @@ static lom_vec3 divide(const struct tracer *tracer, const struct path *path, con
 
 static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
 {
-    const lom_reference *world = tracer->world;
+    const lom_reference *reference = tracer->reference;
     struct lom_ray_hit hit = { .t = FAR };
-    bool opaque = lom_hit_triangles(&world->opaque, &path->ray, path->low, &hit);
+    bool opaque = lom_hit_triangles(&reference->opaque, &path->ray, path->low, &hit);
     struct lom_crossing crossing = { .t = hit.t };
     lom_vec3 light;
     if (path->depth > 0 &&
-        lom_cross_water(world, &path->ray, tracer->time, path->in_water, path->low, hit.t, &crossing)) {
+        lom_cross_water(reference, &path->ray, tracer->time, path->in_water, path->low, hit.t, &crossing)) {
         light = divide(tracer, path, &crossing);
     } else if (opaque) {
-        light = lom_shade_hit(world, &path->ray, &hit, tracer->time);
+        light = lom_shade_hit(reference, &path->ray, &hit, tracer->time);
     } else {
-        light = lom_sky_light(world, path->ray.direction);
+        light = lom_sky_light(reference, path->ray.direction);
         if (path->by_water)
-            light = sum(light, sun_disc(world, path->ray.direction));
+            light = sum(light, sun_disc(reference, path->ray.direction));
     }
     if (path->in_water)
         return cross_medium(tracer, path, light, crossing.t);
-    light = lom_light_through_haze(world, &path->ray, crossing.t, light);
-    return lom_light_through_clouds(world, &path->ray, crossing.t, tracer->time, light);
+    light = lom_light_through_haze(reference, &path->ray, crossing.t, light);
+    return lom_light_through_clouds(reference, &path->ray, crossing.t, tracer->time, light);
 }
 
-lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,
+lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, double near_distance, double time,
                             int depth, bool in_water)
 {
-    struct tracer tracer = { world, time };
+    struct tracer tracer = { reference, time };
     struct path path = {
         .ray = { ray.origin, unit(ray.direction) }, .low = near_distance, .depth = depth, .in_water = in_water
     };

@@ -48,10 +48,10 @@ static lom_vec3 normal_of(const struct lom_wave_place *p)
 /* ---- making ---- */
 
 /* What waves a scene has is its data; the water layer derives it from [water.waves]. */
-static bool find_waves(struct lom_wave_surface *surface, const lom_reference *world, double time, double *shortest,
+static bool find_waves(struct lom_wave_surface *surface, const lom_reference *reference, double time, double *shortest,
                        lom_error *error)
 {
-    const lom_water_params *water = &world->scene->water;
+    const lom_water_params *water = &reference->scene->water;
     struct lom_waves_uniform waves = { .trochoid_count = 0 };
     double greatest = 0;
     lom_fill_trochoids(&waves, &water->waves, &water->foam, (double[2]){ 0, 0 }, time);
@@ -65,7 +65,7 @@ static bool find_waves(struct lom_wave_surface *surface, const lom_reference *wo
     }
     *shortest = greatest > 0 ? TURN / greatest : 0;
     return (surface->count > 0 || lom_make_ray_sea(surface, water, time, shortest, error)) &&
-           lom_make_ray_shore(surface, world, time, shortest, error);
+           lom_make_ray_shore(surface, reference, time, shortest, error);
 }
 
 struct mesh {
@@ -137,18 +137,18 @@ static void join_points(struct lom_wave_surface *surface, const struct mesh *mes
         add_triangle(surface, 0, i + 1, i);
 }
 
-bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *world, lom_vec3 eye, double time,
+bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *reference, lom_vec3 eye, double time,
                            lom_error *error)
 {
     *surface = (struct lom_wave_surface){ .count = 0 };
-    if (world->water.low[0] > world->water.high[0] || world->water.height != NULL)
+    if (reference->water.low[0] > reference->water.high[0] || reference->water.height != NULL)
         return true;
     double shortest;
-    if (!find_waves(surface, world, time, &shortest, error))
+    if (!find_waves(surface, reference, time, &shortest, error))
         return false;
     if (shortest == 0)
         return true;
-    struct mesh mesh = plan_mesh(&world->water, eye, shortest);
+    struct mesh mesh = plan_mesh(&reference->water, eye, shortest);
     size_t points = (size_t)mesh.rings * (size_t)mesh.columns;
     surface->points = lom_allocate(points, sizeof *surface->points, error);
     surface->rest = lom_allocate(points, sizeof *surface->rest, error);

@@ -2,7 +2,7 @@
 #ifndef LOM_REFERENCE_WAVES_H
 #define LOM_REFERENCE_WAVES_H
 
-#include "reference/world.h"
+#include "reference/reference.h"
 #include "scene/scene_water.h"
 
 #include <lom/sea.h>
@@ -39,7 +39,7 @@ struct lom_wave_surface {
 /* The trochoids or the sea, the surf and the shallow water of the scene at a time, and their surface in fine triangles:
  * rings around the place below the eye, a twelfth of the shortest wave apart or 0.006 of their radius, whichever is
  * more. Without triangles where the scene has no waves. False on failure; freed with lom_free_wave_surface. */
-bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *world, lom_vec3 eye, double time,
+bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference *reference, lom_vec3 eye, double time,
                            lom_error *error);
 void lom_free_wave_surface(struct lom_wave_surface *surface);
 
@@ -53,7 +53,7 @@ void lom_add_sea(struct lom_wave_place *place, const struct lom_wave_surface *su
 
 /* shore.c. The surf and the shallow water of the scene at a time; the shortest wave gets no longer than theirs. False
  * on failure; what has been made is freed with lom_free_ray_shore, also then. */
-bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *world, double time, double *shortest,
+bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *reference, double time, double *shortest,
                         lom_error *error);
 void lom_free_ray_shore(struct lom_wave_surface *surface);
 /* Adds them at the rest position (x, z). */

@@ -13,7 +13,8 @@ below() {
     waves) echo waves geometry "$(below shading)" ;;
     water | spray | cloud | sky) echo "$1 march $(below waves)" ;;
     scene) echo "scene water spray cloud sky march $(below waves)" ;;
-    reference) echo "reference $(below scene)" ;;
+    world) echo "world $(below scene)" ;;
+    reference) echo "reference $(below world)" ;;
     render) echo "render $(below reference)" ;;
     measure) echo "measure $(below render)" ;;
     cli) echo "cli measure $(below measure)" ;;

@@ -90,7 +90,8 @@ static void shallow_water_lies_where_its_cells_do(void)
             size_t cell = (size_t)row * 48 + (size_t)column;
             double x = surface.shallow.corner[0] + (column + 0.5) * view.cell;
             double z = surface.shallow.corner[1] + (row + 0.5) * view.cell;
-            double height = lom_wave_surface_height(&surface, x, z), level = view.bed[cell] + view.depth[cell];
+            double height = lom_wave_surface_height(&surface, x, z);
+            double level = 0.5 + view.bed[cell] + view.depth[cell];
             CHECK(!(view.depth[cell] > 0.01) || __builtin_fabs(height - level) < 1e-6, "%d, %d: %g, not %g", column,
                   row, height, level);
             moved += __builtin_fabs(height - 0.5) > 1e-3;

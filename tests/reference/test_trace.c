@@ -1,7 +1,7 @@
 /* Proves rays through scenes against closed forms: exact places of texels, seen directly and mirrored; Fresnel's share,
  * Snell's window and Beer's law at still water; the sun's disc; surfaces that are given as functions. */
 #include "check.h"
-#include "reference/world.h"
+#include "reference/reference.h"
 #include "scene_files.h"
 
 static lom_scene *scene;

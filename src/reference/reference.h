@@ -1,10 +1,11 @@
 /* A scene as the reference sees it: every triangle in the world, materials, pictures, light and water, in double. */
-#ifndef LOM_REFERENCE_WORLD_H
-#define LOM_REFERENCE_WORLD_H
+#ifndef LOM_REFERENCE_REFERENCE_H
+#define LOM_REFERENCE_REFERENCE_H
 
 #include "reference/textures.h"
 #include "reference/triangles.h"
 #include "reference/volume.h"
+#include "world/world.h"
 
 #include <lom/reference.h>
 
@@ -26,7 +27,7 @@ struct lom_ray_corner {
 
 struct lom_ray_picture {
     struct lom_picture picture;
-    char *path; /* owned */
+    const char *path; /* the scene's or the world's; empty: of the flow map that is made */
     bool color;
 };
 
@@ -40,12 +41,11 @@ struct lom_wave_surface;
 struct lom_ray_cloud;
 
 struct lom_reference {
-    const lom_scene *source; /* the caller's */
-    lom_scene moment;        /* the same, with its light and its entities where they are at the time of loading */
-    lom_entity *entities;    /* of the moment */
-    const lom_scene *scene;  /* moment, for those who read it */
-    bool own_water;          /* put in by lom_set_reference_water */
-    lom_warnings warnings;   /* of the meshes and their pictures */
+    struct lom_world *world;
+    bool owns_world;
+    bool own_water;           /* put in by lom_set_reference_water */
+    struct lom_moment moment; /* of the time at which it was placed */
+    const lom_scene *scene;   /* of the moment */
     struct lom_ray_triangles opaque;
     lom_vec3 *points;
     struct lom_ray_corner *corners; /* of each point */
@@ -61,6 +61,7 @@ struct lom_reference {
     struct lom_ray_material ground;
     struct lom_ray_layer ground_texture, ground_detail, ground_normals, *layers;
     struct lom_picture sky;      /* no image: one colour */
+    lom_image *sky_faces;        /* its image */
     double sky_sine, sky_cosine; /* of the angle that turns directions back into the box */
     lom_vec3 to_light, light, ambient, ground_light;
     double slant; /* metres that sunlight goes in the water for each metre down */
@@ -73,32 +74,36 @@ struct lom_reference {
     const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
 };
 
-/* Loading at a time (reference.c): lom_create_reference is that at 0 s. */
-lom_reference *lom_create_reference_at(const lom_scene *scene, double time, lom_error *error);
-/* Loading (load.c): everything that the scene names. */
-bool lom_load_world(lom_reference *world, lom_error *error);
+/* The reference of a world (reference.c), which outlives it. NULL on failure. */
+lom_reference *lom_create_reference_of(struct lom_world *world, lom_error *error);
+/* Loading (load.c): materials and pictures, what does not move. */
+bool lom_load_reference(lom_reference *reference, lom_error *error);
+/* Placing (place.c): the light and the triangles at a time. What was placed before is not freed. False on failure; what
+ * has been made is freed with lom_free_placed, also then. */
+bool lom_place_reference(lom_reference *reference, double time, lom_error *error);
+void lom_free_placed(lom_reference *reference);
 
 /* Shading (shade.c): the light that an opaque surface sends back along a ray. */
-lom_vec3 lom_shade_hit(const lom_reference *world, const struct lom_ray *ray, const struct lom_ray_hit *hit,
+lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                        double time);
 /* What lies behind everything. */
-lom_vec3 lom_sky_light(const lom_reference *world, lom_vec3 direction);
+lom_vec3 lom_sky_light(const lom_reference *reference, lom_vec3 direction);
 
 /* Rays (trace.c): lom_trace_ray in the float state that the caller has set. */
-lom_vec3 lom_radiance_along(const lom_reference *world, struct lom_ray ray, double near_distance, double time,
+lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, double near_distance, double time,
                             int depth, bool in_water);
 
 /* Clouds (clouds.c). */
-bool lom_load_ray_clouds(lom_reference *world, lom_error *error);
-void lom_free_ray_clouds(lom_reference *world);
+bool lom_load_ray_clouds(lom_reference *reference, lom_error *error);
+void lom_free_ray_clouds(lom_reference *reference);
 /* haze.c. Light that comes from `far` along a ray through the scene's haze; from no end (1e300) it is the sky's, in
  * which the haze already is. */
-lom_vec3 lom_light_through_haze(const lom_reference *world, const struct lom_ray *ray, double far, lom_vec3 light);
+lom_vec3 lom_light_through_haze(const lom_reference *reference, const struct lom_ray *ray, double far, lom_vec3 light);
 /* Light that comes from `far` along a ray, as it is before the clouds that stand nearer. */
-lom_vec3 lom_light_through_clouds(const lom_reference *world, const struct lom_ray *ray, double far, double time,
+lom_vec3 lom_light_through_clouds(const lom_reference *reference, const struct lom_ray *ray, double far, double time,
                                   lom_vec3 light);
 /* The share of the sun's light that clouds let through to a place. */
-double lom_cloud_shadow(const lom_reference *world, lom_vec3 place, double time);
+double lom_cloud_shadow(const lom_reference *reference, lom_vec3 place, double time);
 
 /* Water (surface.c). */
 struct lom_crossing {
@@ -109,11 +114,11 @@ struct lom_crossing {
 };
 /* Where a ray first crosses the surface of the water at low < t < high, from above or from below; false when it does
  * not. */
-bool lom_cross_water(const lom_reference *world, const struct lom_ray *ray, double time, bool from_below, double low,
-                     double high, struct lom_crossing *crossing);
+bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
+                     double low, double high, struct lom_crossing *crossing);
 /* Whether a place is over or under the rectangle of the water. */
-bool lom_is_over_water(const lom_reference *world, lom_vec3 place);
+bool lom_is_over_water(const lom_reference *reference, lom_vec3 place);
 /* Metres of water above a place, waves of a frame left out; 0 where there is none. */
-double lom_water_above(const lom_reference *world, lom_vec3 place, double time);
+double lom_water_above(const lom_reference *reference, lom_vec3 place, double time);
 
 #endif

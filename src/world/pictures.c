@@ -1,0 +1,127 @@
+/* The pictures of a world. In: paths. Out: images of 8 or 16 bits, red, green, blue and alpha. Invariant: a file is
+ * decoded once, unless it was released in between. */
+#include "world/materials.h"
+
+#include "base/grow.h"
+
+#include <lom/water.h>
+
+#include <string.h>
+
+/* The name of the flow map that is made; no file has it. */
+static const char made_flow[] = "";
+
+static struct lom_world_picture *find(const struct lom_world *world, const char *path)
+{
+    for (size_t i = 0; path != NULL && i < world->picture_count; i++)
+        if (strcmp(world->pictures[i].path, path) == 0)
+            return &world->pictures[i];
+    return NULL;
+}
+
+/* An entry for this path, without its picture. */
+static struct lom_world_picture *add(struct lom_world *world, const char *path, lom_error *error)
+{
+    struct lom_world_picture *pictures =
+        lom_grow(world->pictures, &world->picture_capacity, world->picture_count, sizeof *pictures, error);
+    if (pictures == NULL)
+        return NULL;
+    world->pictures = pictures;
+    size_t size = strlen(path) + 1;
+    char *copy = lom_allocate(size, 1, error);
+    if (copy == NULL)
+        return NULL;
+    pictures[world->picture_count] = (struct lom_world_picture){ memcpy(copy, path, size), NULL };
+    return &pictures[world->picture_count++];
+}
+
+/* Keeps an image, converted, under a path; NULL is passed on. The image is freed. */
+static struct lom_world_picture *keep(struct lom_world *world, const char *path, lom_image *file, lom_error *error)
+{
+    bool deep = file != NULL && lom_describe_format(file->format)->bits > 8;
+    lom_image *image =
+        file == NULL ? NULL : lom_convert_image(file, deep ? LOM_FORMAT_RGBA16 : LOM_FORMAT_RGBA8, error);
+    struct lom_world_picture *picture = image == NULL ? NULL : find(world, path);
+    if (image != NULL && picture == NULL)
+        picture = add(world, path, error);
+    lom_free_image(file);
+    if (picture == NULL || picture->image != NULL)
+        lom_free_image(image);
+    else
+        picture->image = image;
+    return picture;
+}
+
+const lom_image *lom_world_picture(struct lom_world *world, const char *path, lom_error *error)
+{
+    const struct lom_world_picture *picture = find(world, path);
+    if (picture == NULL || picture->image == NULL)
+        picture = keep(world, path, lom_read_image(path, error), error);
+    return picture == NULL ? NULL : picture->image;
+}
+
+bool lom_keep_world_picture(struct lom_world *world, const char *path, const char **kept, lom_error *error)
+{
+    const struct lom_world_picture *picture = find(world, path);
+    if (picture == NULL)
+        picture = keep(world, path, lom_read_image(path, error), error);
+    *kept = picture == NULL ? NULL : picture->path;
+    return picture != NULL;
+}
+
+/* Made from the file: its samples may be finer than the picture's. */
+const lom_image *lom_world_made_flow(struct lom_world *world, lom_error *error)
+{
+    const struct lom_world_picture *picture = find(world, made_flow);
+    if (picture != NULL && picture->image != NULL)
+        return picture->image;
+    const char *path = world->scene->water.normal_map;
+    lom_image *normals = lom_read_image(path, error);
+    lom_image *flow = normals == NULL ? NULL : lom_make_flow_map(normals, error);
+    bool done = keep(world, path, normals, error) != NULL;
+    picture = keep(world, made_flow, flow, error);
+    return !done || picture == NULL ? NULL : picture->image;
+}
+
+void lom_release_world_picture(struct lom_world *world, const char *path)
+{
+    struct lom_world_picture *picture = find(world, path);
+    if (picture != NULL) {
+        lom_free_image(picture->image);
+        picture->image = NULL;
+    }
+}
+
+/* ---- the sky ---- */
+
+/* Face `face`; the first decides the size. */
+static bool read_face(lom_image **faces, const char *path, int face, lom_error *error)
+{
+    lom_image *file = lom_read_image(path, error);
+    lom_image *image = file == NULL ? NULL : lom_convert_image(file, LOM_FORMAT_RGBA8, error);
+    bool done = image != NULL;
+    lom_free_image(file);
+    if (done && (image->width != image->height || (face > 0 && image->width != (*faces)->width)))
+        done = lom_fail(error, LOM_ERROR_INPUT,
+                        "%s: the faces of a sky box are squares of one size, and this one is %dx%d.", path,
+                        image->width, image->height);
+    if (done && face == 0)
+        *faces = lom_create_image(image->width, image->height, 6, LOM_FORMAT_RGBA8, error);
+    done = done && *faces != NULL;
+    if (done)
+        memcpy(lom_image_pixel(*faces, 0, 0, face), image->pixels, lom_image_size(image));
+    lom_free_image(image);
+    return done;
+}
+
+lom_image *lom_read_sky_faces(const lom_sky_params *sky, lom_error *error)
+{
+    lom_image *faces = NULL;
+    bool done = true;
+    for (int face = 0; done && face < 6; face++)
+        done = read_face(&faces, sky->faces[face], face, error);
+    if (done)
+        return faces;
+    lom_free_image(faces);
+    return NULL;
+}

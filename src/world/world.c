@@ -1,0 +1,137 @@
+/* Making and freeing a world. In: a scene. Out: its ground and its entities, from files that are read once.
+ * Invariant: entities that name one mesh share it. */
+#include "world/materials.h"
+
+#include "base/grow.h"
+#include "geometry/terrain.h"
+
+#include <string.h>
+
+/* ---- the ground ---- */
+
+static bool read_ground(struct lom_world *world, lom_error *error)
+{
+    const lom_terrain *t = &world->scene->terrain;
+    world->bed = (struct lom_bed){ .size = { t->size[0], t->size[1] }, .base = t->base };
+    if (!t->present)
+        return true;
+    const lom_image *map = world->height_map = lom_read_image(t->height_map, error);
+    if (map == NULL)
+        return false;
+    world->heights = lom_allocate((size_t)map->width * (size_t)map->height, sizeof *world->heights, error);
+    world->bed.heights = world->heights;
+    world->bed.columns = map->width - 1;
+    world->bed.rows = map->height - 1;
+    return world->heights != NULL && lom_read_terrain_heights(map, t->size, t->height, world->heights, error);
+}
+
+/* ---- entities ---- */
+
+/* The mesh of a file, read when the first entity names it. */
+static const lom_mesh *find_mesh(struct lom_world *world, const char *path, lom_error *error)
+{
+    for (size_t i = 0; i < world->mesh_count; i++)
+        if (strcmp(world->meshes[i].path, path) == 0)
+            return world->meshes[i].mesh;
+    struct lom_world_mesh *meshes =
+        lom_grow(world->meshes, &world->mesh_capacity, world->mesh_count, sizeof *meshes, error);
+    if (meshes == NULL)
+        return NULL;
+    world->meshes = meshes;
+    lom_mesh *mesh = lom_read_obj(path, error);
+    if (mesh == NULL)
+        return NULL;
+    lom_add_warnings(&world->warnings, &mesh->warnings);
+    meshes[world->mesh_count++] = (struct lom_world_mesh){ path, mesh };
+    return mesh;
+}
+
+/* Where it stands, and the camera's place in it. */
+static bool put(const struct lom_world *world, struct lom_world_entity *entity, lom_error *error)
+{
+    const lom_entity *source = entity->entity;
+    const lom_terrain *t = &world->scene->terrain;
+    const lom_camera *camera = &world->scene->camera;
+    struct lom_placement placement;
+    entity->home = source->position;
+    if (source->on_ground && world->height_map != NULL)
+        entity->home.y += lom_terrain_height(world->height_map, t->size[0], t->size[1], t->height, t->base,
+                                             entity->home.x, entity->home.z);
+    if (!lom_place_entity(entity, entity->home, source->rotation, &placement, error))
+        return false;
+    const lom_vec3 sides = lom_vec3_subtract(placement.bounds.high, placement.bounds.low);
+    const double flat = sides.x > sides.z ? sides.x : sides.z;
+    entity->home_size = sides.y > flat ? sides.y : flat;
+    entity->is_hidden = camera->person == LOM_PERSON_FIRST && camera->followed != 0 &&
+                        source == &world->scene->entities[camera->followed - 1];
+    return true;
+}
+
+static bool read_entities(struct lom_world *world, lom_error *error)
+{
+    const lom_scene *scene = world->scene;
+    world->entities = lom_allocate(scene->entity_count, sizeof *world->entities, error);
+    if (world->entities == NULL)
+        return false;
+    for (size_t i = 0; i < scene->entity_count; i++) {
+        if (!scene->entities[i].visible)
+            continue;
+        struct lom_world_entity *entity = &world->entities[world->entity_count++];
+        entity->entity = &scene->entities[i];
+        entity->mesh = find_mesh(world, entity->entity->mesh, error);
+        if (entity->mesh == NULL || !put(world, entity, error) || !lom_resolve_materials(world, entity, error))
+            return false;
+    }
+    return true;
+}
+
+/* ---- all of it ---- */
+
+struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error)
+{
+    struct lom_world *world = lom_allocate(1, sizeof *world, error);
+    if (world == NULL)
+        return NULL;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    world->scene = scene;
+    bool done = read_ground(world, error) && read_entities(world, error);
+    lom_leave_float_state(&state);
+    if (done)
+        return world;
+    lom_free_world(world);
+    return NULL;
+}
+
+void lom_release_world_files(struct lom_world *world)
+{
+    lom_free_image(world->height_map);
+    world->height_map = NULL;
+    for (size_t i = 0; i < world->picture_count; i++) {
+        lom_free_image(world->pictures[i].image);
+        world->pictures[i].image = NULL;
+    }
+}
+
+void lom_free_world(struct lom_world *world)
+{
+    if (world == NULL)
+        return;
+    lom_release_world_files(world);
+    for (size_t i = 0; i < world->entity_count; i++)
+        lom_release(world->entities[i].parts);
+    for (size_t i = 0; i < world->mesh_count; i++)
+        lom_free_mesh(world->meshes[i].mesh);
+    for (size_t i = 0; i < world->picture_count; i++)
+        lom_release(world->pictures[i].path);
+    lom_release(world->entities);
+    lom_release(world->meshes);
+    lom_release(world->pictures);
+    lom_release(world->heights);
+    lom_release(world);
+}
+
+struct lom_wave_site lom_world_wave_site(const struct lom_world *world)
+{
+    return lom_scene_wave_site(world->scene, &world->bed);
+}

@@ -1,0 +1,109 @@
+/* A scene as renderers need it, without a device: its files read once, its entities placed, their materials resolved;
+ * and what moves, at a moment.
+ *
+ * In: a scene, which outlives its world. Invariant: what is here is decided here alone, so every renderer shows the
+ * same things at the same places with the same materials. */
+#ifndef LOM_WORLD_WORLD_H
+#define LOM_WORLD_WORLD_H
+
+#include "scene/scene_water.h"
+
+#include <lom/scene.h>
+
+/* A material in which nothing is left open. */
+struct lom_world_material {
+    double ambient[3], diffuse[3], specular[3], shininess;
+    const char *texture; /* path of the picture that multiplies ambient and diffuse; NULL: white */
+};
+
+struct lom_world_part {    /* the triangles of one material */
+    uint32_t first, count; /* indices */
+    struct lom_world_material material;
+};
+
+/* A visible entity. */
+struct lom_world_entity {
+    const lom_entity *entity;
+    const lom_mesh *mesh;         /* shared by all that name the same file */
+    struct lom_world_part *parts; /* one a part of the mesh */
+    lom_vec3 home;                /* where it was put, on the ground if it stands on it, before it moves, */
+    double home_size;             /* and the longest side of its bounds there, metres */
+    bool is_hidden;               /* the camera is in it */
+};
+
+struct lom_world_mesh {
+    const char *path; /* the scene's */
+    lom_mesh *mesh;
+};
+
+struct lom_world_picture {
+    char *path;
+    lom_image *image; /* RGBA8, or RGBA16 where the file has more than 8 bits; NULL: released */
+};
+
+struct lom_world {
+    const lom_scene *scene;
+    lom_warnings warnings; /* of the meshes and their maps */
+    lom_image *height_map; /* as in the file; NULL: there is no terrain, or it was released */
+    float *heights;        /* of the bed */
+    struct lom_bed bed;    /* heights NULL: there is no terrain */
+    struct lom_world_mesh *meshes;
+    size_t mesh_count, mesh_capacity;
+    struct lom_world_entity *entities; /* in the scene's order */
+    size_t entity_count;
+    struct lom_world_picture *pictures;
+    size_t picture_count, picture_capacity;
+};
+
+/* Reads the height map, the meshes and the maps that the meshes' materials name. A map of a mesh that cannot be read is
+ * left out with a warning. NULL on failure; freed with lom_free_world. */
+struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error);
+void lom_free_world(struct lom_world *world); /* NULL is allowed */
+
+/* The site of the scene's waves; it points into the world. */
+struct lom_wave_site lom_world_wave_site(const struct lom_world *world);
+
+/* ---- pictures (pictures.c) ---- */
+
+/* The picture of a file, decoded once: it stays the world's until it is released. NULL on failure. */
+const lom_image *lom_world_picture(struct lom_world *world, const char *path, lom_error *error);
+/* The flow map that is made from the water's normal map, for water that flows and names none. The normal map is then
+ * decoded too. NULL on failure. */
+const lom_image *lom_world_made_flow(struct lom_world *world, lom_error *error);
+/* Frees what a caller has made its own; asked for again, it is decoded again. NULL and paths never asked for are
+ * allowed. */
+void lom_release_world_picture(struct lom_world *world, const char *path);
+/* Frees all pictures and the height map. */
+void lom_release_world_files(struct lom_world *world);
+/* The six faces of a sky box (+x, -x, +y, -y, +z, -z) as the slices of an RGBA8 image, which is the caller's. Faces are
+ * squares of one size. NULL on failure. */
+lom_image *lom_read_sky_faces(const lom_sky_params *sky, lom_error *error);
+
+/* ---- a moment (moment.c) ---- */
+
+/* Where an entity is. */
+struct lom_placement {
+    lom_mat4 world_from_model, normal_from_model;
+    lom_box bounds; /* in the world */
+};
+
+struct lom_moment {
+    double time;
+    lom_scene scene;   /* the world's, its light that of the time; the entities' tables are as in the file */
+    lom_vec3 to_light; /* unit: from the scene to the sun */
+    lom_camera_view camera;
+    struct lom_placement *placements; /* one an entity of the world */
+};
+
+/* The world at a time in seconds, from the time alone. The moment is zero at first, or one of the same world before:
+ * then nothing is allocated. False on failure: an entity whose matrix is singular, or memory. Freed with
+ * lom_free_moment, also after a failure. */
+bool lom_world_at(const struct lom_world *world, double time, struct lom_moment *moment, lom_error *error);
+void lom_free_moment(struct lom_moment *moment);
+/* Whether the light or a visible entity has key frames: what does not move is the same at all times. */
+bool lom_world_moves(const struct lom_world *world);
+/* An entity at a place; false when its matrix is singular. */
+bool lom_place_entity(const struct lom_world_entity *entity, lom_vec3 position, lom_vec3 rotation,
+                      struct lom_placement *placement, lom_error *error);
+
+#endif
