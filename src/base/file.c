@@ -2,6 +2,7 @@
  * Invariant: what is read is all there is, however many calls that takes. */
 #include <lom/base.h>
 
+#include "base/reserve.h"
 #include "base/system.h"
 
 #include <errno.h>
@@ -12,26 +13,13 @@
 
 enum { FIRST_CAPACITY = 1 << 16 /* of a file whose size is not known */ };
 
-static bool grow(lom_bytes *bytes, size_t *capacity, size_t wanted, lom_error *error)
-{
-    uint8_t *larger = lom_allocate(wanted, 1, error);
-    if (larger == NULL)
-        return false;
-    if (bytes->size != 0)
-        memcpy(larger, bytes->data, bytes->size);
-    lom_release(bytes->data);
-    bytes->data = larger;
-    *capacity = wanted;
-    return true;
-}
-
 /* Reads until the end; one byte more than the limit is asked for, so that "exactly the limit" is accepted. The expected
  * size is a hint: /proc files say 0 and a file may grow meanwhile. */
 static bool read_all(int descriptor, const char *path, size_t expected, size_t limit, lom_bytes *bytes,
                      lom_error *error)
 {
     size_t capacity = 0;
-    if (!grow(bytes, &capacity, expected < limit ? expected + 1 : limit + 1, error))
+    if (!lom_reserve(&bytes->data, &capacity, expected < limit ? expected + 1 : limit + 1, 1, error))
         return false;
     for (;;) {
         size_t room = capacity - bytes->size;
@@ -45,7 +33,7 @@ static bool read_all(int descriptor, const char *path, size_t expected, size_t l
         bytes->size += (size_t)got;
         if (bytes->size > limit)
             return lom_fail(error, LOM_ERROR_LIMIT, "%s: the file is larger than the limit of %zu bytes.", path, limit);
-        if (bytes->size == capacity && !grow(bytes, &capacity, capacity <= limit / 2 ? capacity * 2 : limit + 1, error))
+        if (bytes->size == capacity && !lom_reserve(&bytes->data, &capacity, capacity + 1, 1, error))
             return false;
     }
 }

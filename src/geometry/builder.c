@@ -2,7 +2,7 @@
  * each material. Every triangle names vertices that exist, every position is finite; after a failure nothing changes.
  */
 #include "builder.h"
-#include "array.h"
+#include "base/reserve.h"
 
 #include <string.h>
 
@@ -97,11 +97,9 @@ static uint32_t append_vertex(lom_mesh_builder *builder, const lom_mesh_vertex *
         lom_fail(&builder->error, LOM_ERROR_LIMIT, "A mesh of more than 2^32 - 1 vertices.");
         return 0;
     }
-    void *grown = lom_grow(builder->vertices, &builder->vertex_capacity, builder->vertex_count,
-                           sizeof *builder->vertices, &builder->error);
-    if (grown == NULL)
+    if (!lom_reserve(&builder->vertices, &builder->vertex_capacity, builder->vertex_count + 1,
+                     sizeof *builder->vertices, &builder->error))
         return 0;
-    builder->vertices = grown;
     builder->vertices[builder->vertex_count] = *vertex;
     return (uint32_t)builder->vertex_count++;
 }
@@ -148,11 +146,9 @@ static void append_triangle(lom_mesh_builder *builder, uint32_t a, uint32_t b, u
         lom_fail(&builder->error, LOM_ERROR_LIMIT, "A mesh of more than 2^32 - 1 indices.");
         return;
     }
-    void *grown = lom_grow(builder->triangles, &builder->triangle_capacity, builder->triangle_count,
-                           sizeof *builder->triangles, &builder->error);
-    if (grown == NULL)
+    if (!lom_reserve(&builder->triangles, &builder->triangle_capacity, builder->triangle_count + 1,
+                     sizeof *builder->triangles, &builder->error))
         return;
-    builder->triangles = grown;
     builder->triangles[builder->triangle_count++] =
         (struct builder_triangle){ { a, builder->mirrored ? c : b, builder->mirrored ? b : c }, material };
 }

@@ -1,6 +1,6 @@
 /* Materials by name. In: names. Out: numbers in order of first mention, whatever the hash. */
 #include "materials.h"
-#include "array.h"
+#include "base/reserve.h"
 
 #include <string.h>
 
@@ -56,11 +56,9 @@ int lom_find_material(struct lom_materials *materials, const char *name, size_t 
         lom_fail(error, LOM_ERROR_LIMIT, "More than %d materials.", LOM_MATERIAL_LIMIT);
         return -1;
     }
-    void *entries =
-        lom_grow(materials->entries, &materials->capacity, materials->count, sizeof *materials->entries, error);
-    if (entries == NULL)
+    if (!lom_reserve(&materials->entries, &materials->capacity, materials->count + 1, sizeof *materials->entries,
+                     error))
         return -1;
-    materials->entries = entries;
     materials->entries[materials->count].material = lom_default_material(terminated);
     materials->entries[materials->count].defined = false;
     materials->slots[slot] = (uint32_t)++materials->count;

@@ -1,5 +1,6 @@
 /* The files that an OBJ file names. In: its path. Out: the paths of its material files and of their maps, as far as
  * they can be read. Invariant: an OBJ or MTL file that is malformed still gives what it named before its mistake. */
+#include "base/reserve.h"
 #include "obj.h"
 
 #include <string.h>
@@ -16,22 +17,13 @@ static bool add(struct list *list, const char *name, lom_error *error)
     if (path == NULL)
         return false;
     size_t size = strlen(path) + 1;
-    if (list->paths.size + size > list->capacity) {
-        uint8_t *larger = lom_allocate(2 * (list->capacity + size), 1, error);
-        if (larger == NULL) {
-            lom_release(path);
-            return false;
-        }
-        if (list->paths.size > 0)
-            memcpy(larger, list->paths.data, list->paths.size);
-        lom_release(list->paths.data);
-        list->paths.data = larger;
-        list->capacity = 2 * (list->capacity + size);
+    bool added = lom_reserve(&list->paths.data, &list->capacity, list->paths.size + size, 1, error);
+    if (added) {
+        memcpy(list->paths.data + list->paths.size, path, size);
+        list->paths.size += size;
     }
-    memcpy(list->paths.data + list->paths.size, path, size);
-    list->paths.size += size;
     lom_release(path);
-    return true;
+    return added;
 }
 
 static lom_bytes list_and_read(void *context, const char *name, lom_error *error)

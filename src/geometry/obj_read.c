@@ -3,7 +3,7 @@
  * indices may still be out of range, since they may point forward. */
 #include "base/pass_error.h"
 #include "obj.h"
-#include "array.h"
+#include "base/reserve.h"
 #include "polygon.h"
 
 #include <string.h>
@@ -26,11 +26,9 @@ static bool read_position(struct lom_obj *obj)
     if (count < 3 || count == 5)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "v has x y z [w] [r g b]: 3, 4, 6 or 7 numbers, not %d.",
                              count);
-    void *grown =
-        lom_grow(obj->positions, &obj->position_capacity, obj->position_count, sizeof *obj->positions, obj->text.error);
-    if (grown == NULL)
+    if (!lom_reserve(&obj->positions, &obj->position_capacity, obj->position_count + 1, sizeof *obj->positions,
+                     obj->text.error))
         return false;
-    obj->positions = grown;
     struct obj_position *position = &obj->positions[obj->position_count++];
     const float *color = count >= 6 ? number + count - 3 : NULL;
     for (int i = 0; i < 3; i++) {
@@ -53,11 +51,9 @@ static bool read_texture(struct lom_obj *obj)
     }
     if (count == 0)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "vt without a number.");
-    void *grown =
-        lom_grow(obj->texture, &obj->texture_capacity, obj->texture_count, sizeof *obj->texture, obj->text.error);
-    if (grown == NULL)
+    if (!lom_reserve(&obj->texture, &obj->texture_capacity, obj->texture_count + 1, sizeof *obj->texture,
+                     obj->text.error))
         return false;
-    obj->texture = grown;
     obj->texture[obj->texture_count++] = (struct obj_triple){ { (float)number[0], (float)(1 - number[1]), 0 } };
     return true;
 }
@@ -70,11 +66,9 @@ static bool read_normal(struct lom_obj *obj)
         return false;
     if (count != 3)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "vn has x y z: 3 numbers, not %d.", count);
-    void *grown =
-        lom_grow(obj->normals, &obj->normal_capacity, obj->normal_count, sizeof *obj->normals, obj->text.error);
-    if (grown == NULL)
+    if (!lom_reserve(&obj->normals, &obj->normal_capacity, obj->normal_count + 1, sizeof *obj->normals,
+                     obj->text.error))
         return false;
-    obj->normals = grown;
     obj->normals[obj->normal_count++] = normal;
     return true;
 }
@@ -152,11 +146,9 @@ static bool add_corner(struct lom_obj *obj, const struct obj_face *face, struct 
         if ((first->vt < 0) != (corner.vt < 0) || (first->vn < 0) != (corner.vn < 0))
             return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The corners of one face have different forms.");
     }
-    void *grown =
-        lom_grow(obj->corners, &obj->corner_capacity, obj->corner_count, sizeof *obj->corners, obj->text.error);
-    if (grown == NULL)
+    if (!lom_reserve(&obj->corners, &obj->corner_capacity, obj->corner_count + 1, sizeof *obj->corners,
+                     obj->text.error))
         return false;
-    obj->corners = grown;
     obj->corners[obj->corner_count++] = corner;
     return true;
 }
@@ -176,10 +168,8 @@ static bool read_face(struct lom_obj *obj)
         obj->corner_count = face.first;
         return true;
     }
-    void *grown = lom_grow(obj->faces, &obj->face_capacity, obj->face_count, sizeof *obj->faces, obj->text.error);
-    if (grown == NULL)
+    if (!lom_reserve(&obj->faces, &obj->face_capacity, obj->face_count + 1, sizeof *obj->faces, obj->text.error))
         return false;
-    obj->faces = grown;
     obj->faces[obj->face_count++] = face;
     return true;
 }

@@ -1,6 +1,6 @@
 /* Writes OBJ and MTL. In: a mesh, which is checked first. Out: text that reads back as the same mesh (geometry.h says
  * when). Numbers are the shortest that give the same float. */
-#include "array.h"
+#include "output.h"
 #include "text.h"
 
 #include <lom/geometry.h>

@@ -1,5 +1,6 @@
 /* Blocks of DEFLATE. In: tokens and their counts; out: bits, in the cheapest of the three kinds of block (RFC 1951,
  * section 3.2.3). The size of each kind is computed before anything is written. */
+#include "base/reserve.h"
 #include "deflate.h"
 
 #include "bytes.h"
@@ -32,18 +33,7 @@ static const uint8_t repeat_extra[LENGTH_CODES] = { [16] = 2, [17] = 3, [18] = 7
 
 static bool reserve(lom_bit_writer *out, size_t wanted)
 {
-    if (wanted <= out->capacity - out->size)
-        return true;
-    size_t capacity = out->size + wanted + out->capacity + 4096;
-    uint8_t *larger = lom_allocate(capacity, 1, out->error);
-    if (larger == NULL)
-        return false;
-    if (out->size != 0)
-        memcpy(larger, out->data, out->size);
-    lom_release(out->data);
-    out->data = larger;
-    out->capacity = capacity;
-    return true;
+    return lom_reserve(&out->data, &out->capacity, out->size + wanted, 1, out->error);
 }
 
 /* At most 48 bits; 8 bytes of room. */
@@ -237,8 +227,9 @@ bool lom_deflate_flush(lom_deflate_block *block, const uint8_t *data, size_t at,
     uint64_t stored_cost = (size / MOST_STORED + 1) * 40 + 8 * size;
     uint64_t fixed_cost = token_cost(block, &fixed), dynamic_cost = h.cost + token_cost(block, &dynamic);
     uint64_t cost = fixed_cost < dynamic_cost ? fixed_cost : dynamic_cost;
-    bool good = reserve(out, (size_t)(cost < stored_cost ? cost : 0) / 8 + 32);
-    if (good && stored_cost < cost) {
+    bool stored = stored_cost < cost; /* reserves its own room */
+    bool good = reserve(out, (size_t)(stored ? 0 : cost) / 8 + 32);
+    if (good && stored) {
         good = write_stored(out, data + block->start, (size_t)size, last);
     } else if (good) {
         bool is_fixed = fixed_cost <= dynamic_cost;

@@ -1,5 +1,6 @@
 /* Decompression of DEFLATE (RFC 1951), zlib (RFC 1950) and gzip (RFC 1952). In: compressed bytes; out: decompressed
  * bytes. Invariant: nothing is read behind the input or written behind the output's limit, whatever the input says. */
+#include "base/reserve.h"
 #include "inflate.h"
 
 #include <string.h>
@@ -114,6 +115,8 @@ static inline int decode(reader *in, const code *c)
 
 /* ---- output ---- */
 
+enum { FIRST = 65536 }; /* bytes */
+
 static bool make_room(const reader *in, lom_inflated *out, size_t wanted)
 {
     if (wanted > out->limit - out->size)
@@ -121,19 +124,11 @@ static bool make_room(const reader *in, lom_inflated *out, size_t wanted)
                         out->limit);
     if (wanted <= out->capacity - out->size)
         return true;
-    size_t capacity = out->capacity < 32768 ? 65536 : out->capacity * 2;
-    if (capacity > out->limit)
-        capacity = out->limit;
-    if (capacity < out->size + wanted)
-        capacity = out->size + wanted;
-    uint8_t *larger = lom_allocate(capacity, 1, in->error);
-    if (larger == NULL)
+    size_t needed = out->size + wanted > FIRST ? out->size + wanted : FIRST;
+    if (!lom_reserve(&out->data, &out->capacity, needed, 1, in->error))
         return false;
-    if (out->size != 0)
-        memcpy(larger, out->data, out->size);
-    lom_release(out->data);
-    out->data = larger;
-    out->capacity = capacity;
+    if (out->capacity > out->limit)
+        out->capacity = out->limit; /* nothing is written beyond it */
     return true;
 }
 

@@ -53,14 +53,14 @@ static void list_triangles(const struct lom_pass *pass, const struct lom_chunk *
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    if (!lom_reserve((void **)&chunk->tile_first, &chunk->tile_first_capacity, tiles + 2, sizeof(uint32_t))) {
+    if (!lom_reserve(&chunk->tile_first, &chunk->tile_first_capacity, tiles + 2, sizeof(uint32_t), NULL)) {
         chunk->failed = true;
         return;
     }
     uint32_t *first = chunk->tile_first;
     memset(first, 0, (tiles + 2) * sizeof *first);
     size_t total = count_triangles(pass, chunk, first);
-    if (!lom_reserve((void **)&chunk->tile_list, &chunk->tile_list_capacity, total, sizeof(uint32_t))) {
+    if (!lom_reserve(&chunk->tile_list, &chunk->tile_list_capacity, total, sizeof(uint32_t), NULL)) {
         chunk->failed = true;
         return;
     }

@@ -6,32 +6,14 @@
 enum { GROUP = 16 }; /* triangles that are looked at together: a whole number of packets at every width */
 #define NO_VERTEX UINT32_MAX
 
-bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size)
-{
-    if (needed <= *capacity)
-        return true;
-    size_t larger = *capacity + *capacity / 2;
-    if (larger < needed)
-        larger = needed;
-    void *grown = lom_allocate(larger, size, NULL);
-    if (grown == NULL)
-        return false;
-    if (*array != NULL)
-        memcpy(grown, *array, *capacity * size);
-    lom_release(*array);
-    *array = grown;
-    *capacity = larger;
-    return true;
-}
-
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
 {
     struct lom_assembly *assembly = chunk->assembly;
     size_t padded = rows + 16; /* the vertex stage writes whole packets */
-    if (!lom_reserve((void **)&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats,
-                     sizeof(float)) ||
-        !lom_reserve((void **)&assembly->clip, &assembly->clip_capacity, padded * 4, sizeof(float)) ||
-        !lom_reserve((void **)&assembly->codes, &assembly->codes_capacity, padded, sizeof(uint16_t))) {
+    if (!lom_reserve(&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats, sizeof(float),
+                     NULL) ||
+        !lom_reserve(&assembly->clip, &assembly->clip_capacity, padded * 4, sizeof(float), NULL) ||
+        !lom_reserve(&assembly->codes, &assembly->codes_capacity, padded, sizeof(uint16_t), NULL)) {
         chunk->failed = true;
         return false;
     }
@@ -142,8 +124,7 @@ static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high
 static bool list_vertices(struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_reserve((void **)&assembly->vertex_list, &assembly->vertex_list_capacity, 3 * chunk->count,
-                     sizeof(uint32_t)))
+    if (!lom_reserve(&assembly->vertex_list, &assembly->vertex_list_capacity, 3 * chunk->count, sizeof(uint32_t), NULL))
         return false;
     chunk->vertex_count = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
@@ -172,7 +153,7 @@ static bool choose_vertices(struct lom_chunk *chunk)
     uint32_t low, high;
     struct lom_assembly *assembly = chunk->assembly;
     size_t corners = 3 * chunk->count;
-    if (!lom_reserve((void **)&assembly->corners, &assembly->corners_capacity, corners, sizeof(uint32_t)))
+    if (!lom_reserve(&assembly->corners, &assembly->corners_capacity, corners, sizeof(uint32_t), NULL))
         return false;
     chunk->has_gaps = false;
     const uint32_t *plain = find_plain_indices(chunk, &low, &high);

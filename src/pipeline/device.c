@@ -117,8 +117,8 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
 {
     if (!lom_check_device(device, NULL))
         return NULL;
-    if (!lom_reserve((void **)&device->textures, &device->texture_capacity, device->texture_count + 1,
-                     sizeof *device->textures)) {
+    if (!lom_reserve(&device->textures, &device->texture_capacity, device->texture_count + 1, sizeof *device->textures,
+                     NULL)) {
         lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another texture.");
         return NULL;
     }

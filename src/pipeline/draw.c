@@ -97,7 +97,7 @@ static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
 {
     size_t size = draw->desc.shader->uniforms_size;
     size_t offset = (device->uniforms_size + 63) & ~(size_t)63;
-    if (!lom_reserve((void **)&device->uniforms, &device->uniforms_capacity, offset + size, 1))
+    if (!lom_reserve(&device->uniforms, &device->uniforms_capacity, offset + size, 1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw's uniforms.");
     if (size != 0)
         memcpy(device->uniforms + offset, draw->desc.uniforms, size);
@@ -140,7 +140,7 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
     struct lom_pass *pass = &device->pass;
     if (!check_shader(device, desc) || !check_geometry(device, desc) || !check_vertices(device, desc))
         return false;
-    if (!lom_reserve((void **)&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws))
+    if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     struct lom_draw *draw = &device->draws[pass->draw_count];
     *draw = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc->shader) };

@@ -129,7 +129,7 @@ static bool lay_tiles(lom_device *device)
         pass->tile_bytes += pass->color[i].kind == COLOR_FLOAT ? 16 : 4;
     pass->tile_bytes *= (size_t)edge * (size_t)edge;
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    if (!lom_reserve((void **)&device->tile_touched, &device->tile_touched_capacity, tiles, 1))
+    if (!lom_reserve(&device->tile_touched, &device->tile_touched_capacity, tiles, 1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
                         pass->width, pass->height);
     pass->tile_touched = device->tile_touched;

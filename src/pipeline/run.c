@@ -202,7 +202,7 @@ static bool lay_tile_memory(lom_device *device)
         pass->chunks_left += count_chunks(device, &device->draws[i]);
     pass->single_batch = pass->chunks_left <= (size_t)device->desc.batch;
     size_t count = pass->single_batch ? (size_t)device->desc.threads : tiles;
-    if (!lom_reserve((void **)&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes, 1))
+    if (!lom_reserve(&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes, 1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
                         pass->width, pass->height);
     pass->tile_memory = device->tile_memory;

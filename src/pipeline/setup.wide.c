@@ -295,8 +295,8 @@ void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, 
 {
     size_t room = chunk->triangle_count + count + 1; /* append writes one more */
     struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_reserve((void **)&chunk->triangles, &chunk->triangles_capacity, room, sizeof(lom_triangle)) ||
-        !lom_reserve((void **)&assembly->tile, &assembly->tile_capacity, room, sizeof(int32_t))) {
+    if (!lom_reserve(&chunk->triangles, &chunk->triangles_capacity, room, sizeof(lom_triangle), NULL) ||
+        !lom_reserve(&assembly->tile, &assembly->tile_capacity, room, sizeof(int32_t), NULL)) {
         chunk->failed = true;
         return;
     }

@@ -10,6 +10,7 @@
 #ifndef LOM_PIPELINE_STAGES_H
 #define LOM_PIPELINE_STAGES_H
 
+#include "base/reserve.h"
 #include "base/threads.h"
 #include "image/texture.h"
 
@@ -304,9 +305,6 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
     void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
 LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
-
-/* Grows *array to at least `needed` elements of `size` bytes, keeping its content; false when memory runs out. */
-bool lom_reserve(void **array, size_t *capacity, size_t needed, size_t size);
 
 /* Room for `rows` vertex rows in the chunk (rows, clip, codes). */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);

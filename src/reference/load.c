@@ -2,7 +2,7 @@
  * what does not move. */
 #include "reference/reference.h"
 
-#include "base/grow.h"
+#include "base/reserve.h"
 
 #include <string.h>
 
@@ -17,13 +17,10 @@ static lom_vec3 vector(const double v[3])
 static bool add_picture(lom_reference *reference, const char *path, bool color, const lom_image *image, int *index,
                         lom_error *error)
 {
-    struct lom_ray_picture *pictures = image == NULL ? NULL
-                                                     : lom_grow(reference->pictures, &reference->picture_capacity,
-                                                                reference->picture_count, sizeof *pictures, error);
-    if (pictures == NULL)
+    if (image == NULL || !lom_reserve(&reference->pictures, &reference->picture_capacity, reference->picture_count + 1,
+                                      sizeof *reference->pictures, error))
         return false;
-    reference->pictures = pictures;
-    struct lom_ray_picture *picture = &pictures[reference->picture_count];
+    struct lom_ray_picture *picture = &reference->pictures[reference->picture_count];
     picture->path = path;
     picture->color = color;
     lom_set_picture(&picture->picture, image, color && reference->scene->output.transfer == LOM_TRANSFER_SRGB);

@@ -1,5 +1,6 @@
 /* Pictures as textures, each loaded once. In: paths. Out: textures of the renderer's device, filtered as the scene's
  * quality says. */
+#include "base/reserve.h"
 #include "pipeline/check_device.h"
 #include "render/renderer.h"
 
@@ -52,28 +53,13 @@ static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool 
     return result;
 }
 
-static bool grow(void **items, size_t *capacity, size_t count, size_t size, lom_error *error)
-{
-    if (count < *capacity)
-        return true;
-    void *larger = lom_allocate(2 * count + 8, size, error);
-    if (larger == NULL)
-        return false;
-    if (count > 0)
-        memcpy(larger, *items, count * size);
-    lom_release(*items);
-    *items = larger;
-    *capacity = 2 * count + 8;
-    return true;
-}
-
 /* The path belongs to the renderer from here on. */
 static const char *keep_path(lom_renderer *renderer, const char *path, lom_error *error)
 {
     size_t size = strlen(path) + 1;
     char *copy = lom_allocate(size, 1, error);
-    if (copy == NULL || !grow((void **)&renderer->textures.paths, &renderer->textures.path_capacity,
-                              renderer->textures.path_count, sizeof *renderer->textures.paths, error)) {
+    if (copy == NULL || !lom_reserve(&renderer->textures.paths, &renderer->textures.path_capacity,
+                                     renderer->textures.path_count + 1, sizeof *renderer->textures.paths, error)) {
         lom_release(copy);
         return NULL;
     }
@@ -94,8 +80,8 @@ lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool col
     lom_texture *found = lom_find_texture(renderer, path, color);
     if (found != NULL)
         return found;
-    if (!grow((void **)&renderer->textures.items, &renderer->textures.capacity, renderer->textures.count,
-              sizeof *renderer->textures.items, error))
+    if (!lom_reserve(&renderer->textures.items, &renderer->textures.capacity, renderer->textures.count + 1,
+                     sizeof *renderer->textures.items, error))
         return NULL;
     const char *kept = keep_path(renderer, path, error);
     lom_texture *texture = kept == NULL ? NULL : make_texture(renderer, path, color, error);

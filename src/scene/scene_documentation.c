@@ -1,5 +1,6 @@
 /* docs/scene.md from the tables of keys. In: the root table. Out: Markdown. Invariant: what the page says of a key is
  * what the reader checks, because both read the same table. */
+#include "base/reserve.h"
 #include "scene/reader.h"
 #include "scene/scene_keys.h"
 
@@ -52,18 +53,9 @@ typedef struct page {
 static void add(page *out, const char *text)
 {
     size_t length = strlen(text);
-    if (out->capacity - out->length < length + 1) {
-        size_t capacity = out->capacity * 2 + length + 4096;
-        char *larger = lom_allocate(capacity, 1, out->error);
-        if (larger == NULL) {
-            out->failed = true;
-            return;
-        }
-        if (out->length > 0)
-            memcpy(larger, out->text, out->length);
-        lom_release(out->text);
-        out->text = larger;
-        out->capacity = capacity;
+    if (!lom_reserve(&out->text, &out->capacity, out->length + length + 1, 1, out->error)) {
+        out->failed = true;
+        return;
     }
     memcpy(out->text + out->length, text, length + 1);
     out->length += length;

@@ -2,7 +2,7 @@
  * decoded once, unless it was released in between. */
 #include "world/materials.h"
 
-#include "base/grow.h"
+#include "base/reserve.h"
 
 #include <lom/water.h>
 
@@ -22,17 +22,15 @@ static struct lom_world_picture *find(const struct lom_world *world, const char 
 /* An entry for this path, without its picture. */
 static struct lom_world_picture *add(struct lom_world *world, const char *path, lom_error *error)
 {
-    struct lom_world_picture *pictures =
-        lom_grow(world->pictures, &world->picture_capacity, world->picture_count, sizeof *pictures, error);
-    if (pictures == NULL)
+    if (!lom_reserve(&world->pictures, &world->picture_capacity, world->picture_count + 1, sizeof *world->pictures,
+                     error))
         return NULL;
-    world->pictures = pictures;
     size_t size = strlen(path) + 1;
     char *copy = lom_allocate(size, 1, error);
     if (copy == NULL)
         return NULL;
-    pictures[world->picture_count] = (struct lom_world_picture){ memcpy(copy, path, size), NULL };
-    return &pictures[world->picture_count++];
+    world->pictures[world->picture_count] = (struct lom_world_picture){ memcpy(copy, path, size), NULL };
+    return &world->pictures[world->picture_count++];
 }
 
 /* Keeps an image, converted, under a path; NULL is passed on. The image is freed. */

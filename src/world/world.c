@@ -2,7 +2,7 @@
  * Invariant: entities that name one mesh share it. */
 #include "world/materials.h"
 
-#include "base/grow.h"
+#include "base/reserve.h"
 #include "geometry/terrain.h"
 
 #include <string.h>
@@ -33,16 +33,13 @@ static const lom_mesh *find_mesh(struct lom_world *world, const char *path, lom_
     for (size_t i = 0; i < world->mesh_count; i++)
         if (strcmp(world->meshes[i].path, path) == 0)
             return world->meshes[i].mesh;
-    struct lom_world_mesh *meshes =
-        lom_grow(world->meshes, &world->mesh_capacity, world->mesh_count, sizeof *meshes, error);
-    if (meshes == NULL)
+    if (!lom_reserve(&world->meshes, &world->mesh_capacity, world->mesh_count + 1, sizeof *world->meshes, error))
         return NULL;
-    world->meshes = meshes;
     lom_mesh *mesh = lom_read_obj(path, error);
     if (mesh == NULL)
         return NULL;
     lom_add_warnings(&world->warnings, &mesh->warnings);
-    meshes[world->mesh_count++] = (struct lom_world_mesh){ path, mesh };
+    world->meshes[world->mesh_count++] = (struct lom_world_mesh){ path, mesh };
     return mesh;
 }
 

@@ -1,18 +1,19 @@
-/* Text and numbers into memory. In: text. Out: bytes in memory of lom_allocate. */
-#include "array.h"
+/* Text that is put together. In: words and numbers. Out: bytes. */
+#include "output.h"
+#include "base/reserve.h"
 
 #include <string.h>
 
 static void put_bytes(struct lom_output *output, const char *bytes, size_t size)
 {
-    for (size_t i = 0; i < size && !output->failed; i++) {
-        uint8_t *data = lom_grow(output->bytes.data, &output->capacity, output->bytes.size, 1, output->error);
-        output->failed = data == NULL;
-        if (output->failed)
-            return;
-        output->bytes.data = data;
-        data[output->bytes.size++] = (uint8_t)bytes[i];
+    if (output->failed ||
+        !lom_reserve(&output->bytes.data, &output->capacity, output->bytes.size + size, 1, output->error)) {
+        output->failed = true;
+        return;
     }
+    if (size > 0)
+        memcpy(output->bytes.data + output->bytes.size, bytes, size);
+    output->bytes.size += size;
 }
 
 void lom_put(struct lom_output *output, const char *string)

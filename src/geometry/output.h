@@ -1,8 +1,8 @@
-/* Byte buffers that grow. In: what is appended. Out: contiguous memory from lom_allocate. */
-#ifndef LOM_GEOMETRY_ARRAY_H
-#define LOM_GEOMETRY_ARRAY_H
+/* Text that is put together. In: words and numbers. Out: contiguous memory from lom_allocate. */
+#ifndef LOM_GEOMETRY_OUTPUT_H
+#define LOM_GEOMETRY_OUTPUT_H
 
-#include "base/grow.h"
+#include <lom/base.h>
 
 struct lom_output {
     lom_bytes bytes;

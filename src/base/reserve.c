@@ -1,0 +1,25 @@
+/* Growth by doubling. In: an array and how long it must be. Out: a longer copy. */
+#include "base/reserve.h"
+
+#include <string.h>
+
+enum { FIRST = 16 };
+
+bool lom_reserve(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error)
+{
+    if (needed <= *capacity)
+        return true;
+    size_t twice = *capacity < SIZE_MAX / 2 ? 2 * *capacity : needed;
+    size_t larger = needed > twice ? needed : twice;
+    larger = larger > FIRST ? larger : FIRST;
+    void *items, *copy = lom_allocate(larger, size, error);
+    if (copy == NULL)
+        return false;
+    memcpy(&items, array, sizeof items); /* of whatever type the pointer is */
+    if (items != NULL)
+        memcpy(copy, items, *capacity * size);
+    lom_release(items);
+    memcpy(array, &copy, sizeof copy);
+    *capacity = larger;
+    return true;
+}

@@ -1,0 +1,13 @@
+/* Arrays that grow. In: how many elements there must be room for. Out: memory of lom_allocate. */
+#ifndef LOM_BASE_RESERVE_H
+#define LOM_BASE_RESERVE_H
+
+#include <lom/base.h>
+
+/* Room for at least `needed` elements of `size` bytes: where *capacity is less, the array becomes a larger copy of its
+ * *capacity elements, zeros behind them, at least twice as long, so that appending is linear. array is the address of a
+ * pointer to any type, which is NULL while *capacity is 0. False (and LOM_ERROR_MEMORY) without memory; the array and
+ * *capacity are as before then. */
+bool lom_reserve(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error);
+
+#endif
