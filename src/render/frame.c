@@ -24,10 +24,10 @@ static const struct stage {
     { lom_prepare_clouds, "cloud_light" }, /* their light */
     { lom_prepare_water, "waves" },        /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },              /* terrain, entities and sky */
-    { lom_draw_lake_stage, "lake" },       /* tinted or planar water over them */
-    { lom_find_sea_stage, "sea_waves" },   /* the waves of a sea where one is seen */
-    { lom_draw_sea_stage, "sea" },         /* or water with waves */
-    { lom_draw_cloud_stage, "clouds" },    /* clouds over all */
+    { lom_draw_lake, "lake" },             /* tinted or planar water over them */
+    { lom_find_sea, "sea_waves" },         /* the waves of a sea where one is seen */
+    { lom_draw_sea, "sea" },               /* or water with waves */
+    { lom_draw_clouds, "clouds" },         /* clouds over all */
     { lom_draw_spray, "spray" },           /* drops, nearer than most clouds */
 };
 
@@ -57,11 +57,19 @@ lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char 
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color)
 {
     return (lom_pass_desc){ .color = { color },
-                            .depth = f->renderer->targets.depth,
+                            .depth = f->renderer->targets.of[LOM_TARGET_DEPTH],
                             .frame_width = f->width,
                             .frame_height = f->height,
                             .origin_x = f->crop.x,
                             .origin_y = f->crop.y };
+}
+
+bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw_desc *draws, size_t count)
+{
+    lom_begin_pass(device, pass);
+    for (size_t i = 0; i < count; i++)
+        lom_draw(device, &draws[i]);
+    return lom_end_pass(device);
 }
 
 static void look(struct frame *f)
@@ -81,7 +89,7 @@ static bool draw_opaque(struct frame *f, lom_error *error)
     lom_step *step = lom_add_step(f, "scene", true, "terrain, entities and sky, from the camera");
     step->width = f->crop.width;
     step->height = f->crop.height;
-    lom_pass_desc pass = lom_frame_pass(f, r->targets.color);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
     lom_begin_pass(r->device, &pass);
     lom_draw_scene(r, &f->view);
     return lom_end_pass(r->device);
@@ -127,7 +135,7 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
     }
     f->done = (double)count / (double)(count + 1);
     report(f, "output");
-    return done ? lom_read_texture(r->targets.color, 0, 0, error) : NULL;
+    return done ? lom_read_texture(r->targets.of[LOM_TARGET_COLOR], 0, 0, error) : NULL;
 }
 
 static const lom_frame_desc defaults = { .frame = 0 };

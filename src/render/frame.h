@@ -35,6 +35,9 @@ lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char 
  * asks to keep them. */
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color);
 
+/* A pass of these draws alone. */
+bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw_desc *draws, size_t count);
+
 /* A frame that the reference draws instead of the stages: linear RGB32F of the crop, NULL on failure. */
 lom_image *lom_draw_reference(struct frame *f, lom_error *error);
 

@@ -6,6 +6,16 @@
 
 #include <assert.h>
 
+/* In the order in which they are loaded: the bed of the water is the ground. */
+static const struct room {
+    bool (*load)(lom_renderer *renderer, lom_error *error);
+    void (*free)(lom_renderer *renderer);
+} rooms[] = {
+    { lom_load_ground, lom_free_ground }, { lom_load_entities, lom_free_entities }, { lom_load_water, lom_free_water },
+    { lom_load_clouds, lom_free_clouds }, { lom_load_spray, lom_free_spray },
+};
+static const size_t room_count = sizeof rooms / sizeof rooms[0];
+
 static bool load(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
@@ -15,10 +25,10 @@ static bool load(lom_renderer *renderer, lom_error *error)
             lom_add_warnings(&renderer->warnings, lom_reference_warnings(renderer->reference));
         return renderer->reference != NULL;
     }
-    static bool (*const rooms[])(lom_renderer *, lom_error *) = { lom_load_sky,   lom_load_ground, lom_load_entities,
-                                                                  lom_load_water, lom_load_clouds, lom_load_spray };
-    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++)
-        if (!rooms[i](renderer, error))
+    if (!lom_load_sky(renderer, error))
+        return false;
+    for (size_t i = 0; i < room_count; i++)
+        if (!rooms[i].load(renderer, error))
             return false;
     return true;
 }
@@ -50,11 +60,8 @@ void lom_free_renderer(lom_renderer *renderer)
     if (renderer == NULL)
         return;
     lom_free_reference(renderer->reference);
-    lom_free_spray(renderer);
-    lom_free_clouds(renderer);
-    lom_free_water(renderer);
-    lom_free_entities(renderer);
-    lom_free_ground(renderer);
+    for (size_t i = 0; i < room_count; i++)
+        rooms[i].free(renderer);
     lom_free_textures(renderer);
     lom_close_device(renderer->device);
     lom_release(renderer);

@@ -135,8 +135,8 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
     struct lom_view_uniform uniform = view_uniform(renderer, view);
     struct lom_culler culler = culler_of(view);
-    lom_draw_ground(renderer, &culler, &uniform, view->eye, view->mirrored);
-    lom_draw_entities(renderer, &culler, &uniform, view);
+    lom_draw_ground(renderer, view, &culler, &uniform);
+    lom_draw_entities(renderer, view, &culler, &uniform);
     if (view->sky)
         lom_draw_sky(renderer, view, &uniform.light);
 }

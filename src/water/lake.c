@@ -56,18 +56,18 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
     return u;
 }
 
-void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water_params *water,
-                   const lom_lake_view *view)
+lom_draw_desc lom_lake_draw(const lom_shader *shader, const lom_water_params *water, const lom_lake_view *view,
+                            struct lom_lake_uniforms *uniforms)
 {
-    struct lom_lake_uniforms uniforms = find_uniforms(water, view);
+    *uniforms = find_uniforms(water, view);
     lom_blend over = { .enabled = true,
                        .source_color = LOM_FACTOR_SOURCE_ALPHA,
                        .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
                        .target_alpha = LOM_FACTOR_ONE };
     lom_draw_desc draw = {
-        .shader = shader, .uniforms = &uniforms, .count = 4, .topology = LOM_TRIANGLE_STRIP, .depth_write_off = true
+        .shader = shader, .uniforms = uniforms, .count = 4, .topology = LOM_TRIANGLE_STRIP, .depth_write_off = true
     };
     if (shader != &lom_lake_mask_shader)
         draw.blend[0] = over;
-    lom_draw(device, &draw);
+    return draw;
 }

@@ -1,4 +1,4 @@
-/* The planar lake (spec, part A): its surface as a draw over the finished scene. */
+/* The planar lake: its surface as a draw over the finished scene. */
 #ifndef LOM_WATER_LAKE_H
 #define LOM_WATER_LAKE_H
 
@@ -40,8 +40,9 @@ typedef struct lom_lake_view {
     const lom_texture *reflection, *refraction, *refraction_depth, *normal_map, *flow_map;
 } lom_lake_view;
 
-/* Draws the quad with one of the three shaders: depth tested, blended over the scene by its alpha. */
-void lom_draw_lake(lom_device *device, const lom_shader *shader, const lom_water_params *water,
-                   const lom_lake_view *view);
+/* A draw of the quad with one of the three shaders, depth tested, blended over the scene by its alpha; and its uniforms,
+ * which must last as long. */
+lom_draw_desc lom_lake_draw(const lom_shader *shader, const lom_water_params *water, const lom_lake_view *view,
+                            struct lom_lake_uniforms *uniforms);
 
 #endif

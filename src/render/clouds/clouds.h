@@ -53,17 +53,17 @@ bool lom_load_clouds(lom_renderer *renderer, lom_error *error);
 bool lom_prepare_clouds(struct frame *f, lom_error *error);
 /* Draws the clouds that this view sees over a picture that is finished, in a pass like `pass`; depth is the picture's.
  * The renderer has clouds. *count: how many are in view. */
-bool lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
-                     size_t *count, lom_error *error);
+bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
+                          size_t *count, lom_error *error);
 /* The frame's clouds over all that it holds, a step of the plan. */
-bool lom_draw_cloud_stage(struct frame *f, lom_error *error);
+bool lom_draw_clouds(struct frame *f, lom_error *error);
 void lom_free_clouds(lom_renderer *renderer);
 
 /* shadow.c: the map of what they let through of the sun, a step of the plan; the same for places less the eye. */
 bool lom_draw_cloud_shadows(struct frame *f, const double to_light[3]);
 void lom_set_cloud_light(struct lom_light_uniform *light, const lom_renderer *renderer, lom_vec3 eye);
 
-/* impostors.c: whether this frame goes on with the run's impostors; then lom_draw_clouds by them. */
+/* impostors.c: whether this frame goes on with the run's impostors; then lom_draw_clouds_over by them. */
 bool lom_begin_impostors(struct frame *f, lom_error *error);
 bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
                         const lom_pass_desc *pass, size_t *count, lom_error *error);

@@ -41,8 +41,8 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     return lom_draw_cloud_shadows(f, to_light);
 }
 
-bool lom_draw_clouds(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
-                     size_t *count, lom_error *error)
+bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lom_pass_desc pass, lom_texture *depth,
+                          size_t *count, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     int height = pass.frame_height != 0 ? pass.frame_height : lom_texture_height(pass.color[0]);
@@ -100,7 +100,7 @@ static void add_capped(const struct lom_cloud_set *set, lom_step *step)
                  steps);
 }
 
-bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
+bool lom_draw_clouds(struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     if (r->clouds.set == NULL) {
@@ -112,7 +112,8 @@ bool lom_draw_cloud_stage(struct frame *f, lom_error *error)
     }
     lom_impostor_counters before = *f->impostors;
     size_t count;
-    if (!lom_draw_clouds(f, &f->view, lom_frame_pass(f, r->targets.color), r->targets.depth, &count, error))
+    if (!lom_draw_clouds_over(f, &f->view, lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]),
+                              r->targets.of[LOM_TARGET_DEPTH], &count, error))
         return false;
     lom_step *step = add_cloud_step(f, count, &before);
     if (count != 0)

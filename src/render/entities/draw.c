@@ -29,7 +29,7 @@ static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_entity_p
                                              [LOM_SHADING_FLAT] = &lom_entity_flat };
 
 static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *entity,
-                        const struct lom_view_uniform *uniform, const struct lom_scene_view *view)
+                        const struct lom_scene_view *view, const struct lom_view_uniform *uniform)
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
     lom_mat4 offset_from_model = entity->world_from_model;
@@ -87,12 +87,12 @@ static bool is_shown(const struct lom_loaded_entity *entity, const struct lom_cu
     return !entity->is_hidden && lom_is_visible(culler, &entity->bounds);
 }
 
-void lom_draw_entities(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *uniform,
-                       const struct lom_scene_view *view)
+void lom_draw_entities(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                       const struct lom_view_uniform *uniform)
 {
     for (size_t i = 0; i < renderer->entities.count; i++)
         if (is_shown(&renderer->entities.items[i], culler))
-            draw_entity(renderer, &renderer->entities.items[i], uniform, view);
+            draw_entity(renderer, &renderer->entities.items[i], view, uniform);
 }
 
 bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *culler)

@@ -47,8 +47,8 @@ void lom_move_entities(lom_renderer *renderer, double time);
 /* Makes the maps of their shadows. */
 bool lom_prepare_entities(struct frame *f, lom_error *error);
 /* Draws those that a pass sees. */
-void lom_draw_entities(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *uniform,
-                       const struct lom_scene_view *view);
+void lom_draw_entities(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                       const struct lom_view_uniform *uniform);
 void lom_free_entities(lom_renderer *renderer);
 
 /* Whether any of them would be drawn. */

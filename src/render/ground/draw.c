@@ -84,17 +84,17 @@ static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_terrain_
                                              [LOM_SHADING_GOURAUD] = &lom_terrain_gouraud,
                                              [LOM_SHADING_FLAT] = &lom_terrain_flat };
 
-void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
-                     lom_vec3 eye, bool mirrored)
+void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                     const struct lom_view_uniform *uniform)
 {
     const struct lom_ground *ground = &renderer->ground;
     if (ground->blocks == NULL)
         return;
-    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, view, eye);
+    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, uniform, view->eye);
     lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
-                           .front_clockwise = mirrored };
+                           .front_clockwise = view->mirrored };
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number = ground->order[i];
         const struct lom_ground_block *block = &ground->blocks[number];

@@ -61,8 +61,9 @@ struct lom_ground {
 bool lom_load_ground(lom_renderer *renderer, lom_error *error);
 /* Chooses levels of detail and casts the shadow. */
 bool lom_prepare_ground(struct frame *f, lom_error *error);
-void lom_draw_ground(lom_renderer *renderer, const struct lom_culler *culler, const struct lom_view_uniform *view,
-                     lom_vec3 eye, bool mirrored);
+/* Draws what a pass sees of it. */
+void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                     const struct lom_view_uniform *uniform);
 void lom_free_ground(lom_renderer *renderer);
 
 /* Whether any of it would be drawn. */

@@ -72,7 +72,7 @@ static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct
                                     .haze = lom_scene_haze(f->scene, view->eye.y, false),
                                     .near_plane = (float)view->near_plane,
                                     .origin = { (float)f->crop.x, (float)f->crop.y },
-                                    .depth = r->targets.depth,
+                                    .depth = r->targets.of[LOM_TARGET_DEPTH],
                                     .sprites = r->spray.sprites[0].middle };
     lom_mat4 clip = lom_clip_from_offset(&view->projection, &view->view);
     u.clip_from_offset = lom_round_matrix(&clip);
@@ -90,20 +90,20 @@ static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, con
     step->height = f->crop.height;
     step->scissor = reach;
     set_indices(&r->spray, sprites);
-    lom_pass_desc pass = lom_frame_pass(f, r->targets.spray);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_SPRAY]);
     pass.depth = NULL;
     pass.scissor = reach;
-    lom_begin_pass(r->device, &pass);
-    lom_draw(r->device, &(lom_draw_desc){ .shader = &lom_spray_shader,
-                                          .uniforms = &u,
-                                          .indices = r->spray.indices,
-                                          .count = 6 * sprites->count,
-                                          .vertex_count = 4 * sprites->count,
-                                          .depth_test_off = true,
-                                          .blend = { lom_blend_over } });
-    lom_end_pass(r->device);
-    struct lom_spray_layer_uniforms layer = { { (float)f->crop.x, (float)f->crop.y }, r->targets.spray };
-    pass = lom_frame_pass(f, r->targets.color);
+    const lom_draw_desc draw = { .shader = &lom_spray_shader,
+                                 .uniforms = &u,
+                                 .indices = r->spray.indices,
+                                 .count = 6 * sprites->count,
+                                 .vertex_count = 4 * sprites->count,
+                                 .depth_test_off = true,
+                                 .blend = { lom_blend_over } };
+    if (!lom_draw_pass(r->device, &pass, &draw, 1))
+        return false;
+    struct lom_spray_layer_uniforms layer = { { (float)f->crop.x, (float)f->crop.y }, r->targets.of[LOM_TARGET_SPRAY] };
+    pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.scissor = reach;

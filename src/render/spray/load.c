@@ -1,18 +1,29 @@
 /* Room for the drops of a scene. In: its emitters. Out: memory for the drops of all that are visible. */
 #include "render/renderer.h"
 
+static size_t count_of(const lom_spray *spray)
+{
+    return spray->visible ? (size_t)spray->count : 0;
+}
+
+size_t lom_count_drops(const lom_scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; scene->quality.spray && i < scene->spray_count; i++)
+        count += count_of(&scene->sprays[i]);
+    return count;
+}
+
 bool lom_load_spray(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     struct lom_drawn_spray *m = &renderer->spray;
     size_t largest = 0;
-    for (size_t i = 0; i < scene->spray_count; i++) {
-        size_t count = scene->sprays[i].visible ? (size_t)scene->sprays[i].count : 0;
-        m->capacity += count;
-        largest = count > largest ? count : largest;
-    }
-    if (m->capacity == 0 || !scene->quality.spray)
+    m->capacity = lom_count_drops(scene);
+    if (m->capacity == 0)
         return true;
+    for (size_t i = 0; i < scene->spray_count; i++)
+        largest = count_of(&scene->sprays[i]) > largest ? count_of(&scene->sprays[i]) : largest;
     m->particles = lom_allocate(largest, sizeof *m->particles, error);
     m->sprites = lom_allocate(m->capacity, sizeof *m->sprites, error);
     m->depth = lom_allocate(m->capacity, sizeof *m->depth, error);

@@ -22,4 +22,7 @@ bool lom_load_spray(lom_renderer *renderer, lom_error *error);
 bool lom_draw_spray(struct frame *f, lom_error *error);
 void lom_free_spray(lom_renderer *renderer);
 
+/* Drops of the visible emitters; 0 where quality.spray is off. */
+size_t lom_count_drops(const lom_scene *scene);
+
 #endif

@@ -53,9 +53,8 @@ static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
     lom_step *step = lom_add_step(f, "caustics", true, "where the waves send the sunlight on the bed");
     step->width = step->height = lom_texture_width(r->water.photons);
     lom_pass_desc pass = { .color = { r->water.photons } };
-    lom_begin_pass(r->device, &pass);
-    lom_draw(r->device, &(lom_draw_desc){ .shader = &lom_photon_shader, .uniforms = u, .count = 3 });
-    return lom_end_pass(r->device);
+    const lom_draw_desc draw = { .shader = &lom_photon_shader, .uniforms = u, .count = 3 };
+    return lom_draw_pass(r->device, &pass, &draw, 1);
 }
 
 static bool gather(lom_renderer *r, lom_error *error)

@@ -1,4 +1,4 @@
-/* The planar lake of a frame (spec, part A). In: the frame whose opaque scene is drawn. Out: the water over it.
+/* The planar lake of a frame. In: the frame whose opaque scene is drawn. Out: the water over it.
  *
  *   visibility (where is water?) -> reflection, refraction (only there) -> water over the scene
  *
@@ -38,11 +38,11 @@ static bool draw_visibility(struct frame *f, lom_error *error)
     lom_step *step = lom_add_step(f, "visibility", true, "which pixels show the water's surface");
     step->width = f->crop.width;
     step->height = f->crop.height;
-    lom_pass_desc pass = lom_frame_pass(f, r->targets.mask);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_MASK]);
     pass.depth_load = LOM_LOAD_KEEP;
-    lom_begin_pass(r->device, &pass);
-    lom_draw_lake(r->device, &lom_lake_mask_shader, &f->scene->water, &v);
-    return lom_end_pass(r->device) && lom_find_water(f, error);
+    struct lom_lake_uniforms uniforms;
+    const lom_draw_desc draw = lom_lake_draw(&lom_lake_mask_shader, &f->scene->water, &v, &uniforms);
+    return lom_draw_pass(r->device, &pass, &draw, 1) && lom_find_water(f, error);
 }
 
 /* A picture of the scene in the water's colour, where lookups from the visible water can reach. */
@@ -76,7 +76,8 @@ static bool draw_reflection(struct frame *f, lom_error *error)
     view.plane[3] = water->clip_offset - water->level;
     lom_step *step =
         lom_add_step(f, "reflection", true, "terrain, entities and sky above the water, mirrored in its plane");
-    return draw_picture(f, step, f->renderer->targets.reflection, f->renderer->targets.reflection_depth, &view, error);
+    return draw_picture(f, step, f->renderer->targets.of[LOM_TARGET_REFLECTION],
+                        f->renderer->targets.of[LOM_TARGET_REFLECTION_DEPTH], &view, error);
 }
 
 /* Step 2: the scene below the plane (plus the offset), with its depth. */
@@ -93,16 +94,17 @@ static bool draw_refraction(struct frame *f, lom_error *error)
     view.plane[3] = water->level + water->clip_offset;
     view.sky = false;
     lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities below the water, with their depth");
-    return draw_picture(f, step, f->renderer->targets.refraction, f->renderer->targets.refraction_depth, &view, error);
+    return draw_picture(f, step, f->renderer->targets.of[LOM_TARGET_REFRACTION],
+                        f->renderer->targets.of[LOM_TARGET_REFRACTION_DEPTH], &view, error);
 }
 
 /* The surface by the shader of its model. */
 static bool draw_quad(struct frame *f, const lom_lake_view *view)
 {
     const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
-    lom_begin_water(f, model->text);
-    lom_draw_lake(f->renderer->device, model->shader, &f->scene->water, view);
-    return lom_end_pass(f->renderer->device);
+    struct lom_lake_uniforms uniforms;
+    const lom_draw_desc draw = lom_lake_draw(model->shader, &f->scene->water, view, &uniforms);
+    return lom_draw_over_scene(f, model->text, &draw);
 }
 
 static bool draw_surface(struct frame *f)
@@ -111,9 +113,9 @@ static bool draw_surface(struct frame *f)
     const lom_water_params *water = &f->scene->water;
     lom_lake_view view = lake_view(f);
     bool below = water->refraction || water->soft_shore || water->specular;
-    view.reflection = water->reflection ? r->targets.reflection : NULL;
-    view.refraction = below ? r->targets.refraction : NULL;
-    view.refraction_depth = below ? r->targets.refraction_depth : NULL;
+    view.reflection = water->reflection ? r->targets.of[LOM_TARGET_REFLECTION] : NULL;
+    view.refraction = below ? r->targets.of[LOM_TARGET_REFRACTION] : NULL;
+    view.refraction_depth = below ? r->targets.of[LOM_TARGET_REFRACTION_DEPTH] : NULL;
     return draw_quad(f, &view);
 }
 
@@ -126,7 +128,7 @@ static bool draw_tinted(struct frame *f)
     return draw_quad(f, &view);
 }
 
-bool lom_draw_lake_stage(struct frame *f, lom_error *error)
+bool lom_draw_lake(struct frame *f, lom_error *error)
 {
     const lom_water_params *water = &f->scene->water;
     const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];

@@ -11,9 +11,8 @@ struct lom_window {
 };
 extern const struct lom_window lom_whole_view;
 
-/* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there is
- * none.
- */
+/* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there
+ * is none. */
 bool lom_find_water(struct frame *f, lom_error *error);
 /* The part of a picture of the scene (scaled to width x height) that lookups from the visible water can reach: `reach`
  * parts of the picture away, and a texel of filtering. The whole picture when quality.scissor is off. */
@@ -25,8 +24,8 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
 bool lom_draw_caustics(struct frame *f, lom_error *error);
 /* Adds "left out" to the plan for every pass of the water, for this reason. True. */
 bool lom_skip_water(struct frame *f, const char *reason);
-/* Begins the pass that draws the surface over the finished scene, where water is seen. */
-void lom_begin_water(struct frame *f, const char *text);
+/* Draws the surface over the finished scene, where water is seen: a step of the plan with this text. */
+bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface);
 
 /* waves.c: whether the scene's water has waves; of a sea its places, then the rest of it, with a step of the
  * plan. False: the error says why. */

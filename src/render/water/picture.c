@@ -7,7 +7,7 @@ const struct lom_window lom_whole_view = { { -1, -1 }, { 1, 1 } };
 
 bool lom_find_water(struct frame *f, lom_error *error)
 {
-    lom_image *mask = lom_read_texture(f->renderer->targets.mask, 0, 0, error);
+    lom_image *mask = lom_read_texture(f->renderer->targets.of[LOM_TARGET_MASK], 0, 0, error);
     if (mask == NULL)
         return false;
     size_t size = lom_format_size(mask->format);
@@ -67,7 +67,7 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     lom_draw_scene(r, view);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
     size_t seen;
-    return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds(f, view, pass, depth, &seen, error));
+    return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error));
 }
 
 bool lom_skip_water(struct frame *f, const char *reason)
@@ -78,14 +78,14 @@ bool lom_skip_water(struct frame *f, const char *reason)
     return true;
 }
 
-void lom_begin_water(struct frame *f, const char *text)
+bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface)
 {
     lom_step *step = lom_add_step(f, "water", true, "%s", text);
     step->width = f->crop.width;
     step->height = f->crop.height;
     step->scissor = f->water;
-    lom_pass_desc pass = lom_frame_pass(f, f->renderer->targets.color);
+    lom_pass_desc pass = lom_frame_pass(f, f->renderer->targets.of[LOM_TARGET_COLOR]);
     pass.color_load[0] = pass.depth_load = LOM_LOAD_KEEP;
     pass.scissor = f->water;
-    lom_begin_pass(f->renderer->device, &pass);
+    return lom_draw_pass(f->renderer->device, &pass, surface, 1);
 }

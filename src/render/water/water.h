@@ -23,9 +23,11 @@ struct lom_drawn_water {
 bool lom_load_water(lom_renderer *renderer, lom_error *error);
 /* Makes the waves, and what they do to the light on what is drawn after them. */
 bool lom_prepare_water(struct frame *f, lom_error *error);
-bool lom_draw_lake_stage(struct frame *f, lom_error *error);
-bool lom_find_sea_stage(struct frame *f, lom_error *error); /* where the scene leaves water to be seen */
-bool lom_draw_sea_stage(struct frame *f, lom_error *error);
+/* Draws tinted or planar water over the scene; or finds where the scene leaves water with waves to be seen, and draws
+ * it there. */
+bool lom_draw_lake(struct frame *f, lom_error *error);
+bool lom_find_sea(struct frame *f, lom_error *error);
+bool lom_draw_sea(struct frame *f, lom_error *error);
 void lom_free_water(lom_renderer *renderer);
 
 #endif

@@ -1,0 +1,147 @@
+/* Pictures of the scene for water with waves to look up. In: where the water is seen. Out: the scene on the eye's side,
+ * mirrored in the level, and the scene behind the surface, each with its depth; only as far as lookups can reach. */
+#include "render/water/sea.h"
+
+static const float nothing[4] = { 0, 0, 0, 0 };
+
+static lom_rect lookups(const struct frame *f, const struct lom_window *window, const lom_texture *picture)
+{
+    lom_rect r = lom_water_reach(f, window, f->scene->water.optics.reach, lom_texture_width(picture),
+                                 lom_texture_height(picture));
+    /* Levels of detail: a lookup reads texels up to two of the coarsest level away. */
+    int more = 3 << LOM_BLUR_LEVELS, x1 = r.x + r.width + more, y1 = r.y + r.height + more;
+    r.x = r.x > more ? r.x - more : 0;
+    r.y = r.y > more ? r.y - more : 0;
+    r.width = (x1 < lom_texture_width(picture) ? x1 : lom_texture_width(picture)) - r.x;
+    r.height = (y1 < lom_texture_height(picture) ? y1 : lom_texture_height(picture)) - r.y;
+    return r;
+}
+
+/* The picture's matrix, and where it has the frame's pixels. */
+static void set_picture(struct lom_picture_uniform *out, const struct frame *f, const struct lom_window *window,
+                        const lom_mat4 *clip_from_offset, lom_texture *color, lom_texture *depth)
+{
+    double width = window->high[0] - window->low[0], height = window->high[1] - window->low[1];
+    out->clip_from_offset = lom_round_matrix(clip_from_offset);
+    out->color = color;
+    out->depth = depth;
+    out->scale[0] = (float)(2 / (width * f->width));
+    out->scale[1] = (float)(2 / (height * f->height));
+    out->shift[0] = (float)((-1 - window->low[0]) / width);
+    out->shift[1] = (float)((window->high[1] - 1) / height);
+}
+
+/* Clip coordinates in which the window is what -1..1 was. */
+static lom_mat4 zoom_to(const struct lom_window *window, const lom_mat4 *projection)
+{
+    lom_mat4 zoom = lom_identity();
+    for (int i = 0; i < 2; i++) {
+        zoom.m[i][i] = 2 / (window->high[i] - window->low[i]);
+        zoom.m[i][3] = -(window->high[i] + window->low[i]) / (window->high[i] - window->low[i]);
+    }
+    return lom_multiply(&zoom, projection);
+}
+
+/* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it.
+ * False where it does not meet the surface, or does not pass. */
+static bool bend_ray(const struct sea *sea, const struct frame *f, double x, double y, double out[2])
+{
+    const float(*r)[3] = sea->uniforms.ray;
+    double d[3], side = f->below ? -1 : 1, eta = (double)sea->uniforms.eta;
+    for (int i = 0; i < 3; i++)
+        d[i] = (double)r[i][0] * x + (double)r[i][1] * y + (double)r[i][2];
+    double size = lom_double_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = -side * d[1] / size;
+    double square = 1 - eta * eta * (1 - c * c);
+    if (c <= 0 || square <= 0)
+        return false;
+    double bent[3] = { eta * d[0] / size, -side * lom_double_sqrt(square), eta * d[2] / size }, view[3] = { 0, 0, 0 };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            view[i] += f->view.view.m[i][k] * bent[k];
+    double w = -view[2] > 0.1 ? -view[2] : 0.1;
+    out[0] = view[0] / w * f->view.projection.m[0][0];
+    out[1] = view[1] / w * f->view.projection.m[1][1];
+    return true;
+}
+
+/* What the picture behind the surface has to show: all that rays of the view, bent at still water, can see, and a
+ * margin for waves; of the view itself what is not above the horizon. A function of the whole frame's camera. */
+static struct lom_window bent_window(const struct sea *sea, const struct frame *f)
+{
+    struct lom_window window = lom_whole_view;
+    double top = -1, bent[2];
+    if (!sea->uniforms.bent && !f->below)
+        return window;
+    for (int i = 0; i <= 64; i++) {
+        double x = i % 8 / 3.5 - 1, y = i / 8 / 4.0 - 1;
+        if (!bend_ray(sea, f, x, y, bent))
+            continue;
+        top = y > top ? y : top;
+        for (int k = 0; k < 2; k++) {
+            double margin = 0.12 * (bent[k] < 0 ? -1 : 1), at = bent[k] + margin;
+            at = at < -3 ? -3 : at > 3 ? 3 : at;
+            window.low[k] = at < window.low[k] ? at : window.low[k];
+            window.high[k] = at > window.high[k] ? at : window.high[k];
+        }
+    }
+    if (!f->below && window.high[1] <= 1 && top + 0.5 < 1) /* rows of rays are a quarter apart */
+        window.high[1] = top + 0.5;
+    return window;
+}
+
+/* The scene on the eye's side (above: 1, below: -1), less the clip offset. */
+static void clip_at(struct lom_scene_view *view, const struct frame *f, double side, double over)
+{
+    view->plane[0] = view->plane[2] = 0;
+    view->plane[1] = side;
+    view->plane[3] = -side * f->scene->water.level + over + f->scene->water.clip_offset;
+    view->sky = false;
+}
+
+static bool draw_mirrored(struct sea *sea, struct frame *f, lom_error *error)
+{
+    lom_renderer *r = f->renderer;
+    struct lom_scene_view view = f->view;
+    lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, f->scene->water.level);
+    view.view = lom_multiply(&f->view.view, &mirror);
+    view.eye.y = 2 * f->scene->water.level - f->view.eye.y;
+    view.mirrored = true;
+    clip_at(&view, f, f->below ? -1 : 1, 0);
+    if (!lom_shows_scene(r, &view)) {
+        lom_add_step(f, "reflection", false, "nothing but %s is reflected", f->below ? "water" : "the sky");
+        return true;
+    }
+    lom_step *step =
+        lom_add_step(f, "reflection", true, "terrain and entities on the eye's side, mirrored in the level");
+    lom_mat4 mirrored = lom_mirror((lom_vec3){ 0, 1, 0 }, sea->level),
+             clip = lom_multiply(&sea->clip_from_offset, &mirrored);
+    set_picture(&sea->uniforms.mirrored, f, &lom_whole_view, &clip, r->targets.of[LOM_TARGET_REFLECTION],
+                r->targets.of[LOM_TARGET_REFLECTION_DEPTH]);
+    return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFLECTION], r->targets.of[LOM_TARGET_REFLECTION_DEPTH],
+                            &view, nothing, lookups(f, &lom_whole_view, r->targets.of[LOM_TARGET_REFLECTION]), error);
+}
+
+static bool draw_behind(struct sea *sea, struct frame *f, lom_error *error)
+{
+    lom_renderer *r = f->renderer;
+    struct lom_scene_view view = f->view;
+    const struct lom_waves_uniform *waves = &sea->uniforms.waves;
+    struct lom_window window = bent_window(sea, f);
+    view.projection = zoom_to(&window, &f->view.projection);
+    clip_at(&view, f, f->below ? 1 : -1, f->below ? -(double)waves->lowest : (double)waves->highest);
+    if (!lom_shows_scene(r, &view)) {
+        lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", f->below ? "the sky" : "water");
+        return true;
+    }
+    lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities behind the surface, with their depth");
+    lom_mat4 clip = lom_clip_from_offset(&view.projection, &view.view);
+    set_picture(&sea->uniforms.behind, f, &window, &clip, r->targets.of[LOM_TARGET_REFRACTION],
+                r->targets.of[LOM_TARGET_REFRACTION_DEPTH]);
+    return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFRACTION], r->targets.of[LOM_TARGET_REFRACTION_DEPTH],
+                            &view, nothing, lookups(f, &window, r->targets.of[LOM_TARGET_REFRACTION]), error);
+}
+
+bool lom_draw_sea_pictures(struct sea *sea, struct frame *f, lom_error *error)
+{
+    return draw_mirrored(sea, f, error) && draw_behind(sea, f, error);
+}
