@@ -1,6 +1,7 @@
 #!/bin/sh
 # Includes go down only: a folder of src/ (with those inside it) may include itself and what lies below it
-# (docs/architecture.md), and system headers only of libc and pthreads. Prints each include that breaks this; fails when there is one.
+# (docs/architecture.md), and system headers only of libc and pthreads; a room of src/render includes no other room. Prints
+# each include that breaks this; fails when there is one.
 below() {
     case $1 in
     base) echo base ;;
@@ -43,6 +44,9 @@ for folder in src/*/; do
             lom/*) layer=$(public "${word#lom/}") ;;
             */*.h) layer=${word%%/*}; [ -d "src/$layer" ] || layer= ;;
             *) layer= ;;
+            esac
+            case $file:$word in src/render/*/*:render/*/*) # a room of render/ knows the others by renderer.h alone
+                [ "src/${word%/*}" = "${file%/*}" ] || { echo "$file includes $word of another room"; status=1; } ;;
             esac
             if [ -n "$layer" ]; then
                 case $allowed in *" $layer "*) ;; *) echo "$file includes $word, which lies above or beside src/$name"; status=1 ;; esac

@@ -40,15 +40,14 @@ static struct lom_layer_uniform layer_uniform(const lom_renderer *renderer, size
     const lom_terrain *t = &renderer->scene->terrain;
     const lom_terrain_layer *from = &t->layers[number];
     const double height = t->base + eye[1];
-    return (struct lom_layer_uniform){ .laid =
-                                           lay(lom_find_texture(renderer, from->map, true), from->tile, t->size, eye),
+    return (struct lom_layer_uniform){ .laid = lay(renderer->ground.maps.layer[number], from->tile, t->size, eye),
                                        .from_height = (float)(from->from_height - height),
                                        .to_height = (float)(from->to_height - height),
                                        .from_slope = (float)from->from_slope,
                                        .to_slope = (float)from->to_slope,
                                        .blend = (float)(from->blend > least_blend ? from->blend : least_blend),
                                        .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f,
-                                       .grain = (float)from->grain / renderer->ground.brightness_below[number],
+                                       .grain = (float)from->grain / renderer->ground.maps.brightness_below[number],
                                        .grain_offset = (float)from->grain,
                                        .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
 }
@@ -58,14 +57,12 @@ static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer
 {
     const lom_terrain *t = &renderer->scene->terrain;
     const double eye[3] = { place.x, place.y - t->base, place.z };
-    struct lom_terrain_uniforms u = {
-        .view = *view,
-        .surface = renderer->ground.surface,
-        .base = lay(lom_find_texture(renderer, t->texture, true), t->tile, t->size, eye),
-        .detail = lay(lom_find_texture(renderer, t->detail_map, false), t->detail_tile, t->size, eye),
-        .normals = lay(lom_find_texture(renderer, t->normal_map, false), t->detail_tile, t->size, eye),
-        .layer_count = (int)t->layer_count
-    };
+    struct lom_terrain_uniforms u = { .view = *view,
+                                      .surface = renderer->ground.surface,
+                                      .base = lay(renderer->ground.maps.base, t->tile, t->size, eye),
+                                      .detail = lay(renderer->ground.maps.detail, t->detail_tile, t->size, eye),
+                                      .normals = lay(renderer->ground.maps.normals, t->detail_tile, t->size, eye),
+                                      .layer_count = (int)t->layer_count };
     lom_map_ground(&renderer->ground, t->size, place, u.surface_scale, u.surface_shift);
     for (int i = 0; i < 3; i++) {
         u.eye[i] = (float)eye[i];

@@ -36,6 +36,12 @@ struct lom_ground_pattern {
     size_t count;
 };
 
+/* The scene's pictures of it; NULL: none. */
+struct lom_ground_maps {
+    const lom_texture *base, *detail, *normals, *layer[LOM_MAX_TERRAIN_LAYERS];
+    float brightness_below[LOM_MAX_TERRAIN_LAYERS]; /* mean of the picture below a layer with grain, above 0 */
+};
+
 struct lom_ground {
     int across, down;  /* blocks */
     int columns, rows; /* quads of the whole grid */
@@ -47,7 +53,7 @@ struct lom_ground {
     lom_texture *surface;
     lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
     lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
-    float brightness_below[LOM_MAX_TERRAIN_LAYERS]; /* mean of the picture below a layer with grain, above 0 */
+    struct lom_ground_maps maps;
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
 

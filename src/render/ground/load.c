@@ -22,6 +22,33 @@ static bool find_brightness(const lom_texture *texture, float *mean, lom_error *
     return gray != NULL;
 }
 
+/* The texture of a picture in *map; NULL for a NULL path. */
+static bool load_map(lom_renderer *renderer, const char *path, bool color, const lom_texture **map, lom_error *error)
+{
+    *map = path != NULL ? lom_load_texture(renderer, path, color, error) : NULL;
+    return path == NULL || *map != NULL;
+}
+
+static bool load_maps(lom_renderer *renderer, lom_error *error)
+{
+    const lom_terrain *t = &renderer->scene->terrain;
+    struct lom_ground_maps *maps = &renderer->ground.maps;
+    if (!load_map(renderer, t->texture, true, &maps->base, error))
+        return false;
+    if (t->layer_count > LOM_MAX_TERRAIN_LAYERS)
+        return lom_fail(error, LOM_ERROR_LIMIT, "%s: a terrain has at most %d layers, and this one has %zu.",
+                        renderer->scene->path, LOM_MAX_TERRAIN_LAYERS, t->layer_count);
+    for (size_t i = 0; i < t->layer_count; i++) {
+        const lom_texture *below = i == 0 ? maps->base : maps->layer[i - 1];
+        maps->brightness_below[i] = 1;
+        if ((t->layers[i].grain != 0 && !find_brightness(below, &maps->brightness_below[i], error)) ||
+            !load_map(renderer, t->layers[i].map, true, &maps->layer[i], error))
+            return false;
+    }
+    return load_map(renderer, t->detail_map, false, &maps->detail, error) &&
+           load_map(renderer, t->normal_map, false, &maps->normals, error);
+}
+
 bool lom_load_ground(lom_renderer *renderer, lom_error *error)
 {
     const lom_terrain *t = &renderer->scene->terrain;
@@ -34,23 +61,7 @@ bool lom_load_ground(lom_renderer *renderer, lom_error *error)
     struct lom_ground *ground = &renderer->ground;
     bool done = lom_make_ground_blocks(ground, t, map, &scene->quality, renderer->device, error);
     lom_free_image(map);
-    if (done && t->texture != NULL)
-        done = lom_load_texture(renderer, t->texture, true, error) != NULL;
-    if (done && t->layer_count > LOM_MAX_TERRAIN_LAYERS)
-        return lom_fail(error, LOM_ERROR_LIMIT, "%s: a terrain has at most %d layers, and this one has %zu.",
-                        renderer->scene->path, LOM_MAX_TERRAIN_LAYERS, t->layer_count);
-    const lom_texture *below = done && t->texture != NULL ? lom_load_texture(renderer, t->texture, true, error) : NULL;
-    for (size_t i = 0; done && i < t->layer_count; i++) {
-        renderer->ground.brightness_below[i] = 1;
-        done = t->layers[i].grain == 0 || find_brightness(below, &renderer->ground.brightness_below[i], error);
-        below = done ? lom_load_texture(renderer, t->layers[i].map, true, error) : NULL;
-        done = below != NULL;
-    }
-    if (done && t->detail_map != NULL)
-        done = lom_load_texture(renderer, t->detail_map, false, error) != NULL;
-    if (done && t->normal_map != NULL)
-        done = lom_load_texture(renderer, t->normal_map, false, error) != NULL;
-    return done;
+    return done && load_maps(renderer, error);
 }
 
 void lom_free_ground(lom_renderer *renderer)
