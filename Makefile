@@ -114,6 +114,7 @@ tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
 wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
+lessons      := $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard docs/lessons/*/*.c)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
 .PHONY: all demo check check-long coverage matrix fuzz lint format install uninstall clean help
@@ -180,6 +181,11 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) $(CPPFLAGS) -Itests $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
+# The programs of the lessons, with public headers alone.
+$(BUILD)/docs/lessons/%: docs/lessons/%.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) -Iinclude $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
 # The tests of what the program measures with.
 $(BUILD)/tests/measure/%: private LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
 $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
@@ -217,7 +223,7 @@ demo: $(BUILD)/lom
 	$(BUILD)/lom render assets/scenes/lake.toml -o demo-lake.png
 	$(BUILD)/lom render assets/scenes/flight.toml -o demo.png
 
-check: all $(programs) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
+check: all $(programs) $(lessons) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
 
 # Tests that fail are shown and are no reason to stop: what they executed counts. The lowered widths run on every processor.
@@ -303,7 +309,7 @@ bench-sampling: $(foreach v,4 8 16,$(BUILD)/bench/sampling.w$(v))
 	for program in $^; do $$program || exit 1; done
 
 format:
-	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch])
+	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch] docs/lessons/*/*.c)
 
 # The installed library: header files, both libraries, the program, pkg-config's file and the compiler of shaders.
 INSTALL_BIN = $(DESTDIR)$(PREFIX)/bin
@@ -335,4 +341,4 @@ lint: $(BUILD)/liblom.a
 clean:
 	rm -rf $(BUILD)
 
--include $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(programs:=.d)
+-include $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(programs:=.d) $(lessons:=.d)
