@@ -1,16 +1,12 @@
 /* A frame: the plan is made while it is drawn. In: a scene at a time. Out: the picture, and which passes were run or
- * left out and why. The table of stages below is the order of the frame; each stage is one function (frame.h).
+ * left out and why. The table of stages below is the order of the frame; each stage is one function of a room.
  *
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
 #include "render/frame.h"
 
-#include "base/cpu.h"
-
 #include <assert.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <time.h>
 
 static bool draw_opaque(struct frame *f, lom_error *error);
@@ -30,29 +26,6 @@ static const struct stage {
     { lom_draw_clouds, "clouds" },         /* clouds over all */
     { lom_draw_spray, "spray" },           /* drops, nearer than most clouds */
 };
-
-static void report(const struct frame *f, const char *pass)
-{
-    if (f->desc->progress != NULL)
-        f->desc->progress(f->desc->progress_context, pass, f->done);
-}
-
-lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
-{
-    lom_plan *plan = f->plan;
-    int last = plan->count < LOM_MAX_STEPS ? plan->count : LOM_MAX_STEPS - 1;
-    lom_step *step = &plan->step[last];
-    va_list arguments;
-    plan->count = last + 1;
-    *step = (lom_step){ .runs = runs };
-    snprintf(step->name, sizeof step->name, "%s", name);
-    va_start(arguments, format);
-    vsnprintf(step->text, sizeof step->text, format, arguments);
-    va_end(arguments);
-    if (runs)
-        report(f, name);
-    return step;
-}
 
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color)
 {
@@ -134,67 +107,18 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
         before = now;
     }
     f->done = (double)count / (double)(count + 1);
-    report(f, "output");
+    lom_report_progress(f, "output");
     return done ? lom_read_texture(r->targets.of[LOM_TARGET_COLOR], 0, 0, error) : NULL;
 }
 
 static const lom_frame_desc defaults = { .frame = 0 };
 
-/* The picture is read back with alpha as one image, and those have a limit. */
-static bool check_picture(const struct frame *f, lom_error *error)
-{
-    uint64_t pixel = f->scene->output.format == LOM_OUTPUT_RGB8 ? 4 : 16;
-    return (uint64_t)f->crop.width * (uint64_t)f->crop.height * pixel <= LOM_MAX_IMAGE_BYTES ||
-           lom_fail(error, LOM_ERROR_LIMIT,
-                    "A picture of %d x %d pixels, %d bytes each while it is drawn, is larger than the limit of 2^31 "
-                    "bytes an image: draw it in parts, each a crop (--crop X,Y,W,H) of the whole frame.",
-                    f->crop.width, f->crop.height, (int)pixel);
-}
-
-static bool check_memory(const struct frame *f, lom_error *error)
-{
-    static const double gib = 1024.0 * 1024 * 1024;
-    double taken = (double)lom_target_bytes(f->scene, f->width, f->height, f->crop.width, f->crop.height) / gib;
-    double limit = f->desc->memory > 0 ? f->desc->memory : (double)lom_machine_memory() / gib;
-    return limit == 0 || taken <= limit ||
-           lom_fail(
-               error, LOM_ERROR_LIMIT,
-               "The targets of a frame of %d x %d pixels take %.3g GiB at least, more than the limit of %.3g GiB (%s): "
-               "draw it smaller or in parts (--crop), lower quality.reflection_scale and refraction_scale, or "
-               "raise the limit (--memory GIB).",
-               f->width, f->height, taken, limit, f->desc->memory > 0 ? "as asked for" : "this machine's memory");
-}
-
-/* Beyond it, doubles no longer hold a time to a ten-millionth of a second. */
-static bool check_time(const struct frame *f, lom_error *error)
-{
-    static const double most = 1e9;
-    double fps = f->scene->output.fps, time = f->desc->frame / fps;
-    return (time >= -most && time <= most) ||
-           lom_fail(error, LOM_ERROR_LIMIT,
-                    "Frame %d is not within 1e9 seconds of the first at %g a second (output.fps).", f->desc->frame,
-                    fps);
-}
-
-static bool find_sizes(struct frame *f, lom_error *error)
-{
-    const lom_frame_desc *desc = f->desc;
-    f->width = desc->width != 0 ? desc->width : f->scene->output.width;
-    f->height = desc->height != 0 ? desc->height : f->scene->output.height;
-    f->crop = desc->crop.width != 0 ? desc->crop : (lom_rect){ 0, 0, f->width, f->height };
-    if (f->width < 1 || f->height < 1 || f->width > LOM_MAX_SIZE || f->height > LOM_MAX_SIZE || f->crop.x < 0 ||
-        f->crop.y < 0 || f->crop.width < 1 || f->crop.height < 1 || f->crop.x > f->width - f->crop.width ||
-        f->crop.y > f->height - f->crop.height)
-        return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
-                        f->crop.x, f->crop.y, f->crop.width, f->crop.height, f->width, f->height);
-    return check_time(f, error) && check_picture(f, error) && check_memory(f, error);
-}
-
 bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_error *error)
 {
     lom_float_state state;
     lom_enter_float_state(&state);
-    bool drawable = find_sizes(&(struct frame){ .scene = scene, .desc = desc != NULL ? desc : &defaults }, error);
+    bool drawable =
+        lom_find_frame_sizes(&(struct frame){ .scene = scene, .desc = desc != NULL ? desc : &defaults }, error);
     lom_leave_float_state(&state);
     return drawable;
 }
@@ -234,7 +158,7 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
                        .impostors = &out->impostors,
                        .spray = &out->spray };
     *out = (lom_frame){ .image = NULL };
-    bool drawn = find_sizes(&f, error) && draw_frame(&f, out, error);
+    bool drawn = lom_find_frame_sizes(&f, error) && draw_frame(&f, out, error);
     lom_leave_float_state(&state);
     return drawn;
 }

@@ -3,6 +3,7 @@
 #ifndef LOM_RENDER_FRAME_H
 #define LOM_RENDER_FRAME_H
 
+#include "render/plan.h"
 #include "render/renderer.h"
 
 struct frame {
@@ -26,10 +27,8 @@ struct frame {
     lom_spray_counters *spray;
 };
 
-/* Adds a step to the plan with its text; the caller sets the size of its target. A plan that is full keeps its last
- * step for all that follow. */
-lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+/* frame_size.c: sets width, height and crop by the description and the scene, or says why they cannot be. */
+bool lom_find_frame_sizes(struct frame *f, lom_error *error);
 
 /* A pass over the drawn part of the frame: this colour target and the frame's depth, both cleared unless the caller
  * asks to keep them. */

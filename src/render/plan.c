@@ -1,0 +1,29 @@
+/* The plan of a frame, made while it is drawn. In: which passes run or are left out, and why. Out: the steps, each told to
+ * whoever watches the frame when it begins. */
+#include "render/frame.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void lom_report_progress(const struct frame *f, const char *pass)
+{
+    if (f->desc->progress != NULL)
+        f->desc->progress(f->desc->progress_context, pass, f->done);
+}
+
+lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
+{
+    lom_plan *plan = f->plan;
+    int last = plan->count < LOM_MAX_STEPS ? plan->count : LOM_MAX_STEPS - 1;
+    lom_step *step = &plan->step[last];
+    va_list arguments;
+    plan->count = last + 1;
+    *step = (lom_step){ .runs = runs };
+    snprintf(step->name, sizeof step->name, "%s", name);
+    va_start(arguments, format);
+    vsnprintf(step->text, sizeof step->text, format, arguments);
+    va_end(arguments);
+    if (runs)
+        lom_report_progress(f, name);
+    return step;
+}
