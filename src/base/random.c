@@ -2,6 +2,7 @@
  * function of the two, so that any pixel, voxel or frame can be made alone and in any order. */
 #include <lom/base.h>
 
+#include "base/numbers.h"
 #include "philox.h"
 
 static void random_block(uint64_t key, uint64_t counter, uint64_t bits[2])
@@ -29,11 +30,10 @@ double lom_random_uniform(uint64_t key, uint64_t counter)
  * (0, 1], so that its logarithm is finite: |normal| <= sqrt(2 * 53 * ln 2) = 8.58. */
 void lom_random_normal(uint64_t key, uint64_t counter, double normal[2])
 {
-    static const double two_pi = 6.283185307179586;
     uint64_t bits[2];
     random_block(key, counter, bits);
     double u = (double)((bits[0] >> 11) + 1) * 0x1p-53;
-    double angle = two_pi * ((double)(bits[1] >> 11) * 0x1p-53);
+    double angle = lom_two_pi * ((double)(bits[1] >> 11) * 0x1p-53);
     double radius = lom_double_sqrt(-2.0 * lom_double_log(u));
     normal[0] = radius * lom_double_cos(angle);
     normal[1] = radius * lom_double_sin(angle);

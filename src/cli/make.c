@@ -1,6 +1,7 @@
 /* `lom make`. In: the name of an asset, or a kind of picture with its parameters; out: files. Invariant: every asset of
  * the project stands in the table below with all its parameters, and is a function of them, so `lom make all` gives the
  * committed files again byte for byte. */
+#include "base/numbers.h"
 #include "commands.h"
 #include "options.h"
 #include "paths.h"
@@ -15,8 +16,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <errno.h>
-
-static const double degree = 3.141592653589793 / 180.0;
 
 struct values {
     const char *output;
@@ -92,8 +91,8 @@ static bool make_sky_box(const recipe *r, const parameters *p, const char *path,
                         "back.",
                         path);
     lom_sky_box_desc desc = { .size = p->size,
-                              .sun_azimuth = p->azimuth * degree,
-                              .sun_elevation = p->elevation * degree,
+                              .sun_azimuth = p->azimuth * lom_radians_per_degree,
+                              .sun_elevation = p->elevation * lom_radians_per_degree,
                               .haziness = p->haziness,
                               .cloudiness = p->cloudiness,
                               .seed = p->seed };

@@ -1,9 +1,9 @@
 /* Clouds whose shapes change. In: fields of tiling noise, a time. Out: the noise that eats into them, and how far it
  * eats into each. Invariant: a closed form of the time; the noise has the same mean and variance at every time. */
+#include "base/numbers.h"
 #include "cloud/cloud_draw.h"
 #include "cloud/detail_noise.h"
 
-static const double two_pi = 6.283185307179586;
 enum { STEPS = 256 }; /* of a crossfade: finer ones change less than a step of 8 bits */
 
 double lom_cloud_phase_at(const lom_clouds *params, double time)
@@ -27,7 +27,7 @@ static double mean_of(const lom_image *noise)
  * field at every angle; both weights are positive within the quarter turn, so that hollows stay hollows. */
 static void mix_fields(const lom_image *a, const lom_image *b, double part, lom_image *out)
 {
-    double c = lom_double_cos(two_pi / 4 * part), s = lom_double_sin(two_pi / 4 * part);
+    double c = lom_double_cos(lom_two_pi / 4 * part), s = lom_double_sin(lom_two_pi / 4 * part);
     double m = mean_of(a), n = mean_of(b);
     for (size_t i = 0; i < lom_image_size(out); i++) {
         double value = m + (a->pixels[i] - m) * c + (b->pixels[i] - n) * s + 0.5;
@@ -42,7 +42,7 @@ static void swell(struct lom_cloud_set *set, double time)
         struct lom_placed_cloud *placed = &set->clouds[i];
         double turns = time / (2 * set->params->evolve) + lom_random_uniform(19, i);
         turns -= lom_double_floor(turns);
-        double detail = placed->cloud->detail * (1 - set->params->swell * lom_double_sin(two_pi * turns));
+        double detail = placed->cloud->detail * (1 - set->params->swell * lom_double_sin(lom_two_pi * turns));
         placed->detail = detail < 0.95 ? detail : 0.95;
     }
 }

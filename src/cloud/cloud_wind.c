@@ -1,8 +1,7 @@
 /* Clouds that move with the wind. In: the wind at heights, a time. Out: where each cloud is. Invariant: a closed form
  * of the time, so any frame alone has its clouds where a run has them. */
+#include "base/numbers.h"
 #include "cloud/cloud_draw.h"
-
-static const double two_pi = 6.283185307179586;
 
 /* The way in metres from time 0 on: speed t, and the integral of gust sin(two_pi t / gust_period). */
 static void find_way(const lom_cloud_wind *wind, double time, double way[2])
@@ -11,7 +10,7 @@ static void find_way(const lom_cloud_wind *wind, double time, double way[2])
     if (wind->gust > 0) {
         double turns = time / wind->gust_period;
         turns -= lom_double_floor(turns);
-        length += wind->gust * wind->gust_period / two_pi * (1 - lom_double_cos(two_pi * turns));
+        length += wind->gust * wind->gust_period / lom_two_pi * (1 - lom_double_cos(lom_two_pi * turns));
     }
     way[0] = length * lom_double_cos(wind->direction);
     way[1] = length * lom_double_sin(wind->direction);

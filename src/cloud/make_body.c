@@ -1,5 +1,6 @@
 /* Cumulus and cumulonimbus: heaps of bubbles (turrets that rise and narrow, a broad base) and an anvil, in metres. In:
  * a volume and a seed. Out: densities. Invariant: bubbles lie inside the box, with room for billows. */
+#include "base/numbers.h"
 #include "cloud/cloud_kinds.h"
 #include "cloud/shape.h"
 
@@ -123,7 +124,7 @@ static double uniform(uint64_t seed, uint64_t *counter)
 /* A turret from the base up; the middle ones are higher. */
 static void add_turret(struct lom_cloud_body *body, const struct recipe *r, int index, uint64_t seed, uint64_t *counter)
 {
-    double angle = 2.399963229728653 * index + 6.283185307179586 * uniform(seed, counter); /* about the golden angle */
+    double angle = 2.399963229728653 * index + lom_two_pi * uniform(seed, counter); /* about the golden angle */
     double along = lom_double_sqrt((index + 0.5 * uniform(seed, counter)) / r->turrets);
     double x = along * r->spread * r->size[0] / 2 * lom_double_cos(angle);
     double z = along * r->spread * r->size[2] / 2 * lom_double_sin(angle);
@@ -134,14 +135,14 @@ static void add_turret(struct lom_cloud_body *body, const struct recipe *r, int 
         double f = r->rise > 1 ? (double)k / (r->rise - 1) : 0;
         double radius = (r->low_radius + (r->high_radius - r->low_radius) * f) * (0.75 + 0.4 * uniform(seed, counter)) *
                         (1 - 0.25 * along);
-        double turn = 6.283185307179586 * uniform(seed, counter), off = 0.55 * radius * uniform(seed, counter);
+        double turn = lom_two_pi * uniform(seed, counter), off = 0.55 * radius * uniform(seed, counter);
         double y = r->body.base + 0.15 * radius + (height - radius) * f;
         add_bubble(body, r, x + lean_x * height * f * 0.5 + off * lom_double_cos(turn), y,
                    z + lean_z * height * f * 0.5 + off * lom_double_sin(turn), radius, 1);
     }
     for (int k = 0; k < 2; k++) { /* around its foot */
         double radius = 0.62 * r->low_radius * (0.7 + 0.6 * uniform(seed, counter));
-        double turn = 6.283185307179586 * uniform(seed, counter);
+        double turn = lom_two_pi * uniform(seed, counter);
         add_bubble(body, r, x + 1.1 * r->low_radius * lom_double_cos(turn), r->body.base + 0.1 * radius,
                    z + 1.1 * r->low_radius * lom_double_sin(turn), radius, 1.15);
     }

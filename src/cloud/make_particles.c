@@ -1,6 +1,7 @@
 /* Clouds of particles (clouds.md 1): each has a centre, a radius and a density, and adds it with a falloff: Gaussian
  * (puffs, Harris 2003, 3.1), or Wyvill, McPheeters and Wyvill 1986's polynomial, which is 0 from the radius on with a
  * slope of 0. In: a seed. Out: densities. Invariant: particles lie so that their radius stays inside the volume. */
+#include "base/numbers.h"
 #include "cloud/cloud_kinds.h"
 
 enum { PARTICLES = 48 };
@@ -15,7 +16,7 @@ static struct particle particle_of(uint64_t seed, uint64_t i, const double exten
     double u[6];
     for (int k = 0; k < 6; k++)
         u[k] = lom_random_uniform(seed, 6 * i + (uint64_t)k);
-    double angle = u[0] * 6.283185307179586, along = lom_double_sqrt(u[1]), height = u[2] * u[2];
+    double angle = u[0] * lom_two_pi, along = lom_double_sqrt(u[1]), height = u[2] * u[2];
     double shortest = extent[0] < extent[1] ? extent[0] : extent[1];
     shortest = extent[2] < shortest ? extent[2] : shortest;
     double reach = 1 - 0.65 * height;

@@ -1,9 +1,9 @@
 /* A touring aircraft of 8.1 m with a span of 10.4 m, its nose towards -z, its middle at the origin. In: nothing; out:
  * fuselage, wings and tail with the skin that lom_paint_livery paints, wheels in spats, a propeller that stands still.
  */
+#include "base/numbers.h"
 #include "geometry/model.h"
 
-static const double two_pi = 6.283185307179586;
 enum { STATIONS = 26, SLICES = 18, FOIL = 6, SPANS = 3 };
 
 /* Sections across the fuselage: z, half the width, the lowest and the highest point. */
@@ -46,7 +46,7 @@ static void build_fuselage(lom_mesh_builder *builder)
         double middle = (section[3] + section[2]) / 2, tall = (section[3] - section[2]) / 2;
         double v = 0.5 * (section[0] - hull[0][0]) / (hull[SECTIONS - 1][0] - hull[0][0]);
         for (int i = 0; i <= SLICES; i++) {
-            double angle = two_pi * i / SLICES;
+            double angle = lom_two_pi * i / SLICES;
             lom_vec3 p = { section[1] * bulge(lom_double_sin(angle)), middle - tall * bulge(lom_double_cos(angle)),
                            section[0] };
             next[i] = lom_builder_vertex(builder, p, (double)i / SLICES, 0.002 + v * 0.99);
@@ -164,7 +164,7 @@ static void build_propeller(lom_mesh_builder *builder)
                                         { { 0, -0.01, -3.68 }, 0.21 } };
     lom_model_tube(builder, spinner, 4, 14, (lom_model_map){ 0.23, 0.26, 0.01, 100 });
     for (int i = 0; i < 3; i++)
-        build_blade(builder, 0.5 + two_pi * i / 3);
+        build_blade(builder, 0.5 + lom_two_pi * i / 3);
 }
 
 void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed, lom_error *error)

@@ -1,9 +1,10 @@
 /* A clinker-built rowing boat of 4.2 m, its bow towards +x, afloat at y = 0. In: a seed for the oars; out: a hull of
  * six strakes with an inside, a sole above the water's surface (so that no lake shows in the boat), thwarts, ribs,
  * oars. */
+#include "base/numbers.h"
 #include "geometry/model.h"
 
-static const double half_pi = 1.5707963267948966, boat_length = 4.2;
+static const double boat_length = 4.2;
 enum { STATIONS = 20, STRAKES = 6 };
 
 /* A section across the boat: a quarter of an ellipse to each side, from the keel to the sheer. */
@@ -26,7 +27,7 @@ static section section_at(double t)
 /* A point of the section: q from 0 (keel) to 1 (sheer), hand -1 or 1, `out` metres outside the surface. */
 static lom_vec3 hull_point(section s, double q, int hand, double out)
 {
-    double angle = half_pi * q;
+    double angle = lom_pi / 2 * q;
     double c = lom_double_cos(angle), n = lom_double_sin(angle);
     return (lom_vec3){ s.x, s.sheer - (s.sheer - s.keel) * c - out * c, hand * (s.half_width * n + out * n) };
 }

@@ -1,5 +1,6 @@
 /* What people built at the lake: a jetty and a log cabin. In: a seed for what is uneven; out: closed pieces of wood and
  * stone. */
+#include "base/numbers.h"
 #include "geometry/model.h"
 
 /* ---- the jetty: 13 m from the land at the origin towards +x, its deck 0.55 m above the water ---- */
@@ -192,7 +193,7 @@ void lom_build_cabin(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
     build_roof(builder);
     build_chimney(builder);
     build_porch(builder);
-    const double quarter = 1.5707963267948966;
+    const double quarter = lom_pi / 2;
     build_window(builder, (lom_vec3){ -1.65, 1.55, half_z }, 0, 0.95, 0.85);
     build_window(builder, (lom_vec3){ 1.65, 1.55, half_z }, 0, 0.95, 0.85);
     build_window(builder, (lom_vec3){ half_x, 1.55, 0 }, quarter, 0.95, 0.85);

@@ -1,8 +1,7 @@
 /* Trees and reeds. In: a seed; out: a stem of bark and leaves of both sides. The normals of leaves point away from the
  * stem and up, so that a crown is shaded as one soft body. */
+#include "base/numbers.h"
 #include "geometry/model.h"
-
-static const double two_pi = 6.283185307179586;
 
 static lom_vec3 around(double angle, double height)
 {
@@ -72,17 +71,17 @@ void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed, lom_error *error
         double t = (i + lom_model_random(key, 900, -0.25, 0.25)) / whorls;
         double reach = 2.5 * (1 - t) * (1.12 - 0.3 * t) * (0.95 + 0.05 * lom_double_sin(23 * t + (double)seed)) + 0.25;
         int boughs = t < 0.75 ? 6 : 5;
-        double turn = two_pi * lom_model_random(key, 901, 0, 1);
+        double turn = lom_two_pi * lom_model_random(key, 901, 0, 1);
         for (int k = 0; k < boughs; k++) {
             uint64_t bough = key + (uint64_t)k + 1;
-            double angle = turn + two_pi * (k + lom_model_random(bough, 902, -0.25, 0.25)) / boughs;
+            double angle = turn + lom_two_pi * (k + lom_model_random(bough, 902, -0.25, 0.25)) / boughs;
             double length = reach * lom_model_random(bough, 903, 0.72, 1.12);
             double y = 0.7 + (height - 1.0) * t + lom_model_random(bough, 904, -0.22, 0.22);
             build_bough(builder, bough, (lom_vec3){ 0, y, 0 }, angle, length, -0.12 + 0.75 * t * t);
         }
     }
     for (int k = 0; k < 3; k++) {
-        double angle = two_pi * k / 3;
+        double angle = lom_two_pi * k / 3;
         lom_model_leaf top = { .foot = { 0, height - 0.75, 0 },
                                .along = { 0, 1, 0 },
                                .side = { lom_double_cos(angle), 0, lom_double_sin(angle) },
@@ -175,7 +174,7 @@ void lom_build_reeds(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
                tilt = lom_model_random(seed, key + 2, 0.04, 0.26);
         double length = lom_model_random(seed, key + 3, 1.3, 2.3) * (1.1 - 0.25 * distance);
         lom_vec3 along = lom_vec3_normalize((lom_vec3){ tilt * lom_double_cos(lean), 1, tilt * lom_double_sin(lean) });
-        double face = lom_model_random(seed, key + 4, 0, two_pi);
+        double face = lom_model_random(seed, key + 4, 0, lom_two_pi);
         lom_vec3 side = { lom_double_cos(face), 0, lom_double_sin(face) };
         lom_model_material(builder, "reed", 0.08, 20);
         lom_model_leaf leaf = { .foot = foot,

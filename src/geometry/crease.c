@@ -1,6 +1,7 @@
 /* Normals by crease angle. In: the triangles of a builder. Out: a normal for each corner: the sum of the unit normals
  * of the triangles at its position that are within the angle of its own. Summed in the order of the triangles, so that
  * all corners that see the same triangles get the same bits. Compiled for speed. */
+#include "base/numbers.h"
 #include "builder.h"
 
 #include <string.h>
@@ -132,7 +133,7 @@ static void fill_normals(struct crease *crease, double angle, float (*normals)[3
 {
     const struct lom_mesh_builder *builder = crease->builder;
     /* 1e-9 below the cosine: triangles of one plane stay together whatever their rounding */
-    double least_cosine = angle >= 3.1415926535897931 ? -2 : lom_double_cos(angle < 0 ? 0 : angle) - 1e-9;
+    double least_cosine = angle >= lom_pi ? -2 : lom_double_cos(angle < 0 ? 0 : angle) - 1e-9;
     collect(crease);
     find_faces(crease);
     for (size_t k = 0; k < builder->triangle_count; k++)

@@ -1,5 +1,6 @@
 /* Coasts. In: a name, a seed. Out: a height map of a square of 400 m whose black is 20 m below the sea and whose white
  * is 44 m above it; z grows down the picture. A height is a function of the place alone. */
+#include "base/numbers.h"
 #include "noise.h"
 
 #include <lom/geometry.h>
@@ -29,7 +30,7 @@ static double beach(double d, double slope)
 static double ripples(const lom_noise *noise, double x, double z)
 {
     double phase = (z + bend(noise, x, z, 9, 3)) / 1.9;
-    return 0.035 * lom_double_sin(6.283185307179586 * phase) + bend(noise, x, z, 5, 0.12);
+    return 0.035 * lom_double_sin(lom_two_pi * phase) + bend(noise, x, z, 5, 0.12);
 }
 
 /* A rock that rises from the bed: a bump of this radius and height, broken by ridges. */
@@ -44,11 +45,6 @@ static double rock(const lom_noise *noise, double x, double z, double at_x, doub
     return height * (bump * (0.45 + 0.75 * ridge) + 0.35 * (ridge - 0.5)) - 4;
 }
 
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 /* Land to the north, a bay of clear shallow water before it, a reef, then the deep. */
 static double lagoon(const lom_noise *noise, double x, double z)
 {
@@ -58,12 +54,12 @@ static double lagoon(const lom_noise *noise, double x, double z)
     double out = lom_smooth_step(285, 380, z + bend(noise, x, z, 80, 30));
     double reef = lom_double_exp(-(z - 292) * (z - 292) / 250) * (3.2 + bend(noise, x, z, 12, 3));
     bed = lom_mix_double(bed, -17, out) + reef * (1 - out) * lom_smooth_step(60, 150, d);
-    double coral = larger(0, bend(noise, x + 90, z, 7, 3) - 0.75) * 2.0 * lom_smooth_step(40, 90, d);
+    double coral = lom_larger(0, bend(noise, x + 90, z, 7, 3) - 0.75) * 2.0 * lom_smooth_step(40, 90, d);
     bed += coral + ripples(noise, x, z) * lom_smooth_step(-2, 3, d);
     bed += lom_smooth_step(-25, -75, d) * (10 + bend(noise, x, z, 45, 16));
-    bed = larger(bed, rock(noise, x, z, 120, 196, 13, 9));
-    bed = larger(bed, rock(noise, x, z, 146, 212, 6, 5));
-    return larger(bed, rock(noise, x, z, 300, 172, 17, 13));
+    bed = lom_larger(bed, rock(noise, x, z, 120, 196, 13, 9));
+    bed = lom_larger(bed, rock(noise, x, z, 146, 212, 6, 5));
+    return lom_larger(bed, rock(noise, x, z, 300, 172, 17, 13));
 }
 
 /* A beach that faces the open sea in the south, between two headlands of rock. */
@@ -77,9 +73,9 @@ static double cove(const lom_noise *noise, double x, double z)
     double west = lom_smooth_step(110, 20, x + bend(noise, x, z, 60, 30)) * lom_smooth_step(330, 230, z);
     double east = lom_smooth_step(300, 385, x + bend(noise, z, x, 60, 26)) * lom_smooth_step(300, 190, z);
     bed += (west + east) * (6 + 34 * ridge);
-    bed = larger(bed, rock(noise, x, z, 152, 196, 8, 7));
-    bed = larger(bed, rock(noise, x, z, 164, 206, 5, 6));
-    return larger(bed, rock(noise, x, z, 258, 202, 10, 9));
+    bed = lom_larger(bed, rock(noise, x, z, 152, 196, 8, 7));
+    bed = lom_larger(bed, rock(noise, x, z, 164, 206, 5, 6));
+    return lom_larger(bed, rock(noise, x, z, 258, 202, 10, 9));
 }
 
 /* A river through woods: it winds from the north to the south between banks, over gravel. */
@@ -89,7 +85,7 @@ static double river(const lom_noise *noise, double x, double z)
     double half = 11 + bend(noise, 90, z, 40, 6), off = x - middle, away = off < 0 ? -off : off;
     double bank = away - half + bend(noise, x, z, 12, 3.5);
     double bed = -1.9 + 1.3 * (away / half) * (away / half) + bend(noise, x, z, 6, 0.7);
-    double land = 1.4 + 0.05 * larger(bank, 0) + bend(noise, x, z, 40, 3) * lom_smooth_step(0, 25, bank);
+    double land = 1.4 + 0.05 * lom_larger(bank, 0) + bend(noise, x, z, 40, 3) * lom_smooth_step(0, 25, bank);
     double hills = lom_smooth_step(50, 170, bank) * (16 + bend(noise, x, z, 70, 26));
     return lom_mix_double(bed < 0.2 ? bed : 0.2, land + hills, lom_smooth_step(-2.5, 3.5, bank));
 }
@@ -105,10 +101,10 @@ static double falls(const lom_noise *noise, double x, double z)
     double worn = lom_double_exp(-away * away / 90), mouth = lom_double_exp(-away * away / 18);
     double rim = 174 + 0.0095 * (x - 197) * (x - 197) + bend(noise, x, z * 0.5, 48, 12) - 11 * worn;
     double d = rim - z + (ribs - 0.5) * 10 * (1 - 0.8 * worn) + bend(noise, x, z, 7, 1.8) * (1 - 0.6 * worn);
-    double ledge = (1 - worn) * larger(0, 2.5 + bend(noise, x, z, 22, 9)), step = 8 + 5 * ribs;
+    double ledge = (1 - worn) * lom_larger(0, 2.5 + bend(noise, x, z, 22, 9)), step = 8 + 5 * ribs;
     double low = lom_smooth_step(0, 2.8, d), high = lom_smooth_step(2.8 + ledge, 6 + ledge, d);
-    double shelf = (1 - worn) * larger(0, 2 + bend(noise, x + 70, z, 19, 8)), third = 6 + ledge + shelf;
-    double top = 17 + bend(noise, x, z, 30, 3) * (1 - worn) + 0.1 * larger(d - 8, 0);
+    double shelf = (1 - worn) * lom_larger(0, 2 + bend(noise, x + 70, z, 19, 8)), third = 6 + ledge + shelf;
+    double top = 17 + bend(noise, x, z, 30, 3) * (1 - worn) + 0.1 * lom_larger(d - 8, 0);
     double crown = (1 - worn) * (4 + 9 * lom_ridged2(noise, x / 60 + 6.5, z / 60 + 2.5, octaves)) + 6 * worn;
     double notch = (3 + bend(noise, x, z, 5, 1.5)) * mouth;
     double wall = low * step + high * (top - step) + lom_smooth_step(third, third + 2.6, d) * (crown - notch);
@@ -119,7 +115,7 @@ static double falls(const lom_noise *noise, double x, double z)
     double ground =
         shore < 0 ? -2.6 * (1 - lom_double_exp(shore / 5)) - 0.35 : -0.35 + 0.24 * shore + 0.0035 * shore * shore;
     ground = ground < 12 ? ground : 12 + 0.2 * (ground - 12);
-    double gravel = larger(0, bend(noise, x + 50, z, 4.5, 2.2) - 0.1) * lom_smooth_step(-5, 3, shore);
+    double gravel = lom_larger(0, bend(noise, x + 50, z, 4.5, 2.2) - 0.1) * lom_smooth_step(-5, 3, shore);
     return ground + 0.55 * gravel + bend(noise, x, z, 2.6, 0.3) + lom_smooth_step(-0.5, 0.5, d) * wall;
 }
 

@@ -1,10 +1,9 @@
 /* Pieces of which things are built. In: sizes and a texture's place; out: triangles in a mesh builder. Invariant: every
  * piece is closed, or has both its sides. */
+#include "base/numbers.h"
 #include "geometry/model.h"
 
 #include <string.h>
-
-static const double two_pi = 6.283185307179586;
 
 void lom_model_material(lom_mesh_builder *builder, const char *name, double specular, double shininess)
 {
@@ -92,7 +91,7 @@ static void ring_vertices(lom_mesh_builder *builder, const lom_model_ring *ring,
     lom_vec3 x, y;
     frame_across(along, &x, &y);
     for (int i = 0; i <= slices; i++) {
-        double angle = i == slices ? 0 : two_pi * i / slices;
+        double angle = i == slices ? 0 : lom_two_pi * i / slices;
         double c = ring->radius * lom_double_cos(angle), s = ring->radius * lom_double_sin(angle);
         lom_vec3 p = lom_vec3_add(ring->center, lom_vec3_add(lom_vec3_scale(x, c), lom_vec3_scale(y, s)));
         vertices[i] = lom_builder_vertex(builder, p, lom_mix_double(map.u0, map.u1, (double)i / slices), v);

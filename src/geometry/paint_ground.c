@@ -1,8 +1,7 @@
 /* What covers the ground. In: a canvas; out: its colours: grass, the crowns of a forest seen from afar, rock, a pebble
  * shore, snow. Sizes are in parts of the picture, so that another size shows the same. */
+#include "base/numbers.h"
 #include "geometry/canvas.h"
-
-static const double two_pi = 6.283185307179586;
 
 /* fBm over the picture, `cells` lattice cells a side. */
 static double cloudy(const lom_canvas *c, int x, int y, int cells, int count, double shift)
@@ -28,7 +27,7 @@ void lom_paint_grass(lom_canvas *c)
     double unit = c->size / 512.0;
     for (unsigned i = 0; i < 30000; i++) {
         double x = lom_canvas_random(c, 1, i) * c->size, y = lom_canvas_random(c, 2, i) * c->size;
-        double angle = two_pi * lom_canvas_random(c, 3, i), tone = lom_canvas_random(c, 4, i);
+        double angle = lom_two_pi * lom_canvas_random(c, 3, i), tone = lom_canvas_random(c, 4, i);
         double patch = cloudy(c, lom_int_of(x), lom_int_of(y), 4, 4, 0.7),
                age = cloudy(c, lom_int_of(x), lom_int_of(y), 6, 3, 0.1);
         lom_tint tip = lom_mix_tint(fresh, dry, 1.3 * age + 0.5 * tone - 0.05);
@@ -53,7 +52,7 @@ static void paint_crown(lom_canvas *c, double x, double y, double radius, double
                    larch = lom_tint_of(100, 104, 54);
     lom_tint lit = lom_mix_tint(spruce, larch, tone * tone);
     int reach = lom_int_of(radius) + 2;
-    double turn = two_pi * lom_canvas_random(c, 9, which);
+    double turn = lom_two_pi * lom_canvas_random(c, 9, which);
     for (int b = -reach; b <= reach; b++)
         for (int a = -reach; a <= reach; a++) {
             double distance = lom_double_sqrt((double)(a * a + b * b));

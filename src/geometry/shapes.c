@@ -1,5 +1,7 @@
 /* Simple shapes around the origin. In: sizes in metres and resolutions. Out: meshes with exact normals and uv,
  * counter-clockwise from outside; where a shape closes, its two ends have the same bits. */
+#include "base/numbers.h"
+
 #include <lom/geometry.h>
 
 enum { RESOLUTION_LIMIT = 4096 };
@@ -22,7 +24,7 @@ static bool check_shape(bool sizes_good, int columns, int least_columns, int row
 
 static lom_vec3 circle(int i, int count)
 {
-    double angle = 2 * 3.14159265358979323846 * (i % count) / count;
+    double angle = lom_two_pi * (i % count) / count;
     return (lom_vec3){ lom_double_cos(angle), 0, lom_double_sin(angle) };
 }
 

@@ -1,8 +1,8 @@
 /* Cameras: view and projection matrices, the frustum and boxes against it. In: cameras in metres and radians. Out:
  * matrices to clip space (design: 0 <= z <= w, reversed depth; or OpenGL's) and a conservative visibility. */
-#include <lom/geometry.h>
+#include "base/numbers.h"
 
-static const double PI = 3.14159265358979323846;
+#include <lom/geometry.h>
 
 /* ---- views ---- */
 
@@ -38,7 +38,7 @@ static bool positive(double x)
 
 static bool valid_view(double field_of_view, double aspect, double near_plane)
 {
-    return field_of_view > 0 && field_of_view < PI && positive(aspect) && positive(near_plane);
+    return field_of_view > 0 && field_of_view < lom_pi && positive(aspect) && positive(near_plane);
 }
 
 /* cot(angle / 2) by sine and cosine, so that it stays finite up to pi. */

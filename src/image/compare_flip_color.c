@@ -1,13 +1,13 @@
 /* The colour mathematics of LDR FLIP (Andersson et al. 2020). In: samples, filtered colours, feature differences. Out:
  * linear light, opponent colours, perceived colours, the error of a pixel. Invariant: all constants follow from the
  * paper's numbers and the sRGB primaries by arithmetic in double. Compiled for speed. */
+#include "base/numbers.h"
 #include "compare_flip.h"
 #include "convert.h"
 
 #include <string.h>
 
 static const double pixels_per_degree = 67;
-static const double pi = 3.14159265358979323846;
 
 /* ---- constants ---- */
 
@@ -53,14 +53,14 @@ static double make_gaussian(double scale, int radius, double weight[LOM_FLIP_TAP
  * a sqrt(pi / b) times the square of its sum in one dimension. */
 static void make_contrast_filters(lom_flip_constants *constants)
 {
-    const double degrees = pixels_per_degree * pixels_per_degree / (pi * pi); /* b to square pixels */
+    const double degrees = pixels_per_degree * pixels_per_degree / (lom_pi * lom_pi); /* b to square pixels */
     const double a[2] = { 34.1, 13.5 }, b[2] = { 0.04, 0.025 };
     make_gaussian(0.0047 * degrees, LOM_FLIP_RADIUS, constants->luminance);
     make_gaussian(0.0053 * degrees, LOM_FLIP_RADIUS, constants->red_green);
     double *share = constants->blue_yellow_share;
     for (int i = 0; i < 2; i++) {
         double sum = make_gaussian(b[i] * degrees, LOM_FLIP_RADIUS, constants->blue_yellow[i]);
-        share[i] = a[i] * __builtin_sqrt(pi / b[i]) * sum * sum;
+        share[i] = a[i] * __builtin_sqrt(lom_pi / b[i]) * sum * sum;
     }
     double total = share[0] + share[1];
     share[0] /= total;

@@ -1,6 +1,7 @@
 /* A picture of the differences. In: two images of any sizes. Out: an image as large as both. Invariant: a pixel is
  * black where both are equal, at least 64 in a channel where they differ, and OUTSIDE, which is neither, where one has
  * none. Compiled for speed. */
+#include "base/numbers.h"
 #include "compare.h"
 
 #include <string.h>
@@ -26,11 +27,6 @@ static void shade_pixel(const lom_common_format *common, const double *a, const 
     }
 }
 
-static int larger(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error *error)
 {
     lom_common_format common;
@@ -39,9 +35,10 @@ lom_image *lom_compare_picture(const lom_image *a, const lom_image *b, lom_error
     int width = a->width < b->width ? a->width : b->width, height = a->height < b->height ? a->height : b->height;
     size_t row_a = (size_t)a->width * (size_t)common.channels, row_b = (size_t)b->width * (size_t)common.channels;
     double *rows = lom_allocate(row_a + row_b, sizeof *rows, error);
-    lom_image *picture = rows == NULL ? NULL
-                                      : lom_create_image(larger(a->width, b->width), larger(a->height, b->height),
-                                                         larger(a->depth, b->depth), LOM_FORMAT_RGB8, error);
+    lom_image *picture =
+        rows == NULL ? NULL
+                     : lom_create_image(lom_larger_int(a->width, b->width), lom_larger_int(a->height, b->height),
+                                        lom_larger_int(a->depth, b->depth), LOM_FORMAT_RGB8, error);
     if (picture == NULL) {
         lom_release(rows);
         return NULL;

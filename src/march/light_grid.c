@@ -1,6 +1,7 @@
 /* The grid of light. In: a density, the sun's direction. Out: for each voxel how much of the sun, the sky and the
  * ground it sees. Invariant: the sweep's arithmetic is the same at every width; sky and ground do not depend on the
  * sun. */
+#include "base/numbers.h"
 #include "march/light_grid.h"
 
 #include "base/own_float_state.h"
@@ -113,7 +114,7 @@ static void repeat_borders(lom_light_grid *g)
 {
     for (int z = 0; z <= g->depth; z++)
         for (int y = 0; y <= g->height; y++) {
-            int from_z = at_most(z, g->depth - 1), from_y = at_most(y, g->height - 1);
+            int from_z = lom_smaller_int(z, g->depth - 1), from_y = lom_smaller_int(y, g->height - 1);
             int32_t *row = g->light + cell_index(g->width, g->height, 0, y, z);
             if (from_z != z || from_y != y)
                 memcpy(row, g->light + cell_index(g->width, g->height, 0, from_y, from_z),
@@ -135,11 +136,6 @@ struct sweep {
     size_t pitch; /* of the rows in a slab */
 };
 
-static double magnitude(double x)
-{
-    return x < 0 ? -x : x;
-}
-
 static void plan_sweep(const lom_light_grid *g, const lom_light_desc *desc, struct sweep *s)
 {
     *s = (struct sweep){ .size = { g->width, g->height, g->depth } };
@@ -147,17 +143,17 @@ static void plan_sweep(const lom_light_grid *g, const lom_light_desc *desc, stru
     for (int i = 0; i < 3; i++)
         along[i] = (double)desc->to_light[i] * s->size[i] / (double)desc->size[i];
     for (int i = 1; i < 3; i++)
-        if (magnitude(along[i]) > magnitude(along[s->axis]))
+        if (lom_magnitude(along[i]) > lom_magnitude(along[s->axis]))
             s->axis = i;
     s->across[0] = s->axis == 0 ? 1 : 0;
     s->across[1] = s->axis == 2 ? 1 : 2;
     s->from_high = along[s->axis] > 0;
-    s->thickness = 1 / magnitude(along[s->axis]);
+    s->thickness = 1 / lom_magnitude(along[s->axis]);
     s->slab = s->axis == 0 ? LOM_SLAB : 1;
     s->pitch = lom_slab_pitch(s->size[s->across[0]]);
     for (int i = 0; i < 2; i++) {
         s->shear[i] = -along[s->across[i]] * s->thickness;
-        s->rays[i] = s->size[s->across[i]] + lom_int_of(magnitude(s->shear[i]) * (s->size[s->axis] - 1)) + 3;
+        s->rays[i] = s->size[s->across[i]] + lom_int_of(lom_magnitude(s->shear[i]) * (s->size[s->axis] - 1)) + 3;
     }
 }
 
@@ -297,7 +293,7 @@ bool lom_sweep_sun_by(lom_slice_sweep *sweep, lom_light_grid *grid, const lom_li
                                    .share_pitch = s.pitch };
         start_rays(&s, desc, buffers.carried);
         for (int k = 0, n = s.size[s.axis]; k < n; k += s.slab)
-            sweep_slab(sweep, grid, &s, &slice, &buffers, k, at_most(s.slab, n - k));
+            sweep_slab(sweep, grid, &s, &slice, &buffers, k, lom_smaller_int(s.slab, n - k));
         repeat_borders(grid);
     }
     free_buffers(&buffers);

@@ -1,6 +1,7 @@
 /* Media for marching. In: densities of 8 or 16 bits or floats. Out: cells with the four corners of a slice side by
  * side, how far each cell is from one that holds anything, and how sharply the density bends. Invariant: a cell of
  * distance above 0 has eight corners of density 0. */
+#include "base/numbers.h"
 #include "base/own_float_state.h"
 #include "march/cells.h"
 
@@ -17,8 +18,8 @@ void lom_free_medium(lom_medium *medium)
 
 static uint32_t value_at(const lom_image *image, int x, int y, int z)
 {
-    const void *p = lom_image_pixel(image, at_most(x, image->width - 1), at_most(y, image->height - 1),
-                                    at_most(z, image->depth - 1));
+    const void *p = lom_image_pixel(image, lom_smaller_int(x, image->width - 1), lom_smaller_int(y, image->height - 1),
+                                    lom_smaller_int(z, image->depth - 1));
     if (image->format == LOM_FORMAT_R8)
         return 257u * *(const uint8_t *)p;
     if (image->format == LOM_FORMAT_R16)
@@ -46,11 +47,6 @@ static void store_corners(lom_medium *m, const lom_image *image)
     }
 }
 
-static int magnitude(int value)
-{
-    return value < 0 ? -value : value;
-}
-
 /* The corner (0, 0) of a cell, and (1, 0); of word 1 (0, 1) and (1, 1). */
 static int low(int32_t word)
 {
@@ -65,10 +61,10 @@ static int high(int32_t word)
 /* The largest mixed second difference of a cell: over two of its axes, at any of its corners. */
 static int mixed_difference(const int32_t *near, const int32_t *far)
 {
-    int most = magnitude(low(near[0]) - high(near[0]) - low(near[1]) + high(near[1]));
-    int other = magnitude(low(near[0]) - high(near[0]) - low(far[0]) + high(far[0]));
+    int most = lom_magnitude_int(low(near[0]) - high(near[0]) - low(near[1]) + high(near[1]));
+    int other = lom_magnitude_int(low(near[0]) - high(near[0]) - low(far[0]) + high(far[0]));
     most = other > most ? other : most;
-    other = magnitude(low(near[0]) - low(near[1]) - low(far[0]) + low(far[1]));
+    other = lom_magnitude_int(low(near[0]) - low(near[1]) - low(far[0]) + low(far[1]));
     return other > most ? other : most;
 }
 
@@ -88,7 +84,7 @@ static float find_bend(const lom_medium *m)
                 most_mixed = mixed > most_mixed ? mixed : most_mixed;
                 for (int a = 0; a < 3; a++) {
                     int before = at[a] > 0 ? low(cell[-2 * (ptrdiff_t)stride[a]]) : low(cell[0]);
-                    int along = magnitude(before - 2 * low(cell[0]) + low(cell[2 * stride[a]]));
+                    int along = lom_magnitude_int(before - 2 * low(cell[0]) + low(cell[2 * stride[a]]));
                     most_along = along > most_along ? along : most_along;
                 }
             }

@@ -1,5 +1,6 @@
 /* Slabs of slices across x of a grid of light. In: voxels in the order of the grid, x first; out: the same with y
  * first, and back, by blocks of 8 x 8. Invariant: values are moved, none is changed. */
+#include "base/numbers.h"
 #include "march/light_grid.h"
 
 #include "base/shuffle.h"
@@ -33,11 +34,11 @@ void lom_read_slab(const lom_light_grid *g, int first, int count, uint16_t *slab
             for (int y = 0; y < g->height; y += BLOCK) {
                 eight row[BLOCK];
                 for (int i = 0; i < BLOCK; i++) {
-                    size_t from = (size_t)z * (size_t)g->height + (size_t)at_most(y + i, g->height - 1);
+                    size_t from = (size_t)z * (size_t)g->height + (size_t)lom_smaller_int(y + i, g->height - 1);
                     memcpy(&row[i], g->density + from * (size_t)g->width + (size_t)(first + x), sizeof row[i]);
                 }
                 transpose(row);
-                for (int i = 0; i < at_most(BLOCK, count - x); i++)
+                for (int i = 0; i < lom_smaller_int(BLOCK, count - x); i++)
                     memcpy(slab + (size_t)(x + i) * slice + (size_t)z * pitch + (size_t)y, &row[i], sizeof row[i]);
             }
 }
@@ -52,7 +53,7 @@ void lom_write_slab(lom_light_grid *g, int first, int count, const uint16_t *sha
                 for (int i = 0; i < BLOCK; i++)
                     memcpy(&row[i], shares + (size_t)(x + i) * slice + (size_t)z * pitch + (size_t)y, sizeof row[i]);
                 transpose(row);
-                for (int i = 0; i < at_most(BLOCK, g->height - y); i++) {
+                for (int i = 0; i < lom_smaller_int(BLOCK, g->height - y); i++) {
                     uint16_t share[BLOCK];
                     int32_t *light = g->light + cell_index(g->width, g->height, first + x, y + i, z);
                     memcpy(share, &row[i], sizeof share);

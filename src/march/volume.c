@@ -1,6 +1,7 @@
 /* Volumes for marching. In: an image of colour and density; out: cells with their eight corners side by side, and how
  * far each cell is from the nearest one that holds anything. Invariant: a distance is exact or capped at 255, so a
  * cell nearer than it to this one is empty. */
+#include "base/numbers.h"
 #include "base/own_float_state.h"
 #include "march/cells.h"
 
@@ -23,8 +24,8 @@ static size_t place(const lom_volume *volume, int x, int y, int z)
 
 static uint32_t voxel(const lom_image *image, int x, int y, int z)
 {
-    const uint8_t *p = lom_image_pixel(image, at_most(x, image->width - 1), at_most(y, image->height - 1),
-                                       at_most(z, image->depth - 1));
+    const uint8_t *p = lom_image_pixel(image, lom_smaller_int(x, image->width - 1),
+                                       lom_smaller_int(y, image->height - 1), lom_smaller_int(z, image->depth - 1));
     if (image->format == LOM_FORMAT_R8)
         return (uint32_t)p[0] << 24 | 0xffffff;
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
@@ -47,7 +48,8 @@ static void store_colors(lom_volume *volume, const lom_image *image)
 
 static uint32_t density_at(const lom_volume *volume, int x, int y, int z)
 {
-    size_t at = place(volume, at_most(x, volume->width), at_most(y, volume->height), at_most(z, volume->depth));
+    size_t at = place(volume, lom_smaller_int(x, volume->width), lom_smaller_int(y, volume->height),
+                      lom_smaller_int(z, volume->depth));
     return (uint32_t)volume->color[at] >> 24;
 }
 

@@ -2,6 +2,7 @@
  * random path for each ray, and what it lets through. Clouds are followed one by one from near to far: each scatters
  * the sun, the sky and the ground, and its own light alone. The noise that models add below the size of a voxel is no
  * part of the volume. */
+#include "base/numbers.h"
 #include "cloud/cloud_draw.h"
 #include "reference/reference.h"
 
@@ -111,9 +112,8 @@ static lom_vec3 surroundings(const void *context, lom_vec3 direction)
 static lom_vec3 before(const lom_reference *reference, const struct lom_ray_cloud *cloud, const struct lom_ray *inner,
                        double enter, double far, lom_vec3 light)
 {
-    const double pi = 3.141592653589793;
     const lom_clouds *all = &reference->scene->clouds;
-    lom_vec3 sun = scaled(reference->light, pi * all->brightness);
+    lom_vec3 sun = scaled(reference->light, lom_pi * all->brightness);
     lom_reference_light around = { .to_sun = turned(cloud, reference->to_light),
                                    .sun = { sun.x, sun.y, sun.z },
                                    .context = all,

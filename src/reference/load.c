@@ -1,5 +1,6 @@
 /* Loading a scene for the reference. In: a world. Out: materials and pictures, the ground's layers, the sky, the water:
  * what does not move. */
+#include "base/numbers.h"
 #include "reference/reference.h"
 
 #include "base/reserve.h"
@@ -76,7 +77,7 @@ static bool load_ground(lom_reference *reference, lom_error *error)
         done = load_layer(reference, layer, t->layers[i].map, true, t->layers[i].tile, error);
         layer->below = 1;
         if (done && t->layers[i].grain != 0 && below >= 0)
-            layer->below = at_least(lom_mean_brightness(&reference->pictures[below].picture), 1e-3);
+            layer->below = lom_larger(lom_mean_brightness(&reference->pictures[below].picture), 1e-3);
         below = layer->picture;
     }
     return done;

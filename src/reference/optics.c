@@ -1,5 +1,6 @@
 /* Reflection and refraction at a smooth boundary. In: directions, normals, relative indices. Out: the reflected share,
  * mirrored and refracted directions. */
+#include "base/numbers.h"
 #include "reference/vectors.h"
 
 #include <lom/reference.h>
@@ -37,7 +38,7 @@ lom_vec3 lom_reference_mirror(lom_vec3 d, lom_vec3 n)
 
 bool lom_reference_refract(lom_vec3 d, lom_vec3 n, double index, lom_vec3 *out)
 {
-    double in_front = at_most(at_least(-dot(d, n), 0), 1);
+    double in_front = lom_smaller(lom_larger(-dot(d, n), 0), 1);
     if (!is_index(index))
         return false;
     if (index == 1) {

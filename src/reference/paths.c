@@ -1,6 +1,7 @@
 /* Light through a volume by random paths. In: a volume, the light around it, a ray. Out: the mean radiance of many
  * paths with its standard error. Every random number is a function of the key, the path, the scattering and its place
  * among that scattering's numbers. */
+#include "base/numbers.h"
 #include "reference/volume.h"
 
 struct numbers {
@@ -45,7 +46,7 @@ static lom_vec3 turn(lom_vec3 d, double cosine, double uniform)
 {
     double sign = d.z < 0 ? -1 : 1, a = -1 / (sign + d.z), b = d.x * d.y * a;
     lom_vec3 x = { 1 + sign * d.x * d.x * a, sign * b, -sign * d.x }, y = { b, sign + d.y * d.y * a, -d.y };
-    double sine = lom_double_sqrt(at_least((1 - cosine) * (1 + cosine), 0)), angle = 6.283185307179586 * uniform;
+    double sine = lom_double_sqrt(lom_larger((1 - cosine) * (1 + cosine), 0)), angle = lom_two_pi * uniform;
     lom_vec3 across = along(scaled(x, sine * lom_double_cos(angle)), y, sine * lom_double_sin(angle));
     return unit(along(across, d, cosine));
 }
@@ -62,7 +63,7 @@ static lom_vec3 sunlight(const lom_reference_volume *v, const lom_reference_ligh
 
 static double greatest_of(lom_vec3 a)
 {
-    return at_least(a.x, at_least(a.y, a.z));
+    return lom_larger(a.x, lom_larger(a.y, a.z));
 }
 
 static lom_vec3 follow(const lom_reference_volume *v, const lom_reference_light *light, const lom_volume_rays *rays,
@@ -123,7 +124,7 @@ bool lom_trace_volume(const lom_reference_volume *volume, const lom_reference_li
     const double sums[3] = { total.x, total.y, total.z }, square_sums[3] = { squares.x, squares.y, squares.z };
     for (int i = 0; i < 3; i++) {
         double mean = sums[i] / rays->paths;
-        double variance = at_least(square_sums[i] / rays->paths - mean * mean, 0);
+        double variance = lom_larger(square_sums[i] / rays->paths - mean * mean, 0);
         out->scattered[i] = mean;
         out->error[i] = rays->paths > 1 ? lom_double_sqrt(variance / (rays->paths - 1)) : 0;
     }

@@ -1,5 +1,6 @@
 /* Phase functions. In: a kind and a cosine, or random numbers. Out: densities over the sphere, and cosines drawn from
  * them by inversion. */
+#include "base/numbers.h"
 #include "reference/vectors.h"
 
 #include <lom/reference.h>
@@ -8,7 +9,7 @@ static const double FOUR_PI = 12.566370614359172;
 
 static double bounded(double g)
 {
-    return at_most(at_least(g, -0.999), 0.999);
+    return lom_smaller(lom_larger(g, -0.999), 0.999);
 }
 
 static double henyey_greenstein(double g, double cosine)
@@ -38,14 +39,14 @@ static double draw_henyey_greenstein(double g, double u)
     if (__builtin_fabs(g) < 1e-6)
         return 2 * u - 1;
     double root = (1 - g * g) / (1 - g + 2 * g * u);
-    return at_most(at_least((1 + g * g - root * root) / (2 * g), -1), 1);
+    return lom_smaller(lom_larger((1 + g * g - root * root) / (2 * g), -1), 1);
 }
 
 /* The root of c^3 + 3 c = 8 u - 4 by Cardano: a - 1/a with a^3 = q + sqrt(q^2 + 1), q = 4 u - 2. */
 static double draw_rayleigh(double u)
 {
     double q = 4 * u - 2, a = lom_double_cbrt(q + lom_double_sqrt(q * q + 1));
-    return at_most(at_least(a - 1 / a, -1), 1);
+    return lom_smaller(lom_larger(a - 1 / a, -1), 1);
 }
 
 double lom_phase_cosine(const lom_reference_phase *phase, double uniform, double choice)

@@ -1,5 +1,6 @@
 /* A loaded scene at a time. In: a world, a time. Out: the light then, and all triangles in the world, in double, with
  * what their corners carry. */
+#include "base/numbers.h"
 #include "reference/reference.h"
 
 static lom_vec3 vector(const double v[3])
@@ -125,7 +126,7 @@ static void set_light(lom_reference *reference)
     if (!water || reference->own_water)
         return;
     lom_vec3 lit =
-        along(reference->ambient, reference->light, at_least(reference->to_light.y, 0)); /* a white surface */
+        along(reference->ambient, reference->light, lom_larger(reference->to_light.y, 0)); /* a white surface */
     const double white[3] = { lit.x, lit.y, lit.z };
     for (int i = 0; i < 3; i++)
         reference->water.color[i] = optics->scatter[i] * white[i];

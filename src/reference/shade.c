@@ -1,6 +1,7 @@
 /* What an opaque surface sends back along a ray. In: a hit. Out: radiance by Phong's reflection of the scene's
  * directional light and ambient light (pipeline specification, lighting and materials), the terrain with its layers;
  * the sky in a direction. */
+#include "base/numbers.h"
 #include "reference/reference.h"
 
 static lom_vec3 product(lom_vec3 a, lom_vec3 b)
@@ -119,7 +120,8 @@ static lom_vec3 reflect_light(const struct incident *in, const struct lom_ray_ma
 {
     double facing = dot(normal, in->to_light);
     lom_vec3 ambient = along(in->ground, difference(in->ambient, in->ground), 0.5 + 0.5 * normal.y);
-    lom_vec3 textured = sum(product(ambient, m->ambient), scaled(product(in->light, m->diffuse), at_least(facing, 0)));
+    lom_vec3 textured =
+        sum(product(ambient, m->ambient), scaled(product(in->light, m->diffuse), lom_larger(facing, 0)));
     lom_vec3 color = product(textured, albedo);
     double mirrored = dot(lom_reference_mirror(scaled(in->to_light, -1), normal), to_eye);
     if (facing > 0 && mirrored > 0)
@@ -141,8 +143,8 @@ static lom_vec3 sample_sides(const lom_reference *reference, const struct lom_ra
                              lom_vec3 n)
 {
     const struct lom_picture *picture = &reference->pictures[layer->picture].picture;
-    const double share[3] = { at_least(n.x * n.x - 0.2, 0), at_least(n.y * n.y - 0.2, 0),
-                              at_least(n.z * n.z - 0.2, 0) };
+    const double share[3] = { lom_larger(n.x * n.x - 0.2, 0), lom_larger(n.y * n.y - 0.2, 0),
+                              lom_larger(n.z * n.z - 0.2, 0) };
     const double s[3] = { place.z, place.x, place.x }, t[3] = { -place.y, place.z, -place.y };
     double whole = share[0] + share[1] + share[2];
     lom_vec3 color = { 0, 0, 0 };
@@ -156,7 +158,7 @@ static lom_vec3 sample_sides(const lom_reference *reference, const struct lom_ra
 /* 1 inside [from, to], falling to 0 over `blend` outside it, linearly. */
 static double range_weight(double x, double from, double to, double blend)
 {
-    blend = at_least(blend, 1e-3);
+    blend = lom_larger(blend, 1e-3);
     return unit_interval(1 + (x - from) / blend) * unit_interval(1 + (to - x) / blend);
 }
 

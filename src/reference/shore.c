@@ -1,6 +1,7 @@
 /* Surf and shallow water for rays. In: the scene's [surf] and [shallow], its terrain, a time. Out: heights and slopes
  * in double. Invariant: a place is read from the maps and the cells that every model of water draws; the slope of surf
  * is that of its height, not the models' k times the wave's own change. */
+#include "base/numbers.h"
 #include "reference/waves.h"
 
 #include "waves/shallow_surface.h"
@@ -38,7 +39,7 @@ static bool make_shallow(struct lom_wave_surface *surface, const struct lom_wave
 
 static double finer(double shortest, double length)
 {
-    return shortest == 0 ? length : at_most(shortest, length);
+    return shortest == 0 ? length : lom_smaller(shortest, length);
 }
 
 bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *reference, double time, double *shortest,

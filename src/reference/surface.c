@@ -1,5 +1,6 @@
 /* The water's surface. In: rays, places, times. Out: where a ray crosses the surface, the normal and the depth there. A
  * plane is met exactly; any other height field by equal steps with bisection at the first change of side. */
+#include "base/numbers.h"
 #include "reference/waves.h"
 
 static bool has_water(const lom_reference_water *w)
@@ -27,7 +28,7 @@ double lom_water_above(const lom_reference *reference, lom_vec3 place, double ti
     const lom_reference_water *w = &reference->water;
     if (!lom_is_over_water(reference, place) || place.y >= w->highest)
         return 0;
-    return at_least(height_at(w, place.x, place.z, time) - place.y, 0);
+    return lom_larger(height_at(w, place.x, place.z, time) - place.y, 0);
 }
 
 /* ---- crossing ---- */
@@ -38,8 +39,8 @@ static bool cut_interval(double origin, double direction, double from, double to
     if (direction == 0)
         return origin >= from && origin <= to;
     double a = (from - origin) / direction, b = (to - origin) / direction;
-    *low = at_least(a < b ? a : b, *low);
-    *high = at_most(a < b ? b : a, *high);
+    *low = lom_larger(a < b ? a : b, *low);
+    *high = lom_smaller(a < b ? b : a, *high);
     return *low <= *high;
 }
 
@@ -89,7 +90,7 @@ static bool hit_field(const lom_reference_water *w, const struct lom_ray *ray, d
     bool own_side = (above(w, ray, time, low) > 0) != from_below;
     double last = low;
     for (int i = 1; i < STEPS && last < high; i++) {
-        double next = at_most(low + i * w->step, high);
+        double next = lom_smaller(low + i * w->step, high);
         bool there = (above(w, ray, time, next) > 0) != from_below;
         if (own_side && !there) {
             *t = bisect(w, ray, time, last, next, !from_below);

@@ -1,6 +1,7 @@
 /* The nearest triangle of a ray. In: triangles in the world. Out: a hierarchy of boxes; hits with barycentric
  * coordinates. Invariant: the hierarchy only leaves out what cannot be hit, so the answer is that of trying them all.
  */
+#include "base/numbers.h"
 #include "reference/triangles.h"
 
 /* Below depth HALVING the triangles are halved by number, so that no tree is deeper than HALVING + 32. */
@@ -22,8 +23,8 @@ struct builder {
 static void widen(struct box *box, const struct box *other)
 {
     for (int i = 0; i < 3; i++) {
-        box->low[i] = at_most(other->low[i], box->low[i]);
-        box->high[i] = at_least(other->high[i], box->high[i]);
+        box->low[i] = lom_smaller(other->low[i], box->low[i]);
+        box->high[i] = lom_larger(other->high[i], box->high[i]);
     }
 }
 

@@ -56,16 +56,6 @@ static inline lom_vec3 blended(lom_vec3 a0, lom_vec3 a1, lom_vec3 a2, const doub
                        a0.z * b[0] + a1.z * b[1] + a2.z * b[2] };
 }
 
-static inline double at_most(double x, double limit)
-{
-    return x < limit ? x : limit;
-}
-
-static inline double at_least(double x, double limit)
-{
-    return x > limit ? x : limit;
-}
-
 /* x clamped to [0, 1]; 0 for NaN. */
 static inline double unit_interval(double x)
 {

@@ -1,5 +1,6 @@
 /* Volumes of density: made from voxels, met by rays, and integrated along them. In: an image, rays. Out: extinction and
  * optical depths. */
+#include "base/numbers.h"
 #include "reference/volume.h"
 
 #include "base/own_float_state.h"
@@ -63,7 +64,7 @@ lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_des
     double most = 0;
     for (size_t i = 0; i < count; i++) {
         v->density[i] = read_voxel(d->density, i);
-        most = at_least(v->density[i], most);
+        most = lom_larger(v->density[i], most);
     }
     v->greatest = most * d->extinction;
     for (int i = 0; i < 3; i++)
@@ -91,8 +92,8 @@ bool lom_cross_volume(const lom_reference_volume *v, lom_vec3 origin, lom_vec3 d
             continue;
         }
         double a = (v->low[i] - o[i]) / direction[i], b = (v->high[i] - o[i]) / direction[i];
-        *from = at_least(a < b ? a : b, *from);
-        *to = at_most(a < b ? b : a, *to);
+        *from = lom_larger(a < b ? a : b, *from);
+        *to = lom_smaller(a < b ? b : a, *to);
     }
     return *from < *to;
 }
@@ -100,7 +101,7 @@ bool lom_cross_volume(const lom_reference_volume *v, lom_vec3 origin, lom_vec3 d
 /* The voxel below a place along an axis, in units of voxels from the first centre, and the weight of the next. */
 static int find_voxel(double at, int size, double *weight)
 {
-    double place = at_most(at_least(at, 0), size - 1);
+    double place = lom_smaller(lom_larger(at, 0), size - 1);
     int voxel = lom_int_of(place);
     voxel = voxel < size - 1 ? voxel : size - 1;
     *weight = place - voxel;
@@ -174,7 +175,7 @@ static struct walk begin_walk(const lom_reference_volume *v, lom_vec3 origin, lo
             continue;
         }
         double at = w.start[i] + from * w.step[i], passed = w.step[i] > 0 ? at : v->size[i] - 1 - at;
-        w.next[i] = lom_int_of(at_most(at_least(passed, 0), v->size[i]));
+        w.next[i] = lom_int_of(lom_smaller(lom_larger(passed, 0), v->size[i]));
         while (w.next[i] < v->size[i] && crossing(&w, i, w.next[i]) <= from)
             w.next[i]++;
     }

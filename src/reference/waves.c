@@ -2,11 +2,12 @@
  * surf and shallow water. Out: its surface as triangles for rays, with exact normals. A point at rest at (x, z) is
  * displaced by
  * (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH 1986). */
+#include "base/numbers.h"
 #include "reference/waves.h"
 
 #include "waves/waves.h"
 
-static const double TURN = 6.283185307179586, SPACING = 0.006;
+static const double SPACING = 0.006;
 
 static struct lom_wave_place displace(const struct lom_wave_surface *surface, double x, double z)
 {
@@ -61,9 +62,9 @@ static bool find_waves(struct lom_wave_surface *surface, const lom_reference *re
         const struct lom_trochoid_uniform *t = &waves.trochoid[i];
         double number = lom_double_sqrt((double)t->kx * t->kx + (double)t->kz * t->kz);
         surface->wave[i] = (struct lom_ray_wave){ t->kx, t->kz, t->phase, t->amplitude, t->across_x, t->across_z };
-        greatest = at_least(number, greatest);
+        greatest = lom_larger(number, greatest);
     }
-    *shortest = greatest > 0 ? TURN / greatest : 0;
+    *shortest = greatest > 0 ? lom_two_pi / greatest : 0;
     return (surface->count > 0 || lom_make_ray_sea(surface, water, time, shortest, error)) &&
            lom_make_ray_shore(surface, reference, time, shortest, error);
 }
@@ -76,21 +77,23 @@ struct mesh {
 
 static double next_radius(const struct mesh *mesh, double radius)
 {
-    return radius + at_least(mesh->fine, radius * SPACING);
+    return radius + lom_larger(mesh->fine, radius * SPACING);
 }
 
 static struct mesh plan_mesh(const lom_reference_water *water, lom_vec3 eye, double shortest)
 {
-    struct mesh mesh = { .columns = lom_int_of(TURN / SPACING), .fine = shortest / 12, .middle = { eye.x, eye.z } };
+    struct mesh mesh = { .columns = lom_int_of(lom_two_pi / SPACING),
+                         .fine = shortest / 12,
+                         .middle = { eye.x, eye.z } };
     double far = 0;
     for (int i = 0; i < 2; i++) {
         mesh.low[i] = water->low[i];
         mesh.high[i] = water->high[i];
         double a = mesh.middle[i] - mesh.low[i], b = mesh.high[i] - mesh.middle[i];
-        double away = at_least(__builtin_fabs(a), __builtin_fabs(b));
+        double away = lom_larger(__builtin_fabs(a), __builtin_fabs(b));
         far += away * away;
     }
-    mesh.fine = at_least(mesh.fine, 1e-6 * lom_double_sqrt(far));
+    mesh.fine = lom_larger(mesh.fine, 1e-6 * lom_double_sqrt(far));
     for (double radius = mesh.fine / 4; radius < lom_double_sqrt(far); radius = next_radius(&mesh, radius))
         mesh.rings++;
     mesh.rings += 2;
@@ -103,11 +106,11 @@ static void place_points(struct lom_wave_surface *surface, const struct mesh *me
     for (int ring = 0; ring < mesh->rings; ring++, radius = next_radius(mesh, radius))
         for (int column = 0; column < mesh->columns; column++) {
             size_t i = (size_t)ring * (size_t)mesh->columns + (size_t)column;
-            double angle = TURN * column / mesh->columns;
+            double angle = lom_two_pi * column / mesh->columns;
             double x = mesh->middle[0] + radius * lom_double_cos(angle);
             double z = mesh->middle[1] + radius * lom_double_sin(angle);
-            x = at_most(at_least(x, mesh->low[0]), mesh->high[0]);
-            z = at_most(at_least(z, mesh->low[1]), mesh->high[1]);
+            x = lom_smaller(lom_larger(x, mesh->low[0]), mesh->high[0]);
+            z = lom_smaller(lom_larger(z, mesh->low[1]), mesh->high[1]);
             struct lom_wave_place p = displace(surface, x, z);
             surface->rest[i][0] = x;
             surface->rest[i][1] = z;

@@ -1,5 +1,6 @@
 /* The scene itself in a pass. In: how the pass looks at it. Out: draws of terrain blocks, entities and sky; what lies
  * outside the view or wholly behind the clip plane is left out, which changes no pixel. Compiled for speed. */
+#include "base/numbers.h"
 #include "render/renderer.h"
 
 struct lom_light_uniform lom_scene_light(const lom_scene *scene)
@@ -70,11 +71,6 @@ lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view)
     return lom_multiply(projection, &turned);
 }
 
-static double magnitude(double x)
-{
-    return x < 0 ? -x : x;
-}
-
 /* Whether the highest value of the clip plane over the box, seen from the eye, is below 0 by more than floats round. */
 static bool is_behind_plane(const double plane[4], lom_vec3 eye, const lom_box *box)
 {
@@ -83,11 +79,11 @@ static bool is_behind_plane(const double plane[4], lom_vec3 eye, const lom_box *
     double value = plane[3], size = 0;
     for (int i = 0; i < 3; i++)
         value += plane[i] * from[i];
-    size = magnitude(value);
+    size = lom_magnitude(value);
     for (int i = 0; i < 3; i++) {
         double term = plane[i] * ((plane[i] > 0 ? high[i] : low[i]) - from[i]);
         value += term;
-        size += magnitude(term);
+        size += lom_magnitude(term);
     }
     return value < -0x1p-20 * size;
 }

@@ -1,10 +1,9 @@
 /* The camera, the light and the entities at a time. In: the scene's key frames and a time. Out: position, target and
  * angle; direction and colour; position and rotation. Invariant: functions of the time alone. */
+#include "base/numbers.h"
 #include "scene/key_frames.h"
 
 #include <lom/scene.h>
-
-static const double radians_per_degree = 0.017453292519943295;
 
 lom_entity_place lom_scene_entity_at(const lom_entity *entity, double time)
 {
@@ -71,7 +70,8 @@ static void follow_keys(const lom_camera *camera, double time, lom_camera_view *
                     time, v);
     view->position = (lom_vec3){ v[0], v[1], v[2] };
     view->target = (lom_vec3){ v[3], v[4], v[5] };
-    double least = 0.01 * radians_per_degree, greatest = 179 * radians_per_degree; /* a smooth curve may overshoot */
+    double least = 0.01 * lom_radians_per_degree,
+           greatest = 179 * lom_radians_per_degree; /* a smooth curve may overshoot */
     view->field_of_view = v[6] < least ? least : v[6] > greatest ? greatest : v[6];
 }
 

@@ -1,11 +1,10 @@
 /* From the tree of TOML values to structs, by the tables of keys. In: values and a table. Out: a filled struct, or an
  * error that names the place. Invariant: every member the table describes holds a value inside its range. */
+#include "base/numbers.h"
 #include "scene/reader.h"
 
 #include <string.h>
 #include <sys/stat.h>
-
-static const double radians_per_degree = 0.017453292519943295;
 
 static void *member(void *target, size_t offset)
 {
@@ -68,7 +67,7 @@ static bool in_range(const lom_key *key, double number)
 
 static double to_member(const lom_key *key, double number)
 {
-    return key->type == LOM_KEY_ANGLE ? number * radians_per_degree : number;
+    return key->type == LOM_KEY_ANGLE ? number * lom_radians_per_degree : number;
 }
 
 static bool read_number(lom_reader *reader, const lom_key *key, const lom_toml_value *value, double *target)

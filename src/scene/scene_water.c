@@ -1,4 +1,5 @@
 /* The site of a scene's waves. In: the scene, its bed. Out: what the waves are made from. */
+#include "base/numbers.h"
 #include "scene/scene_water.h"
 
 /* An entity's -z is ahead, turned by its yaw from +x towards -z. */
@@ -8,7 +9,7 @@ static void follow(const void *context, size_t followed, double time, double pla
     lom_entity_place at = lom_scene_entity_at(&scene->entities[followed - 1], time);
     place[0] = at.position.x;
     place[1] = at.position.z;
-    *heading = -1.5707963267948966 - at.rotation.y;
+    *heading = -lom_pi / 2 - at.rotation.y;
 }
 
 struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, const struct lom_bed *bed)

@@ -2,6 +2,7 @@
  * al. 1993) along rays from sea level; because heights decide everything, the light arriving at a point of a ray
  * depends on its height alone, and a table over the ray's elevation holds all integrals (coefficients: Bruneton, Neyret
  * 2008). Invariant: what is scattered out of the sun's light is never more than that light. */
+#include "base/numbers.h"
 #include "sky/atmosphere.h"
 
 #include "geometry/noise.h"
@@ -10,7 +11,6 @@ static const double planet = 6360e3, top = 6420e3;                    /* radii, 
 static const double air_scattering[3] = { 5.8e-6, 13.5e-6, 33.1e-6 }; /* 1/m at 680, 550, 440 nm, at sea level */
 static const double haze_scattering = 4.0e-6, air_height = 8000, haze_height = 1200; /* 1/m; scale heights, m */
 static const double ozone_absorption[3] = { 0.650e-6, 1.881e-6, 0.085e-6 };
-static const double pi = 3.141592653589793;
 
 typedef struct densities {
     double air, haze, ozone;
@@ -100,9 +100,9 @@ void lom_atmosphere_at(const lom_atmosphere *atmosphere, lom_vec3 direction, dou
     const double g = 0.78; /* Henyey and Greenstein's asymmetry of haze */
     const lom_vec3 sun = atmosphere->sun;
     double cosine = lom_clamp_double(direction.x * sun.x + direction.y * sun.y + direction.z * sun.z, -1, 1);
-    double air_phase = 3.0 / (16.0 * pi) * (1.0 + cosine * cosine);
+    double air_phase = 3.0 / (16.0 * lom_pi) * (1.0 + cosine * cosine);
     double base = 1.0 + g * g - 2.0 * g * cosine;
-    double haze_phase = (1.0 - g * g) / (4.0 * pi * base * lom_double_sqrt(base));
+    double haze_phase = (1.0 - g * g) / (4.0 * lom_pi * base * lom_double_sqrt(base));
     double sine = lom_clamp_double(direction.y, 0, 1);
     double place = LOM_SKY_STEPS * lom_double_sqrt(sine);
     for (int k = 0; k < 3; k++) {

@@ -1,6 +1,7 @@
 /* A sky box. In: where the sun stands, how hazy and cloudy it is, a seed; out: six pictures that meet, because each
  * pixel is a function of its direction alone. Clear sky by scattering, fair-weather clouds above the horizon and thin
  * cirrus by noise on the sphere of directions, exposed, and rounded to 8 bits with a dither against bands. */
+#include "base/numbers.h"
 #include "base/range.h"
 #include "geometry/noise.h"
 #include "sky/atmosphere.h"
@@ -177,7 +178,7 @@ static lom_image *paint_face(const painter *p, int face, int size, lom_error *er
 static void measure_horizon(painter *p)
 {
     for (int i = 0; i < 16; i++) {
-        double angle = 6.283185307179586 * i / 16;
+        double angle = lom_two_pi * i / 16;
         double radiance[3];
         lom_atmosphere_at(&p->atmosphere, (lom_vec3){ 0.9 * lom_double_cos(angle), 0.436, 0.9 * lom_double_sin(angle) },
                           radiance);

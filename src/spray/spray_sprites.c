@@ -5,6 +5,7 @@
  * `stretch` seconds: what it covers is spread over that area, so the share that it takes of a pixel falls with it. A
  * sprite is at least a pixel to each side of its middle, and thinner ones lose opacity instead of size: they neither
  * sparkle nor vanish between the pixels' centres. */
+#include "base/numbers.h"
 #include "spray/spray.h"
 
 /* Drops in front of the sun throw most of its light forward: the phase function of Henyey and Greenstein (1941) with
@@ -16,11 +17,6 @@ static const double least_opacity = 1.0 / 4096;
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
 }
 
 /* An isotropic scatterer sends a quarter of what a white wall does: pi E / (4 pi) against E. */
@@ -44,7 +40,7 @@ static double find_axes(const struct lom_spray_view *view, const double away[3],
         for (int i = 0; i < 3; i++)
             along[i] = view->view.m[1][i] - ahead * away[i];
     }
-    double length = larger(lom_double_sqrt(dot(along, along)), 1e-30);
+    double length = lom_larger(lom_double_sqrt(dot(along, along)), 1e-30);
     for (int i = 0; i < 3; i++)
         along[i] /= length;
     for (int i = 0; i < 3; i++) {
@@ -99,11 +95,11 @@ static void add_sprite(struct lom_sprites *sprites, const lom_spray *spray, cons
 {
     const struct place p = place_of(view, particle->place);
     double radius = spray->size[0] + (spray->size[1] - spray->size[0]) * particle->share;
-    double distance = larger(lom_double_sqrt(dot(p.offset, p.offset)), 1e-6), along[3], across[3];
+    double distance = lom_larger(lom_double_sqrt(dot(p.offset, p.offset)), 1e-6), along[3], across[3];
     const double away[3] = { p.offset[0] / distance, p.offset[1] / distance, p.offset[2] / distance };
     double length = radius + find_axes(view, away, particle->velocity, along, across) * spray->stretch / 2;
-    double pixel = 2 * larger(p.w, view->near_plane) / (view->projection.m[1][1] * view->height);
-    double wide = larger(radius, pixel), high = larger(length, pixel);
+    double pixel = 2 * lom_larger(p.w, view->near_plane) / (view->projection.m[1][1] * view->height);
+    double wide = lom_larger(radius, pixel), high = lom_larger(length, pixel);
     double opacity = spray->opacity * particle->alpha * (radius / wide) * (radius / high);
     double reach = wide + high;
     if (opacity < least_opacity || is_outside(view, &p, reach))

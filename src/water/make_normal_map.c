@@ -1,6 +1,7 @@
 /* The water's normal map, and the flow map made from it. In: a size and a seed; out: RGB pictures that repeat without a
  * seam. Invariant: the surface is a finite sum of waves whose lengths divide the side of the picture, its slope is the
  * exact derivative of that sum, and nothing but rounding to 8 bits is lost. */
+#include "base/numbers.h"
 #include "base/range.h"
 #include "geometry/noise.h"
 
@@ -137,7 +138,7 @@ lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error
     lom_enter_float_state(&state);
     if (s.cosine && s.slopes && s.spectrum && s.slope[0] && s.slope[1]) {
         for (int i = 0; i < s.size; i++)
-            s.cosine[i] = lom_double_cos(6.283185307179586 * i / s.size);
+            s.cosine[i] = lom_double_cos(lom_two_pi * i / s.size);
         fill_spectrum(&s, desc->seed);
         sum_waves(&s);
         map = paint_normals(&s, desc->roughness > 0 ? desc->roughness : 0.42, error);

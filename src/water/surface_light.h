@@ -9,6 +9,7 @@
 #ifndef LOM_WATER_SURFACE_LIGHT_H
 #define LOM_WATER_SURFACE_LIGHT_H
 
+#include "base/numbers.h"
 #include "water/optics.h"
 #include "water/surface.h"
 
@@ -324,13 +325,13 @@ LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const st
     lom_mask bright = square < 40.0f;
     if (!lom_any(bright))
         return none;
-    lom_float density = lom_exp(-0.5f * square) / (6.2831855f * lom_sqrt(determinant));
+    lom_float density = lom_exp(-0.5f * square) / ((float)lom_two_pi * lom_sqrt(determinant));
     lom_float variance = 0.5f * (vxx + vzz);
     lom_float seen = lom_max(lom_dot3(p->normal, p->to_eye), lom_splat(0.02f));
     lom_float lit = lom_max(lom_dot3(p->normal, sun), lom_splat(1e-3f));
     lom_float shadow = 1.0f / (1.0f + lom_smith_lambda(seen, variance) + lom_smith_lambda(lit, variance));
     lom_float f = lom_surface_fresnel(u, lom_dot3(h, p->to_eye)), square_y = hy * hy;
-    lom_float radiance = 3.1415927f * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
+    lom_float radiance = (float)lom_pi * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
     radiance = lom_select(bright, lom_min(radiance, lom_splat(1e4f)), (lom_float){ 0 });
     return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->offset));
 }
@@ -348,7 +349,7 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
         lom_float further = lom_picture_w(u, &u->behind, own.x, own.y) / p->w - 1.0f;
         lom_float depth = lom_max(further, (lom_float){ 0 }) * -p->offset.y;
         lom_float band = lom_saturate(1.0f - lom_abs(depth) / foam->shore_depth);
-        lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - 6.2831855f * foam->move);
+        lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - (float)lom_two_pi * foam->move);
         cover = cover + band * band * (0.55f + 0.45f * lines);
     }
     if (!lom_any(cover > 0.0f))

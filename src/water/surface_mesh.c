@@ -4,14 +4,10 @@
  * With h the eye's height and d the distance to a ring, vertices a cell apart on the screen are cell d apart on the
  * ring. Between rings they are as far, times 1 + (d / flat)^2: at the distance `flat` waves are a pixel high, and
  * beyond it only their shading shows. */
+#include "base/numbers.h"
 #include "water/surface.h"
 
 enum { MAX_RINGS = 4096, MAX_COLUMNS = 8192, MAX_VERTICES = 3000000 };
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 /* The directions of the view's corners in the plane, as angles about the middle one; whether the view reaches straight
  * up or down, where every direction is seen. */
@@ -36,12 +32,12 @@ static struct sector find_sector(const struct lom_polar_mesh_desc *desc)
         double along = (x * s.forward[0] + z * s.forward[1]) / flat;
         double across = (z * s.forward[0] - x * s.forward[1]) / flat;
         double angle = lom_double_atan2(across, along);
-        s.half = larger(s.half, angle < 0 ? -angle : angle);
+        s.half = lom_larger(s.half, angle < 0 ? -angle : angle);
     }
     s.half += 0.02;
     s.whole |= s.half > 1.4;
-    s.forward[0] /= larger(flat, 1e-9);
-    s.forward[1] /= larger(flat, 1e-9);
+    s.forward[0] /= lom_larger(flat, 1e-9);
+    s.forward[1] /= lom_larger(flat, 1e-9);
     return s;
 }
 
@@ -71,7 +67,7 @@ static int count_rings(const struct spacing *s)
 /* The distance from the apex to the far corner of the quad. */
 static double far_corner(const double apex[2], const double quad[4])
 {
-    double x = larger(quad[2] - apex[0], apex[0] - quad[0]), z = larger(quad[3] - apex[1], apex[1] - quad[1]);
+    double x = lom_larger(quad[2] - apex[0], apex[0] - quad[0]), z = lom_larger(quad[3] - apex[1], apex[1] - quad[1]);
     return lom_double_sqrt(x * x + z * z);
 }
 
@@ -122,16 +118,16 @@ static bool reserve(struct lom_polar_mesh *mesh, lom_error *error)
 bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error)
 {
     struct sector s = find_sector(desc);
-    double wave = larger(desc->highest, -desc->lowest), height = -desc->level, near = desc->near_plane;
+    double wave = lom_larger(desc->highest, -desc->lowest), height = -desc->level, near = desc->near_plane;
     struct spacing space = { .cell = desc->cell * desc->pixel_angle,
-                             .height = larger(larger(height < 0 ? -height : height, 0.3 * wave), 2 * near),
-                             .flat = larger(wave, 0.01 * near) / desc->pixel_angle };
+                             .height = lom_larger(lom_larger(height < 0 ? -height : height, 0.3 * wave), 2 * near),
+                             .flat = lom_larger(wave, 0.01 * near) / desc->pixel_angle };
     /* Behind the eye by so much, the sector holds everything that waves can move into the view. */
     space.back = s.whole ? 0 : (desc->reach + wave + 5 * near) / lom_double_sin(s.half);
     mesh->apex[0] = -space.back * s.forward[0];
     mesh->apex[1] = -space.back * s.forward[1];
     space.far = far_corner(mesh->apex, desc->quad);
-    double sector = s.whole ? 6.283185307179586 : 2 * s.half;
+    double sector = s.whole ? lom_two_pi : 2 * s.half;
     for (;; space.cell *= 1.25) {
         mesh->rings = count_rings(&space);
         mesh->columns = 2 + lom_int_of(sector / space.cell < MAX_COLUMNS ? sector / space.cell : MAX_COLUMNS);

@@ -1,6 +1,7 @@
 /* Plans of transforms and running them over threads. In: a size, then planes; out: the planes transformed. Invariant:
  * every table is exact to a rounding (cosines of angles in the first octant, mirrored); a group of columns or rows is
  * transformed by one worker, so threads change no bit. Compiled for speed. */
+#include "base/numbers.h"
 #include "waves/fft_plan.h"
 
 #include "base/threads.h"
@@ -8,8 +9,6 @@
 #include "pipeline/device.h"
 
 #include <stdatomic.h>
-
-static const double two_pi = 6.283185307179586;
 
 enum { GROUP = LOM_FFT_PAIR, PADDING = 16 };
 
@@ -30,7 +29,7 @@ static void turn_of(int j, int n, float turn[2])
     int64_t rest = (int64_t)j * 8 - (int64_t)octant * n; /* eighths of a turn times n */
     if (octant & 1)
         rest = n - rest;
-    double angle = two_pi / 8 * ((double)rest / (double)n);
+    double angle = lom_two_pi / 8 * ((double)rest / (double)n);
     double c = lom_double_cos(angle), s = lom_double_sin(angle);
     double x = ((octant + 1) & 2) != 0 ? s : c, y = ((octant + 1) & 2) != 0 ? c : s;
     if (octant >= 2 && octant < 6)

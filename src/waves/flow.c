@@ -1,5 +1,6 @@
 /* A field of flow. In: depths on a grid. Out: velocities. Method: successive over-relaxation (Young 1954) in a fixed
  * order and number of sweeps, so that the field is a function of the depths. */
+#include "base/numbers.h"
 #include "waves/flow.h"
 
 enum { SWEEPS = 600 };
@@ -96,7 +97,7 @@ lom_image *lom_make_flow(const double *depth, int size, double direction, lom_er
             double along = ((x - middle) * f.direction[0] + (y - middle) * f.direction[1]) / size;
             f.pressure[y * size + x] = is_border(&f, x, y) ? border_pressure(&f, x, y) : 0.5 - along;
         }
-    double factor = 2 / (1 + 6.283185307179586 / (2 * size)); /* the best of a square of that size */
+    double factor = 2 / (1 + lom_two_pi / (2 * size)); /* the best of a square of that size */
     for (int sweep = 0; out != NULL && sweep < SWEEPS; sweep++)
         for (int y = 1; y < size - 1; y++)
             for (int x = 1; x < size - 1; x++)

@@ -1,19 +1,18 @@
 /* Making a sea. In: its description; out: the amplitudes and frequencies of every wave of every cascade. Invariant: an
  * amplitude is a function of the spectrum, the seed, the patch and (n, m) alone; rows are made by any worker. */
+#include "base/numbers.h"
 #include "pipeline/check_device.h"
 #include "waves/sea_state.h"
 
 #include "base/threads.h"
 #include "pipeline/device.h"
 
-static const double two_pi = 6.283185307179586;
-
 void lom_wave_amplitude(const lom_sea *sea, int cascade, int n, int m, double amplitude[2])
 {
     const lom_cascade_desc *c = &sea->desc.cascade[cascade];
-    double step = two_pi / c->length, k = step * lom_double_sqrt((double)n * n + (double)m * m);
+    double step = lom_two_pi / c->length, k = step * lom_double_sqrt((double)n * n + (double)m * m);
     amplitude[0] = amplitude[1] = 0;
-    if ((n == 0 && m == 0) || k * c->longest <= two_pi || k * c->shortest > two_pi)
+    if ((n == 0 && m == 0) || k * c->longest <= lom_two_pi || k * c->shortest > lom_two_pi)
         return;
     double variance = lom_directional_spectrum(&sea->spectrum, step * n, step * m) * step * step;
     if (!(variance > 0))
@@ -43,7 +42,7 @@ static void make_row(const struct making *making, int row)
     const lom_sea *sea = making->sea;
     struct lom_cascade *c = making->cascade;
     int size = c->view.size, m = row < size / 2 ? row : row - size;
-    double step = two_pi / c->view.length, *sums = making->sums + 4 * (size_t)row;
+    double step = lom_two_pi / c->view.length, *sums = making->sums + 4 * (size_t)row;
     size_t pitch = lom_fft_pitch(size / 2), plane = pitch * (size_t)size;
     for (int n = 0; n < size / 2 && m != -size / 2; n++) {
         double there[2], back[2], kx = step * n, kz = step * m;
@@ -57,9 +56,9 @@ static void make_row(const struct making *making, int row)
         double k2 = kx * kx + kz * kz;
         sums[3] += (magnitude(there) + magnitude(back)) * (n > 0 ? 2 : 1);
         c->turns[(size_t)row * pitch + (size_t)n] =
-            lom_dispersion(lom_double_sqrt(k2), sea->spectrum.depth, sea->spectrum.gravity) / two_pi;
-        if (k2 * c->view.longest * c->view.longest > two_pi * two_pi &&
-            k2 * c->view.shortest * c->view.shortest <= two_pi * two_pi) {
+            lom_dispersion(lom_double_sqrt(k2), sea->spectrum.depth, sea->spectrum.gravity) / lom_two_pi;
+        if (k2 * c->view.longest * c->view.longest > lom_two_pi * lom_two_pi &&
+            k2 * c->view.shortest * c->view.shortest <= lom_two_pi * lom_two_pi) {
             double variance = lom_directional_spectrum(&sea->spectrum, kx, kz);
             if (n > 0)
                 variance += lom_directional_spectrum(&sea->spectrum, -kx, -kz);

@@ -1,9 +1,8 @@
 /* The description of a sea. In: what a user or a scene gave; out: every default filled in and every range checked. */
+#include "base/numbers.h"
 #include "base/double_parts.h"
 #include "base/range.h"
 #include "waves/sea_desc.h"
-
-static const double pi = 3.141592653589793;
 
 /* 0 becomes `initial`; everything else has to be finite and within low .. high. */
 static bool resolve_number(double *value, double initial, double low, double high, const char *what, lom_error *error)
@@ -87,7 +86,7 @@ bool lom_resolve_sea(const lom_sea_desc *desc, lom_sea_desc *resolved, lom_error
     lom_wave_spectrum spectrum = lom_sea_spectrum(&sea);
     double length = 350;
     if (spectrum.peak > 0)
-        length = 6 * 2 * pi * sea.gravity / (spectrum.peak * spectrum.peak);
+        length = 6 * 2 * lom_pi * sea.gravity / (spectrum.peak * spectrum.peak);
     for (int i = 0; i < sea.cascade_count; i++) {
         lom_cascade_desc *c = &sea.cascade[i];
         double before = i == 0 ? length : sea.cascade[i - 1].length / 6.854;

@@ -1,8 +1,7 @@
 /* The sea in double, point by point. In: a sea and a time; out: the direct sum of its waves at any point. Invariant:
  * shares the amplitudes' definition with the sea's steps, and neither their tables nor a transform. */
+#include "base/numbers.h"
 #include "waves/sea_state.h"
-
-static const double two_pi = 6.283185307179586;
 
 struct wave {
     int n, m;
@@ -25,7 +24,7 @@ struct lom_sea_moment {
 /* Half of the plane, n > 0 or n = 0 and m > 0. */
 static void freeze_waves(const lom_sea *sea, int cascade, double time, struct part *part)
 {
-    double step = two_pi / part->length;
+    double step = lom_two_pi / part->length;
     for (int n = 0; n < part->size / 2; n++)
         for (int m = n == 0 ? 1 : 1 - part->size / 2; m < part->size / 2; m++) {
             double there[2], back[2];
@@ -34,8 +33,8 @@ static void freeze_waves(const lom_sea *sea, int cascade, double time, struct pa
             if (there[0] == 0 && there[1] == 0 && back[0] == 0 && back[1] == 0)
                 continue;
             double k = step * lom_double_sqrt((double)n * n + (double)m * m);
-            double turns = lom_dispersion(k, sea->spectrum.depth, sea->spectrum.gravity) / two_pi * time;
-            double angle = two_pi * (turns - lom_double_floor(turns));
+            double turns = lom_dispersion(k, sea->spectrum.depth, sea->spectrum.gravity) / lom_two_pi * time;
+            double angle = lom_two_pi * (turns - lom_double_floor(turns));
             double c = lom_double_cos(angle), s = lom_double_sin(angle);
             part->waves[part->count++] = (struct wave){ n, m, 2 * ((there[0] + back[0]) * c + (there[1] + back[1]) * s),
                                                         2 * ((there[1] - back[1]) * c + (back[0] - there[0]) * s) };
@@ -88,7 +87,7 @@ static void fill_turns(double turns[][2], int count, double x, double length)
     part -= lom_double_floor(part);
     for (int i = 0; i < count; i++) {
         double turn = part * i;
-        turn = two_pi * (turn - lom_double_floor(turn));
+        turn = lom_two_pi * (turn - lom_double_floor(turn));
         turns[i][0] = lom_double_cos(turn);
         turns[i][1] = lom_double_sin(turn);
     }
@@ -96,7 +95,7 @@ static void fill_turns(double turns[][2], int count, double x, double length)
 
 static void add_part(const struct part *part, double x, double z, double choppiness, lom_sea_point *p)
 {
-    double along[MOST / 2][2], across[MOST / 2][2], step = two_pi / part->length;
+    double along[MOST / 2][2], across[MOST / 2][2], step = lom_two_pi / part->length;
     fill_turns(along, part->size / 2, x, part->length);
     fill_turns(across, part->size / 2, z, part->length);
     for (size_t i = 0; i < part->count; i++) {

@@ -1,12 +1,11 @@
 /* A step of the sea: spectra at a time, one transform a field, pixels. In: a sea and a time; out: its views. Invariant:
  * nothing of an earlier step is read, so any time can be made in any order. Compiled for speed. */
+#include "base/numbers.h"
 #include "pipeline/check_device.h"
 #include "waves/sea_state.h"
 
 #include "base/threads.h"
 #include "pipeline/device.h"
-
-static const double two_pi = 6.283185307179586;
 
 #define VARIANT(name, variant)                                                                                         \
     [LOM_SLOT_##variant] = { lom_sea_wave_row_##variant, lom_sea_field_row_##variant, lom_sea_view_row_##variant },
@@ -52,7 +51,7 @@ static struct lom_sea_rows describe_rows(const lom_sea *sea, struct lom_cascade 
                                   .asked = fields,
                                   .time = time,
                                   .choppiness = sea->desc.choppiness,
-                                  .wavenumber = (float)(two_pi / c->view.length) };
+                                  .wavenumber = (float)(lom_two_pi / c->view.length) };
 }
 
 static void keep_bounds(const lom_sea *sea, struct lom_sea_cascade *view, unsigned fields)

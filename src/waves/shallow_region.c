@@ -1,5 +1,6 @@
 /* Shallow water of a site at a time. In: its region, springs and bodies, its bed, a time. Out: the state of
  * the water. Invariant: the state is that after all steps from the start to the time. */
+#include "base/numbers.h"
 #include "waves/wave_site.h"
 
 enum { MOST_STEPS = 10000000 };
@@ -77,7 +78,7 @@ static double dip_of(const lom_shallow_body *body, double time)
         since -= lom_double_floor(since / body->every) * body->every;
     if (since <= 0 || since >= body->duration)
         return 0;
-    double s = lom_double_sin(3.141592653589793 * since / body->duration);
+    double s = lom_double_sin(lom_pi * since / body->duration);
     return s * s;
 }
 

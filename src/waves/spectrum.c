@@ -8,11 +8,10 @@
  * with the wind at 10 m), which no fetch takes wp below. Finite depth: S times tanh^2(k d)/(1 + 2 k d/sinh(2 k d))
  * (Kitaigorodskii et al. 1975; TMA: Bouws et al. 1985). From w to k: S(k) = S(w) dw/dk. Spreading: see C. Horvath:
  * Empirical directional wave spectra for computer graphics (2015), who compares them. */
+#include "base/numbers.h"
 #include "base/double_parts.h"
 
 #include <lom/sea.h>
-
-static const double pi = 3.141592653589793;
 
 double lom_dispersion(double wavenumber, double depth, double gravity)
 {
@@ -44,7 +43,7 @@ lom_wave_spectrum lom_sea_spectrum(const lom_sea_desc *sea)
                             .depth = sea->depth > 0 ? sea->depth : DOUBLE_INFINITY,
                             .gravity = sea->gravity,
                             .scale = sea->height_scale * sea->height_scale,
-                            .damping = sea->shortest_wave / (2 * pi) };
+                            .damping = sea->shortest_wave / (2 * lom_pi) };
     if (!(s.speed > 0))
         return s;
     double g = s.gravity, u = s.speed, developed = 0.855 * g / u;
@@ -149,7 +148,7 @@ static double hyperbolic(double ratio, double angle)
     else
         b = lom_double_pow(10, -0.4 + 0.8393 * lom_double_exp(-0.567 * 2 * lom_double_log(bounded)));
     double c = lom_double_cosh(b * angle);
-    return b / (2 * lom_double_tanh(b * pi)) / (c * c);
+    return b / (2 * lom_double_tanh(b * lom_pi)) / (c * c);
 }
 
 double lom_spreading_at(const lom_wave_spectrum *s, double k, double angle)
@@ -158,7 +157,7 @@ double lom_spreading_at(const lom_wave_spectrum *s, double k, double angle)
         return 0;
     if (s->spreading == LOM_SPREADING_COSINE_SQUARED) {
         double c = lom_double_cos(angle);
-        return c * c / pi;
+        return c * c / lom_pi;
     }
     double ratio = lom_dispersion(k, s->depth, s->gravity) / s->peak, age = s->peak * s->speed / s->gravity;
     if (s->spreading == LOM_SPREADING_DONELAN_BANNER)

@@ -1,20 +1,11 @@
 /* Maps of surf. In: depths, a period, a height, a direction. Out: phases, wave vectors, heights, shapes. Invariant: a
  * function of the description alone: sweeps of fixed order and number. */
+#include "base/numbers.h"
 #include "waves/surf.h"
 
-static const double gravity = 9.80665, two_pi = 6.283185307179586;
+static const double gravity = 9.80665;
 static const double breaking_ratio = 0.78, stable_ratio = 0.4, decay = 0.15;
 enum { ROUNDS = 6, NEWTON = 12 };
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-static double magnitude(double x)
-{
-    return x < 0 ? -x : x;
-}
 
 /* With y = w^2 d / g the equation is x tanh x = y for x = k d, whose left side is convex below 1.2 and nearly straight
  * above: Newton's method from y / sqrt(tanh y) (Eckart 1952), 5 % off at most, converges everywhere. */
@@ -24,7 +15,7 @@ double lom_wave_number(double frequency, double depth)
     double x = y > 1e-12 ? y / lom_double_sqrt(lom_double_tanh(y)) : lom_double_sqrt(y);
     for (int i = 0; i < NEWTON; i++) {
         double t = lom_double_tanh(x), next = x - (x * t - y) / (t + x * (1 - t * t));
-        if (!(magnitude(next - x) > 1e-15 * x))
+        if (!(lom_magnitude(next - x) > 1e-15 * x))
             break;
         x = next;
     }
@@ -72,7 +63,7 @@ static void smooth(const struct surf *s, double *grid, double *scratch)
 static void find_numbers(struct surf *s)
 {
     for (int i = 0; i < s->width * s->height; i++) {
-        double depth = larger(s->depth[i], s->shallowest);
+        double depth = lom_larger(s->depth[i], s->shallowest);
         s->number[i] = lom_wave_number(s->frequency, depth);
         s->speed[i] = lom_group_velocity(s->frequency, depth);
     }
@@ -100,7 +91,7 @@ static void start_waves(struct surf *s)
     const int step = across_x ? s->width : 1;
     double mean = 0;
     for (int n = 0; n < count; n++)
-        mean += larger(s->depth[first + n * step], s->shallowest) / count;
+        mean += lom_larger(s->depth[first + n * step], s->shallowest) / count;
     const double along = lom_wave_number(s->frequency, mean) * way[a];
     s->along = along;
     const double flux = s->desc->surf.height * s->desc->surf.height * lom_group_velocity(s->frequency, mean);
@@ -188,13 +179,13 @@ static void solve_flux(struct surf *s, int x, int y)
 {
     const int i = y * s->width + x;
     const int neighbour[2] = { i + s->from[i][0], i + s->from[i][1] * s->width };
-    double in = 0, out = 0, most = 0, depth = larger(s->depth[i], s->shallowest), c = s->speed[i];
+    double in = 0, out = 0, most = 0, depth = lom_larger(s->depth[i], s->shallowest), c = s->speed[i];
     bool before = false;
     for (int a = 0; a < 2; a++) {
-        double part = magnitude(s->normal[i][a]) / s->desc->spacing[a];
+        double part = lom_magnitude(s->normal[i][a]) / s->desc->spacing[a];
         if (s->from[i][a] == 0)
             continue;
-        in += s->flux[neighbour[a]] * magnitude(s->normal[neighbour[a]][a]) / s->desc->spacing[a];
+        in += s->flux[neighbour[a]] * lom_magnitude(s->normal[neighbour[a]][a]) / s->desc->spacing[a];
         out += part;
         before = part > most ? s->breaks[neighbour[a]] : before;
         most = part > most ? part : most;
@@ -225,10 +216,11 @@ static void sweep(struct surf *s, void (*solve)(struct surf *s, int x, int y))
  * 11): how far it departs from a sine, r, and between peaked crests (f = -pi/2) and a steep front (f = 0). */
 static void set_shape(struct lom_surf_cell *cell, double height, double k, double depth)
 {
-    double x = k * depth, ursell = larger(0.375 * height * k / (x * x * x), 1e-9), log10 = 0.4342944819032518;
+    double x = k * depth, ursell = lom_larger(0.375 * height * k / (x * x * x), 1e-9), log10 = 0.4342944819032518;
     double total = 0.857 / (1 + lom_double_exp((-0.471 - lom_double_log(ursell) * log10) / 0.297));
-    double lean = two_pi / 4 * (lom_double_tanh(0.815 / lom_double_pow(ursell, 0.672)) - 1);
-    double b = total * lom_double_sqrt(2 / (9 + 2 * total * total)), r = 2 * b / (1 + b * b), f = -lean - two_pi / 4;
+    double lean = lom_two_pi / 4 * (lom_double_tanh(0.815 / lom_double_pow(ursell, 0.672)) - 1);
+    double b = total * lom_double_sqrt(2 / (9 + 2 * total * total)), r = 2 * b / (1 + b * b),
+           f = -lean - lom_two_pi / 4;
     cell->skew = (float)(r * lom_double_cos(f));
     cell->lean = (float)(r * lom_double_sin(f));
 }
@@ -237,7 +229,7 @@ static void fill_cells(const struct surf *s, struct lom_surf_map *map, double *b
 {
     const int count = s->width * s->height;
     for (int i = 0; i < count; i++) {
-        double depth = larger(s->depth[i], s->shallowest), height = lom_double_sqrt(s->flux[i] / s->speed[i]);
+        double depth = lom_larger(s->depth[i], s->shallowest), height = lom_double_sqrt(s->flux[i] / s->speed[i]);
         struct lom_surf_cell *cell = &map->cells[i];
         *cell = (struct lom_surf_cell){ .phase = (float)s->phase[i],
                                         .kx = (float)(s->normal[i][0] * s->number[i]),
@@ -246,8 +238,8 @@ static void fill_cells(const struct surf *s, struct lom_surf_map *map, double *b
         set_shape(cell, height, s->number[i], depth);
         double over = (height / depth - stable_ratio) / (breaking_ratio - stable_ratio);
         breaking[i] = s->breaks[i] ? 0.35 + 0.65 * (over < 0 ? 0 : over > 1 ? 1 : over) : 0;
-        map->highest = larger(map->highest, height);
-        map->breaking_depth = s->breaks[i] ? larger(map->breaking_depth, depth) : map->breaking_depth;
+        map->highest = lom_larger(map->highest, height);
+        map->breaking_depth = s->breaks[i] ? lom_larger(map->breaking_depth, depth) : map->breaking_depth;
     }
     smooth(s, breaking, scratch);
     for (int i = 0; i < count; i++)
@@ -278,8 +270,8 @@ bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *des
     struct surf s = { .desc = desc,
                       .width = desc->width,
                       .height = desc->height,
-                      .frequency = two_pi / desc->surf.period,
-                      .shallowest = larger(0.1 * desc->surf.height, 0.02) };
+                      .frequency = lom_two_pi / desc->surf.period,
+                      .shallowest = lom_larger(0.1 * desc->surf.height, 0.02) };
     *map = (struct lom_surf_map){ .width = desc->width, .height = desc->height };
     memcpy(map->spacing, desc->spacing, sizeof map->spacing);
     bool done = take_memory(&s, map, count, error);
@@ -297,7 +289,7 @@ bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *des
         fill_cells(&s, map, s.number, s.phase);
         map->along[0] = -lom_double_sin(desc->surf.direction);
         map->along[1] = lom_double_cos(desc->surf.direction);
-        map->length = gravity * desc->surf.period * desc->surf.period / two_pi;
+        map->length = gravity * desc->surf.period * desc->surf.period / lom_two_pi;
     }
     lom_release(s.depth);
     lom_release(s.normal);

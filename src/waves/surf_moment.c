@@ -1,22 +1,22 @@
 /* Surf at a time. In: its maps, a time. Out: what shaders add to the maps' phases, and the height over a place in
  * double. Invariant: a function of place and time; whole turns of the time are taken off in double. */
+#include "base/numbers.h"
 #include "waves/surf.h"
 
-static const double two_pi = 6.283185307179586;
 /* Groups: the heights of crests vary as where two pairs of neighbouring periods beat, 6.1 and 3.7 crests apart, along
  * crests by as many lengths. Their sum is at most 1. */
 static const double group[2] = { 6.1, 3.7 }, share[2] = { 0.6, 0.4 };
 
 static double reduced(double phase)
 {
-    double turns = phase / two_pi;
-    return (turns - lom_double_floor(turns + 0.5)) * two_pi;
+    double turns = phase / lom_two_pi;
+    return (turns - lom_double_floor(turns + 0.5)) * lom_two_pi;
 }
 
 void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
                    const double origin[2], double time)
 {
-    const double rate = two_pi / surf->period;
+    const double rate = lom_two_pi / surf->period;
     const int size[2] = { map->width, map->height };
     out->time = (float)reduced(rate * time);
     out->rate = (float)rate;
@@ -31,7 +31,7 @@ void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map,
         out->group_share[i] = (float)share[i];
         double phase = reduced(rate * time / group[i]);
         for (int k = 0; k < 2; k++) {
-            double along = map->along[k] * two_pi / (map->length * group[i]) * (i == 0 ? 1 : -1);
+            double along = map->along[k] * lom_two_pi / (map->length * group[i]) * (i == 0 ? 1 : -1);
             out->group_along[i][k] = (float)along;
             phase += reduced(along * origin[k]);
         }

@@ -1,12 +1,13 @@
 /* Waves of kind "gerstner": trochoids from the water's parameters. In: direction, lengths, height, steepness, a time;
  * out: wave vectors, phases and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
+#include "base/numbers.h"
 #include "waves/wave_field.h"
 
 #include "base/own_float_state.h"
 
 #include <stdio.h>
 
-static const double turn = 6.283185307179586, gravity = 9.80665;
+static const double gravity = 9.80665;
 
 static double wave_length(const lom_water_waves *waves, int i)
 {
@@ -32,8 +33,8 @@ static lom_trochoid choose_wave(const lom_water_waves *waves, int i, double fact
     lom_random_normal(key, 3 * (uint64_t)i + 1, normal);
     double angle = waves->direction + waves->spread * normal[0];
     lom_trochoid t = { .direction = { lom_double_cos(angle), lom_double_sin(angle) },
-                       .number = turn / length,
-                       .rate = lom_double_sqrt(gravity * (turn / length)),
+                       .number = lom_two_pi / length,
+                       .rate = lom_double_sqrt(gravity * (lom_two_pi / length)),
                        .phase = lom_random_uniform(key, 3 * (uint64_t)i + 2),
                        .amplitude = factor * length };
     double bound = 1 / (waves->count * t.number);
@@ -87,10 +88,10 @@ int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WA
 /* Without whole turns, so that what follows is a small angle: both products are rounded in turns, 2^-53 of them. */
 static double phase_at(const lom_trochoid *t, double x, double z, double time)
 {
-    double turns = t->phase - t->rate * time / turn;
+    double turns = t->phase - t->rate * time / lom_two_pi;
     turns -= lom_double_floor(turns + 0.5);
-    double along = t->number * (t->direction[0] * x + t->direction[1] * z) / turn;
-    return (turns + (along - lom_double_floor(along + 0.5))) * turn;
+    double along = t->number * (t->direction[0] * x + t->direction[1] * z) / lom_two_pi;
+    return (turns + (along - lom_double_floor(along + 0.5))) * lom_two_pi;
 }
 
 lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, double x, double z, double time)

@@ -1,0 +1,37 @@
+/* Numbers that every folder needs. */
+#ifndef LOM_BASE_NUMBERS_H
+#define LOM_BASE_NUMBERS_H
+
+static const double lom_pi __attribute__((unused)) = 3.141592653589793;
+static const double lom_two_pi __attribute__((unused)) = 6.283185307179586;
+static const double lom_radians_per_degree __attribute__((unused)) = 0.017453292519943295;
+
+/* The smaller and the larger of two: the second where they are equal or one of them is NaN. */
+static inline __attribute__((unused)) double lom_smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+static inline __attribute__((unused)) double lom_larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+static inline __attribute__((unused)) int lom_smaller_int(int a, int b)
+{
+    return a < b ? a : b;
+}
+static inline __attribute__((unused)) int lom_larger_int(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* |x|, but for -0, which stays. */
+static inline __attribute__((unused)) double lom_magnitude(double x)
+{
+    return x < 0 ? -x : x;
+}
+static inline __attribute__((unused)) int lom_magnitude_int(int x)
+{
+    return x < 0 ? -x : x;
+}
+
+#endif
