@@ -193,6 +193,7 @@ $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
 # The calls that tests/faults lets fail in turn.
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
+$(BUILD)/tests/faults/test_frame_allocations: private LDFLAGS += -Wl,--wrap=lom_reserve
 
 # A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.
 $(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c tests/fuzz/bytes.h $(BUILD)/liblom.a

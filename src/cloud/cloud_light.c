@@ -139,11 +139,10 @@ static bool sweep_sun(const struct lom_cloud_set *set, struct lom_placed_cloud *
     return lom_sweep_sun(cloud->light, &desc, error);
 }
 
-static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], size_t *others, int *swept,
-                        lom_error *error)
+bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error)
 {
     struct lom_placed_cloud *cloud = &set->clouds[index];
-    struct shadowing s = { set, cloud, to_light, others, 0 };
+    struct shadowing s = { set, cloud, to_light, set->others, 0 };
     uint64_t hash = hash_numbers(LOM_HASH_START, to_light, 3);
     for (size_t i = 0; i < set->count && set->params->shadows; i++) {
         const struct lom_placed_cloud *other = &set->clouds[i];
@@ -151,7 +150,7 @@ static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to
             continue;
         const double apart[3] = { other->middle.x - cloud->middle.x, other->middle.y - cloud->middle.y,
                                   other->middle.z - cloud->middle.z };
-        others[s.other_count++] = i;
+        set->others[s.other_count++] = i;
         hash = hash_numbers(hash, apart, 3);
     }
     hash |= 1;
@@ -166,21 +165,11 @@ static bool sweep_cloud(struct lom_cloud_set *set, size_t index, const double to
     return true;
 }
 
-bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error)
-{
-    size_t *others = lom_allocate(set->count, sizeof *others, error);
-    bool done = others != NULL && sweep_cloud(set, index, to_light, others, swept, error);
-    lom_release(others);
-    return done;
-}
-
 bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error)
 {
-    size_t *others = lom_allocate(set->count, sizeof *others, error);
-    bool done = others != NULL;
     *swept = 0;
-    for (size_t i = 0; done && i < set->count; i++)
-        done = sweep_cloud(set, i, to_light, others, swept, error);
-    lom_release(others);
-    return done;
+    for (size_t i = 0; i < set->count; i++)
+        if (!lom_light_cloud(set, i, to_light, swept, error))
+            return false;
+    return true;
 }

@@ -89,12 +89,11 @@ static double milliseconds(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
-/* What the stages draw, read back. */
-static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error *error)
+static bool draw_stages(struct frame *f, lom_stage_time *times, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
-        return NULL;
+        return false;
     bool done = true;
     double before = milliseconds();
     const size_t count = sizeof stages / sizeof stages[0];
@@ -108,7 +107,7 @@ static lom_image *draw_stages(struct frame *f, lom_stage_time *times, lom_error 
     }
     f->done = (double)count / (double)(count + 1);
     lom_report_progress(f, "output");
-    return done ? lom_read_texture(r->targets.of[LOM_TARGET_COLOR], 0, 0, error) : NULL;
+    return done;
 }
 
 static const lom_frame_desc defaults = { .frame = 0 };
@@ -132,11 +131,12 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
     lom_move_entities(renderer, f->time);
     look(f);
     lom_error failed = { 0 };
-    lom_image *drawn =
-        renderer->reference != NULL ? lom_draw_reference(f, &failed) : draw_stages(f, out->stage, &failed);
+    lom_image *traced = renderer->reference != NULL ? lom_draw_reference(f, &failed) : NULL;
+    bool drawn = renderer->reference == NULL && draw_stages(f, out->stage, &failed);
     double start = milliseconds();
-    out->image = lom_output_image(f->scene, drawn, &failed);
-    if (drawn != NULL)
+    out->image = drawn ? lom_output_target(f->scene, renderer->targets.of[LOM_TARGET_COLOR], &failed)
+                       : lom_output_image(f->scene, traced, &failed);
+    if (drawn || traced != NULL)
         out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
     out->shallow_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) - f->wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);

@@ -1,4 +1,5 @@
 /* The finished picture. In: what was drawn. Out: an image in the scene's output format, encoded once. */
+#include "image/texture.h"
 #include "render/targets.h"
 
 /* IEC 61966-2-1 of linear light, in double. */
@@ -11,21 +12,21 @@ static double encode_srgb(double x)
     return x <= 0.0031308 ? 12.92 * x : 1.055 * lom_double_pow(x, 1 / 2.4) - 0.055;
 }
 
-static lom_image *encode_16(const lom_image *linear, bool srgb, lom_error *error)
+/* A row of linear light, `channels` floats a pixel, in a format of more than 8 bits. */
+static void encode_row(const lom_output *output, const float *linear, int channels, int count, void *row)
 {
-    lom_image *out = lom_create_image(linear->width, linear->height, 1, LOM_FORMAT_RGB16, error);
-    if (out == NULL)
-        return NULL;
-    for (int y = 0; y < out->height; y++)
-        for (int x = 0; x < out->width; x++) {
-            const float *from = lom_image_pixel(linear, x, y, 0);
-            uint16_t *to = lom_image_pixel(out, x, y, 0);
-            for (int c = 0; c < 3; c++) {
-                double value = from[c] > 0 ? from[c] < 1 ? from[c] : 1 : 0;
-                to[c] = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
+    bool srgb = output->transfer == LOM_TRANSFER_SRGB;
+    uint16_t *deep = row;
+    float *whole = row;
+    for (int i = 0; i < count; i++, linear += channels)
+        for (int c = 0; c < 3; c++) {
+            if (output->format == LOM_OUTPUT_RGB32F) {
+                *whole++ = linear[c];
+                continue;
             }
+            double value = linear[c] > 0 ? linear[c] < 1 ? linear[c] : 1 : 0;
+            *deep++ = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
         }
-    return out;
 }
 
 /* Four bytes a pixel become three in the same memory. */
@@ -44,21 +45,42 @@ static lom_image *drop_alpha(lom_image *image, lom_format format)
     return image;
 }
 
+static lom_format output_format(const lom_output *output)
+{
+    if (output->format != LOM_OUTPUT_RGB8)
+        return output->format == LOM_OUTPUT_RGB16 ? LOM_FORMAT_RGB16 : LOM_FORMAT_RGB32F;
+    return output->transfer == LOM_TRANSFER_SRGB ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8;
+}
+
+lom_image *lom_output_target(const lom_scene *scene, const lom_texture *drawn, lom_error *error)
+{
+    const lom_output *output = &scene->output;
+    lom_format format = output_format(output);
+    int width = lom_texture_width(drawn), height = lom_texture_height(drawn);
+    if (output->format == LOM_OUTPUT_RGB8) {
+        lom_image *image = lom_read_texture(drawn, 0, 0, error);
+        return image != NULL ? drop_alpha(image, format) : NULL;
+    }
+    lom_image *image = lom_create_image(width, height, 1, format, error);
+    for (int y = 0; image != NULL && y < height; y++)
+        encode_row(output, lom_texel(drawn, 0, 0, y, 0), 4, width, lom_image_pixel(image, 0, y, 0));
+    return image;
+}
+
 lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error)
 {
     const lom_output *output = &scene->output;
-    bool srgb = output->transfer == LOM_TRANSFER_SRGB;
-    lom_image *out = NULL;
+    lom_format format = output_format(output);
     if (drawn == NULL)
         return NULL;
-    if (drawn->format == (srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8) && output->format == LOM_OUTPUT_RGB8)
-        return drop_alpha(drawn, srgb ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8);
-    if (output->format == LOM_OUTPUT_RGB8)
-        out = lom_convert_image(drawn, srgb ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8, error);
-    else if (output->format == LOM_OUTPUT_RGB16)
-        out = encode_16(drawn, srgb, error);
-    else
-        out = lom_convert_image(drawn, LOM_FORMAT_RGB32F, error);
+    if (output->format != LOM_OUTPUT_RGB16) {
+        lom_image *image = lom_convert_image(drawn, format, error);
+        lom_free_image(drawn);
+        return image;
+    }
+    lom_image *image = lom_create_image(drawn->width, drawn->height, 1, format, error);
+    for (int y = 0; image != NULL && y < image->height; y++)
+        encode_row(output, lom_image_pixel(drawn, 0, y, 0), 3, image->width, lom_image_pixel(image, 0, y, 0));
     lom_free_image(drawn);
-    return out;
+    return image;
 }

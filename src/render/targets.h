@@ -29,7 +29,9 @@ uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int dra
 /* Makes the targets for a frame of this size of which drawn_width x drawn_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int drawn_width, int drawn_height,
                       lom_error *error);
-/* A drawn picture, which is freed, in the scene's output format; NULL stays NULL. */
+/* What was drawn into the colour target, in the scene's output format: the caller's. NULL on failure. */
+lom_image *lom_output_target(const lom_scene *scene, const lom_texture *drawn, lom_error *error);
+/* The same of a picture of the reference (RGB32F), which is freed; NULL stays NULL. */
 lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error);
 
 #endif

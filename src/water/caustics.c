@@ -1,6 +1,9 @@
 /* Adding up the light that lands on the bed. In: landing places. Out: a texture of light. Invariant: sums of integers.
  */
 #include "water/caustics.h"
+#include "image/texture.h"
+
+#include <string.h>
 
 static const double unit = 65536;
 
@@ -28,21 +31,31 @@ static void add_photon(uint64_t *sum, int size, double x, double y, double light
         }
 }
 
-lom_image *lom_gather_photons(const lom_image *photons, lom_error *error)
+bool lom_make_gathered_light(struct lom_gathered_light *light, int size, lom_error *error)
 {
-    int size = photons->width;
-    uint64_t *sum = lom_allocate((size_t)size * (size_t)size, sizeof *sum, error);
-    lom_image *light = sum != NULL ? lom_create_image(size, size, 1, LOM_FORMAT_R32F, error) : NULL;
-    for (int y = 0; light != NULL && y < size; y++)
-        for (int x = 0; x < size; x++) {
-            const float *photon = lom_image_pixel(photons, x, y, 0);
-            add_photon(sum, size, (double)photon[0], (double)photon[1], (double)photon[2]);
-        }
-    for (int y = 0; light != NULL && y < size; y++)
-        for (int x = 0; x < size; x++) {
-            float *texel = lom_image_pixel(light, x, y, 0);
-            *texel = (float)((double)sum[(size_t)y * (size_t)size + (size_t)x] / unit);
-        }
-    lom_release(sum);
-    return light;
+    size_t texels = (size_t)size * (size_t)size;
+    light->size = size;
+    light->texel = lom_allocate(texels, sizeof *light->texel, error);
+    light->sum = lom_allocate(texels, sizeof *light->sum, error);
+    return light->texel != NULL && light->sum != NULL;
+}
+
+void lom_free_gathered_light(struct lom_gathered_light *light)
+{
+    lom_release(light->texel);
+    lom_release(light->sum);
+}
+
+void lom_gather_photons(struct lom_gathered_light *light, const lom_texture *photons)
+{
+    int size = light->size;
+    size_t texels = (size_t)size * (size_t)size;
+    memset(light->sum, 0, texels * sizeof *light->sum);
+    for (int y = 0; y < size; y++) {
+        const float(*photon)[4] = lom_texel(photons, 0, 0, y, 0);
+        for (int x = 0; x < size; x++)
+            add_photon(light->sum, size, (double)photon[x][0], (double)photon[x][1], (double)photon[x][2]);
+    }
+    for (size_t i = 0; i < texels; i++)
+        light->texel[i] = (float)((double)light->sum[i] / unit);
 }

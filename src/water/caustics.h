@@ -18,8 +18,18 @@ struct lom_photon_uniforms {
  * cell of still water does. */
 extern const lom_shader lom_photon_shader;
 
-/* The light on each of size x size texels, in parts of still water's: each photon spread over 3 x 3 texels by the
- * quadratic B-spline, in units of 2^-16. NULL on failure. R32F; freed with lom_free_image. */
-lom_image *lom_gather_photons(const lom_image *photons, lom_error *error);
+/* The light on each of size x size texels, in parts of still water's. */
+struct lom_gathered_light {
+    int size;
+    float *texel;
+    uint64_t *sum; /* while it is gathered */
+};
+
+/* False without memory; freed with lom_free_gathered_light either way. */
+bool lom_make_gathered_light(struct lom_gathered_light *light, int size, lom_error *error);
+void lom_free_gathered_light(struct lom_gathered_light *light);
+/* Each photon (of a texture of RGBA32F with light->size texels along an edge) spread over 3 x 3 texels by the quadratic
+ * B-spline, in units of 2^-16. */
+void lom_gather_photons(struct lom_gathered_light *light, const lom_texture *photons);
 
 #endif

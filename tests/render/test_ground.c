@@ -46,8 +46,7 @@ static void release(void)
 
 static void choose(double pixels)
 {
-    lom_error error = { .code = LOM_OK };
-    CHECK(lom_choose_ground(&ground, (lom_vec3){ -160, 30, -90 }, 900, pixels, &error), "%s", error.text);
+    lom_choose_ground(&ground, (lom_vec3){ -160, 30, -90 }, 900, pixels);
 }
 
 static const struct lom_ground_pattern *pattern_of(int block)

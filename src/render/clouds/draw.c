@@ -54,9 +54,7 @@ bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lo
     pass.color_load[0] = LOM_LOAD_KEEP;
     if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
         return lom_draw_impostors(f, view, &seen, &pass, count, error);
-    size_t *order = lom_allocate(r->clouds.set->count, sizeof *order, error);
-    if (order == NULL)
-        return false;
+    size_t *order = r->clouds.set->order;
     *count = lom_order_clouds(r->clouds.set, &seen, f->scene->quality.impostor.culling, order);
     if (*count != 0) {
         lom_begin_pass(r->device, &pass);
@@ -64,7 +62,6 @@ bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lo
             lom_draw_placed_cloud(r->device, r->clouds.set, &r->clouds.set->clouds[order[i]], &seen);
         lom_end_pass(r->device);
     }
-    lom_release(order);
     return lom_check_device(r->device, error);
 }
 

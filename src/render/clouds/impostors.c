@@ -331,9 +331,9 @@ bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, cons
         l.has_aircraft = true;
         l.aircraft = lom_scene_entity_at(&f->scene->entities[camera->followed - 1], f->time).position;
     }
-    size_t *order = lom_allocate(r->clouds.set->count, sizeof *order, error);
+    size_t *order = r->clouds.set->order;
     struct lom_impostor *all = provide_impostors(r, view->mirrored, error);
-    bool done = order != NULL && all != NULL;
+    bool done = all != NULL;
     *count = done ? lom_order_clouds(r->clouds.set, seen, l.dials->culling, order) : 0;
     f->impostors->culled += done ? (int)(r->clouds.set->count - *count) : 0;
     for (size_t i = 0; done && i < *count; i++)
@@ -345,6 +345,5 @@ bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, cons
                 show(&l, &all[order[i]], &r->clouds.set->clouds[order[i]]);
         lom_end_pass(r->device);
     }
-    lom_release(order);
     return lom_check_device(r->device, error) && done;
 }

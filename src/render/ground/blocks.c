@@ -1,6 +1,7 @@
 /* Terrain for drawing. In: a height map. Out: the vertices of every block at every level of detail, how far each level
  * is off, and a texture of normals and the sky's visibility.
  * Level n of a block has the vertices whose column and row within the block are multiples of 2^n or the last. */
+#include "base/numbers.h"
 #include "pipeline/check_device.h"
 #include "render/ground/ground.h"
 
@@ -49,11 +50,6 @@ static float height_at(const struct place *p, int column, int row)
     return p->loader->ground->heights[(size_t)(p->y0 + row) * (size_t)p->loader->width + (size_t)(p->x0 + column)];
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 /* A quad of the level, its corners named as lom_make_terrain does, and how many quads of level 0 it joins. */
 struct cell {
     int x, y, width, height;
@@ -63,7 +59,7 @@ struct cell {
 static struct cell cell_at(const struct place *p, int column, int row)
 {
     int step = 1 << p->level, x = column * step, y = row * step;
-    int x1 = smaller(x + step, p->block->columns), y1 = smaller(y + step, p->block->rows);
+    int x1 = lom_smaller_int(x + step, p->block->columns), y1 = lom_smaller_int(y + step, p->block->rows);
     return (struct cell){
         x, y, x1 - x, y1 - y, height_at(p, x, y), height_at(p, x1, y), height_at(p, x, y1), height_at(p, x1, y1)
     };
@@ -114,7 +110,7 @@ static void copy_level(const struct place *p, float (*to)[3])
     int step = 1 << p->level;
     for (int j = 0; j <= joined(p->block->rows, p->level); j++)
         for (int i = 0; i <= joined(p->block->columns, p->level); i++, to++) {
-            int column = smaller(i * step, p->block->columns), row = smaller(j * step, p->block->rows);
+            int column = lom_smaller_int(i * step, p->block->columns), row = lom_smaller_int(j * step, p->block->rows);
             (*to)[0] = p->loader->x[p->x0 + column];
             (*to)[1] = height_at(p, column, row);
             (*to)[2] = p->loader->z[p->y0 + row];
@@ -151,8 +147,10 @@ static bool lay_out(struct lom_ground *ground, lom_error *error)
         return false;
     for (size_t i = 0; i < count; i++) {
         struct lom_ground_block *b = &ground->blocks[i];
-        b->columns = smaller(LOM_GROUND_BLOCK, ground->columns - (int)(i % (size_t)ground->across) * LOM_GROUND_BLOCK);
-        b->rows = smaller(LOM_GROUND_BLOCK, ground->rows - (int)(i / (size_t)ground->across) * LOM_GROUND_BLOCK);
+        b->columns =
+            lom_smaller_int(LOM_GROUND_BLOCK, ground->columns - (int)(i % (size_t)ground->across) * LOM_GROUND_BLOCK);
+        b->rows =
+            lom_smaller_int(LOM_GROUND_BLOCK, ground->rows - (int)(i / (size_t)ground->across) * LOM_GROUND_BLOCK);
         for (int level = 0; level < LOM_GROUND_LEVELS; level++) {
             b->first[level] = next;
             next += (size_t)(joined(b->columns, level) + 1) * (size_t)(joined(b->rows, level) + 1);
@@ -208,7 +206,7 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
     bool done = ground->heights != NULL && loader.surface != NULL && loader.x != NULL && loader.z != NULL &&
                 lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
-                lay_out(ground, error);
+                lay_out(ground, error) && lom_make_ground_patterns(ground, error);
     if (done)
         fill_blocks(&loader);
     if (done && quality->ambient_occlusion)

@@ -97,9 +97,9 @@ static void add_triangle(struct lom_ground_pattern *p, uint32_t a, uint32_t b, u
     p->count += 3;
 }
 
-static bool fill_pattern(struct lom_ground_pattern *p)
+static bool fill_pattern(struct lom_ground_pattern *p, lom_error *error)
 {
-    p->indices = lom_allocate((size_t)p->columns * (size_t)p->rows * 6, sizeof *p->indices, NULL);
+    p->indices = lom_allocate((size_t)p->columns * (size_t)p->rows * 6, sizeof *p->indices, error);
     if (p->indices == NULL)
         return false;
     for (int y = 0; y < p->rows; y++)
@@ -112,23 +112,50 @@ static bool fill_pattern(struct lom_ground_pattern *p)
     return true;
 }
 
-/* Patterns are made when a block first needs them: one for each size, level and set of edges. */
-static int find_pattern(struct lom_ground *ground, int columns, int rows, int edges)
+/* The number of a pattern; of none: how many there are. */
+static size_t find_pattern(const struct lom_ground *ground, int columns, int rows, int edges)
 {
     size_t i = 0;
     for (; i < ground->pattern_count; i++) {
         const struct lom_ground_pattern *p = &ground->patterns[i];
         if (p->columns == columns && p->rows == rows && p->edges == edges)
-            return (int)i;
+            break;
     }
-    if (i == LOM_GROUND_PATTERNS)
-        return -1;
-    struct lom_ground_pattern *added = &ground->patterns[i];
-    *added = (struct lom_ground_pattern){ columns, rows, edges, NULL, 0 };
-    if (!fill_pattern(added))
-        return -1;
-    ground->pattern_count++;
-    return (int)i;
+    return i;
+}
+
+/* Quads along an edge of a level of a block. */
+static int joined_quads(int quads, int level)
+{
+    return (quads + (1 << level) - 1) >> level;
+}
+
+static bool add_patterns(struct lom_ground *ground, const struct lom_ground_block *block, int level, lom_error *error)
+{
+    int columns = joined_quads(block->columns, level), rows = joined_quads(block->rows, level);
+    int sets = level + 1 < LOM_GROUND_LEVELS ? 16 : 1; /* nothing is coarser than the coarsest */
+    for (int edges = 0; edges < sets; edges++) {
+        size_t i = find_pattern(ground, columns, rows, edges);
+        if (i < ground->pattern_count)
+            continue;
+        ground->patterns[i] = (struct lom_ground_pattern){ columns, rows, edges, NULL, 0 };
+        if (!fill_pattern(&ground->patterns[i], error))
+            return false;
+        ground->pattern_count++;
+    }
+    return true;
+}
+
+/* One for each size of a block (those at the far borders may be smaller), level and set of edges. */
+bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error)
+{
+    const int last[4] = { 0, ground->across - 1, (ground->down - 1) * ground->across,
+                          ground->down * ground->across - 1 };
+    for (int i = 0; i < 4; i++)
+        for (int level = 0; level < LOM_GROUND_LEVELS; level++)
+            if (!add_patterns(ground, &ground->blocks[last[i]], level, error))
+                return false;
+    return true;
 }
 
 static int coarser_edges(const struct lom_ground *ground, int block)
@@ -146,7 +173,7 @@ static int coarser_edges(const struct lom_ground *ground, int block)
     return edges;
 }
 
-bool lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, lom_error *error)
+void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels)
 {
     int count = ground->across * ground->down;
     for (int i = 0; i < count; i++) {
@@ -158,11 +185,8 @@ bool lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, do
     sort_blocks(ground);
     for (int i = 0; i < count; i++) {
         const struct lom_ground_block *b = &ground->blocks[i];
-        int level = ground->level[i], join = (1 << level) - 1;
-        ground->pattern[i] =
-            find_pattern(ground, (b->columns + join) >> level, (b->rows + join) >> level, coarser_edges(ground, i));
-        if (ground->pattern[i] < 0)
-            return lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for the triangles of the terrain.");
+        int level = ground->level[i];
+        ground->pattern[i] = (int)find_pattern(ground, joined_quads(b->columns, level), joined_quads(b->rows, level),
+                                               coarser_edges(ground, i));
     }
-    return true;
 }

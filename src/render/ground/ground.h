@@ -97,8 +97,10 @@ bool lom_find_sky_visibility(const float *heights, int width, int height, const 
 bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
                             float *shadow, lom_error *error);
 
+/* Makes the triangles of every size of block, level and set of coarser neighbours. */
+bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error);
 /* Chooses every block's level: the coarsest whose error is at most `pixels` on the screen, neighbours at most one level
  * apart, and sorts the blocks by distance. scale: pixels of 1 m at 1 m distance; pixels 0: full density. */
-bool lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, lom_error *error);
+void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels);
 
 #endif

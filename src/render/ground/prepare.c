@@ -45,8 +45,9 @@ static bool cast_shadow(struct frame *f, lom_error *error)
 bool lom_prepare_ground(struct frame *f, lom_error *error)
 {
     struct lom_ground *ground = &f->renderer->ground;
+    if (ground->blocks == NULL)
+        return true;
     double scale = f->height * f->view.projection.m[1][1] / 2;
-    return ground->blocks == NULL ||
-           (lom_choose_ground(ground, f->camera.position, scale, f->scene->quality.terrain_error, error) &&
-            cast_shadow(f, error));
+    lom_choose_ground(ground, f->camera.position, scale, f->scene->quality.terrain_error);
+    return cast_shadow(f, error);
 }

@@ -7,6 +7,7 @@
  * carry their S, which takes in the line's heights and sinks by tan e times the way to the next one. A ray moves by
  * `shift` vertices along each line; it never moves to another ray, so nothing is smeared on the way.
  * Compiled for speed. */
+#include "base/numbers.h"
 #include "render/ground/ground.h"
 
 struct sweep {
@@ -17,24 +18,19 @@ struct sweep {
     float sink;                  /* metres */
 };
 
-static double magnitude(double x)
-{
-    return x < 0 ? -x : x;
-}
-
 /* Away from the sun along x when the sun stands more vertices along x than along z, else along z. */
 static struct sweep lay_sweep(int width, int height, const double size[2], const double to_light[3])
 {
     double spacing[2] = { size[0] / (width - 1), size[1] / (height - 1) };
     double across = to_light[0] / spacing[0], down = to_light[2] / spacing[1];
-    bool along_x = magnitude(across) >= magnitude(down);
+    bool along_x = lom_magnitude(across) >= lom_magnitude(down);
     double major = along_x ? across : down, minor = along_x ? down : across;
     struct sweep s = { .lines = along_x ? width : height,
                        .places = along_x ? height : width,
                        .line_step = along_x ? 1 : width,
                        .place_step = along_x ? width : 1,
-                       .shift = -minor / magnitude(major),
-                       .sink = (float)(to_light[1] / magnitude(major)) };
+                       .shift = -minor / lom_magnitude(major),
+                       .sink = (float)(to_light[1] / lom_magnitude(major)) };
     if (major > 0) { /* the sun stands where the numbers of the lines are large */
         s.first = (ptrdiff_t)(s.lines - 1) * s.line_step;
         s.line_step = -s.line_step;

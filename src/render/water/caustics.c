@@ -2,13 +2,17 @@
  * shaders of terrain and entities look up below the water's level. Invariant: a function of the whole frame's camera,
  * never of a crop. */
 #include "pipeline/check_device.h"
+#include "pipeline/renew_texture.h"
 #include "render/water/passes.h"
 #include "water/caustics.h"
 
-static bool make_targets(lom_renderer *r, int size)
+static bool make_targets(lom_renderer *r, int size, lom_error *error)
 {
     if (r->water.photons != NULL)
         return true;
+    lom_free_gathered_light(&r->water.light);
+    if (!lom_make_gathered_light(&r->water.light, size, error))
+        return false;
     r->water.photons =
         lom_make_texture(r->device, &(lom_texture_desc){ .width = size, .height = size, .format = LOM_FORMAT_RGBA32F });
     return r->water.photons != NULL;
@@ -57,23 +61,17 @@ static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
     return lom_draw_pass(r->device, &pass, &draw, 1);
 }
 
-static bool gather(lom_renderer *r, lom_error *error)
+static bool gather(lom_renderer *r)
 {
-    lom_image *photons = lom_read_texture(r->water.photons, 0, 0, error);
-    lom_image *light = photons != NULL ? lom_gather_photons(photons, error) : NULL;
-    lom_release_texture(r->device, r->water.caustics);
-    r->water.caustics = NULL;
-    if (light != NULL)
-        r->water.caustics = lom_make_texture(
-            r->device, &(lom_texture_desc){ .width = light->width,
-                                            .height = light->height,
-                                            .format = LOM_FORMAT_R32F,
-                                            .pixels = light->pixels,
-                                            .mips = LOM_MIPS_ALL,
-                                            .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
-    lom_free_image(photons);
-    lom_free_image(light);
-    return r->water.caustics != NULL;
+    struct lom_gathered_light *light = &r->water.light;
+    lom_gather_photons(light, r->water.photons);
+    const lom_texture_desc desc = { .width = light->size,
+                                    .height = light->size,
+                                    .format = LOM_FORMAT_R32F,
+                                    .pixels = light->texel,
+                                    .mips = LOM_MIPS_ALL,
+                                    .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+    return lom_renew_texture(r->device, &r->water.caustics, &desc);
 }
 
 /* Why there are none; NULL: there are. */
@@ -99,11 +97,11 @@ bool lom_draw_caustics(struct frame *f, lom_error *error)
         return true;
     }
     double cell = optics->caustics_size / optics->caustics_texels, corner[2];
-    if (!make_targets(f->renderer, optics->caustics_texels))
+    if (!make_targets(f->renderer, optics->caustics_texels, error))
         return false;
     place_square(f, corner, cell);
     struct lom_photon_uniforms u = photon_uniforms(f, corner, cell);
-    if (!draw_photons(f, &u) || !gather(f->renderer, error))
+    if (!draw_photons(f, &u) || !gather(f->renderer))
         return false;
     double pixel_angle = 2 / f->view.projection.m[1][1] / f->height;
     f->view.caustics = (struct lom_caustics){ .map = f->renderer->water.caustics,

@@ -31,7 +31,7 @@ static bool is_in_view(const struct frame *f)
     return lom_box_visibility(&frustum, box) != LOM_OUTSIDE;
 }
 
-static bool draw_visibility(struct frame *f, lom_error *error)
+static bool draw_visibility(struct frame *f)
 {
     lom_renderer *r = f->renderer;
     lom_lake_view v = lake_view(f);
@@ -42,7 +42,10 @@ static bool draw_visibility(struct frame *f, lom_error *error)
     pass.depth_load = LOM_LOAD_KEEP;
     struct lom_lake_uniforms uniforms;
     const lom_draw_desc draw = lom_lake_draw(&lom_lake_mask_shader, &f->scene->water, &v, &uniforms);
-    return lom_draw_pass(r->device, &pass, &draw, 1) && lom_find_water(f, error);
+    if (!lom_draw_pass(r->device, &pass, &draw, 1))
+        return false;
+    lom_find_water(f);
+    return true;
 }
 
 /* A picture of the scene in the water's colour, where lookups from the visible water can reach. */
@@ -142,7 +145,7 @@ bool lom_draw_lake(struct frame *f, lom_error *error)
         return lom_skip_water(f, "the water's quad is outside the view");
     if (!model->is_looked_up)
         return draw_tinted(f);
-    if (!draw_visibility(f, error))
+    if (!draw_visibility(f))
         return false;
     if (f->water.width == 0)
         return lom_skip_water(f, "the scene hides all of the water");

@@ -93,4 +93,5 @@ void lom_free_water(lom_renderer *renderer)
 {
     lom_free_wave_field(renderer->water.waves);
     lom_free_polar_mesh(&renderer->water.polar);
+    lom_free_gathered_light(&renderer->water.light);
 }

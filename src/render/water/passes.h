@@ -13,7 +13,7 @@ extern const struct lom_window lom_whole_view;
 
 /* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there
  * is none. */
-bool lom_find_water(struct frame *f, lom_error *error);
+void lom_find_water(struct frame *f);
 /* The part of a picture of the scene (scaled to width x height) that lookups from the visible water can reach: `reach`
  * parts of the picture away, and a texel of filtering. The whole picture when quality.scissor is off. */
 lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window, double reach, int width, int height);

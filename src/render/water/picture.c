@@ -1,21 +1,23 @@
 /* What the water models of a frame share: where water is seen, and pictures of the scene for it to look up. In: a mask,
  * a view. Out: a rectangle, a picture with depth. Invariant: cutting a picture to what lookups can reach changes no
  * byte. */
+#include "image/texture.h"
 #include "render/water/passes.h"
+
+#include <assert.h>
 
 const struct lom_window lom_whole_view = { { -1, -1 }, { 1, 1 } };
 
-bool lom_find_water(struct frame *f, lom_error *error)
+void lom_find_water(struct frame *f)
 {
-    lom_image *mask = lom_read_texture(f->renderer->targets.of[LOM_TARGET_MASK], 0, 0, error);
-    if (mask == NULL)
-        return false;
-    size_t size = lom_format_size(mask->format);
-    int x0 = mask->width, y0 = mask->height, x1 = -1, y1 = -1;
-    for (int y = 0; y < mask->height; y++) {
-        const uint8_t *row = lom_image_pixel(mask, 0, y, 0); /* the first byte of a pixel is red */
-        for (int x = 0; x < mask->width; x++) {
-            if (row[(size_t)x * size] == 0)
+    const lom_texture *mask = f->renderer->targets.of[LOM_TARGET_MASK];
+    assert(mask->storage == LOM_STORAGE_RGBA8);
+    int width = lom_texture_width(mask), height = lom_texture_height(mask);
+    int x0 = width, y0 = height, x1 = -1, y1 = -1;
+    for (int y = 0; y < height; y++) {
+        const uint32_t *row = lom_texel(mask, 0, 0, y, 0); /* the lowest byte of a texel is red */
+        for (int x = 0; x < width; x++) {
+            if ((row[x] & 255) == 0)
                 continue;
             x0 = x < x0 ? x : x0;
             x1 = x > x1 ? x : x1;
@@ -23,10 +25,8 @@ bool lom_find_water(struct frame *f, lom_error *error)
             y1 = y;
         }
     }
-    lom_free_image(mask);
     if (x1 >= 0)
         f->water = (lom_rect){ f->crop.x + x0, f->crop.y + y0, x1 - x0 + 1, y1 - y0 + 1 };
-    return true;
 }
 
 /* Frame pixels from..to of an axis as pixels of a picture, grown by `reach` parts of it and two, within it. The axis

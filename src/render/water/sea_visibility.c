@@ -36,7 +36,7 @@ static bool draw_box(const struct sea *sea, struct frame *f, const lom_box *box)
 
 /* A point of the surface that is seen lies in the slab of its waves, whose faces are before it: where no face passes
  * the depth test, no water is seen. An eye in the slab may see it anywhere. */
-static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_error *error)
+static bool draw_visibility(struct sea *sea, struct frame *f, bool flat)
 {
     lom_box box = slab(sea, flat);
     double margin = 2.1 * f->camera.near_plane;
@@ -49,11 +49,14 @@ static bool draw_visibility(struct sea *sea, struct frame *f, bool flat, lom_err
                                   f->known != LOM_WAVES_BOUNDED ? "" : ", however high its waves");
     step->width = f->crop.width;
     step->height = f->crop.height;
-    return draw_box(sea, f, &box) && lom_find_water(f, error);
+    if (!draw_box(sea, f, &box))
+        return false;
+    lom_find_water(f);
+    return true;
 }
 
 /* Where the water may be seen, f->water; why not, when it is nowhere. */
-static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_error *error)
+static bool find_seen(struct sea *sea, struct frame *f, const char **why)
 {
     bool flat = lom_water_models[f->scene->quality.water].form == LOM_SURFACE_QUAD;
     lom_box box = slab(sea, flat);
@@ -63,7 +66,7 @@ static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_er
     if (lom_box_visibility(&frustum, box) == LOM_OUTSIDE)
         return true;
     *why = "the scene hides all of the water";
-    if (!draw_visibility(sea, f, flat, error))
+    if (!draw_visibility(sea, f, flat))
         return false;
     if (f->water.width != 0)
         *why = NULL;
@@ -74,13 +77,13 @@ static bool find_seen(struct sea *sea, struct frame *f, const char **why, lom_er
  * one is seen, none of the other is. */
 static bool find_waves(struct sea *sea, struct frame *f, const char **why, lom_error *error)
 {
-    if (!find_seen(sea, f, why, error))
+    if (!find_seen(sea, f, why))
         return false;
     if (*why == NULL && f->known == LOM_WAVES_BOUNDED) {
         if (!lom_place_frame_waves(f, error))
             return false;
         sea->uniforms.waves = f->waves;
-        if (!find_seen(sea, f, why, error))
+        if (!find_seen(sea, f, why))
             return false;
     }
     if (*why != NULL && f->known != LOM_WAVES_FILLED)

@@ -2,6 +2,7 @@
 #ifndef LOM_RENDER_WATER_WATER_H
 #define LOM_RENDER_WATER_WATER_H
 
+#include "water/caustics.h"
 #include "water/surface.h"
 #include "waves/wave_field.h"
 
@@ -14,6 +15,7 @@ struct lom_drawn_water {
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
     lom_texture *photons, *caustics;
+    struct lom_gathered_light light; /* what becomes of the photons */
     struct lom_wave_site site;
     struct lom_wave_field *waves; /* or NULL */
     struct lom_polar_mesh polar;  /* of displaced water */
