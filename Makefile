@@ -35,7 +35,7 @@ MACHINE := $(shell $(CC) -dumpmachine)
 # with the one before would not run with this one.
 ABI = 0
 
-# The float flags are the contract (design: same input, same bytes); a user's shader is compiled with the same ones.
+# The float flags are the contract (docs/numerics.md: same input, same bytes); a user's shader is compiled with the same ones.
 # Straight-line vectorizing is off since gcc 11 and 12 drop the rounding of (double)(float)x in it (tests/base/test_double).
 FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-tree-slp-vectorize
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized

@@ -53,8 +53,7 @@ typedef enum lom_water_model {                       /* from cheap to exact, but
                                LOM_WATER_REFERENCE   /* rays in double precision through the whole frame */
 } lom_water_model;
 
-/* The planar lake. Its nine steps can be switched one by one (spec: reflection, refraction, projection, flow, normals,
- * fresnel, specular, tint, soft shore); docs/scene.md says what each switch does. Filled by lom_read_scene, which
+/* The planar lake. Its nine steps can be switched one by one (the switches 1 to 9 below); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */
 typedef struct lom_water_params {
     bool present;       /* the scene has a [water] table */

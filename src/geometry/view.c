@@ -1,5 +1,5 @@
 /* Cameras: view and projection matrices, the frustum and boxes against it. In: cameras in metres and radians. Out:
- * matrices to clip space (design: 0 <= z <= w, reversed depth; or OpenGL's) and a conservative visibility. */
+ * matrices to clip space (0 <= z <= w, reversed depth; or OpenGL's: lom/geometry.h) and a conservative visibility. */
 #include "base/numbers.h"
 
 #include <lom/geometry.h>

@@ -1,4 +1,4 @@
-/* The planar lake's shaders (spec, part A, steps 3 to 9). In: fragments of the quad, the reflection and refraction of
+/* The planar lake's shaders (docs/scene.md, [water]: steps 3 to 9). In: fragments of the quad, the reflection and refraction of
  * the scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
 #include "water/lake.h"
 

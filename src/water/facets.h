@@ -1,0 +1,127 @@
+/* Rough water, over lanes (Cox and Munk 1954): slopes too small to be seen are normally distributed about the mean slope
+ * with the covariance of waves.h. In: a point of the surface. Out: what such facets mirror of the scene and of the sun. */
+#ifndef LOM_WATER_FACETS_H
+#define LOM_WATER_FACETS_H
+
+#include "base/numbers.h"
+#include "water/optics.h"
+#include "water/surface.h"
+
+struct lom_surface_point {
+    lom_float x, y, w;  /* window position and clip w */
+    lom_float3 offset;  /* on the surface */
+    lom_float3 to_eye;  /* unit length */
+    lom_float distance; /* to the eye */
+    lom_float3 normal;  /* mean, upwards */
+    lom_float3 facet;   /* mean of the facets that the eye sees, upwards */
+    struct lom_wave_slopes slopes;
+};
+
+/* The horizontal direction (x, z) to the eye, how long it is of the unit vector, and the variance of slopes along it.
+ */
+struct lom_view_slope {
+    lom_float x, z, flat, variance;
+};
+
+LOM_INLINE struct lom_view_slope lom_view_slope_of(const struct lom_surface_point *p)
+{
+    const struct lom_wave_slopes *w = &p->slopes;
+    lom_float flat = lom_sqrt(p->to_eye.x * p->to_eye.x + p->to_eye.z * p->to_eye.z);
+    lom_float inverse = 1.0f / lom_max(flat, lom_splat(1e-6f));
+    lom_float c = p->to_eye.x * inverse, s = p->to_eye.z * inverse;
+    lom_float variance = lom_max(w->vxx * c * c + 2.0f * w->vxz * c * s + w->vzz * s * s, (lom_float){ 0 });
+    return (struct lom_view_slope){ c, s, flat, variance };
+}
+
+/* Facets lean towards an eye that looks along the surface: those that lean away hide behind others. Weighting slopes by
+ * the cosine to the eye moves their mean by v tan(zenith), v their variance in that direction; a standard deviation at
+ * most. */
+LOM_INLINE lom_float3 lom_visible_facet(const struct lom_surface_point *p)
+{
+    struct lom_view_slope view = lom_view_slope_of(p);
+    lom_float tangent = view.flat / lom_max(lom_abs(p->to_eye.y), lom_splat(1e-3f));
+    lom_float lean = lom_min(view.variance * tangent, lom_sqrt(view.variance));
+    lom_float up = 1.0f / p->normal.y;
+    return lom_normalize3(
+        (lom_float3){ p->normal.x * up + lean * view.x, lom_splat(1.0f), p->normal.z * up + lean * view.z });
+}
+
+/* Lambda of Smith's shadowing for normal slopes (Walter et al. 2007, equation 24, their rational fit). */
+LOM_INLINE lom_float lom_smith_lambda(lom_float cosine, lom_float variance)
+{
+    lom_float sine = lom_sqrt(lom_max(1.0f - cosine * cosine, (lom_float){ 0 }));
+    lom_float a = lom_max(cosine, lom_splat(1e-3f)) / lom_max(sine * lom_sqrt(2.0f * variance), lom_splat(1e-6f));
+    lom_float fit = (1.0f - 1.259f * a + 0.396f * a * a) / (3.535f * a + 2.181f * a * a);
+    return lom_select(a < 1.6f, fit, (lom_float){ 0 });
+}
+
+LOM_INLINE lom_float lom_surface_fresnel(const struct lom_surface_uniforms *u, lom_float cosine)
+{
+    lom_float c = lom_saturate(cosine);
+    if (u->fresnel == LOM_FRESNEL_DOT)
+        return lom_fresnel_dot(c);
+    if (u->fresnel == LOM_FRESNEL_SCHLICK && u->eta < 1)
+        return lom_fresnel_schlick(c, u->eta);
+    return lom_fresnel_exact(c, lom_splat(u->eta));
+}
+
+/* What a surface of unseen facets reflects of the light, where their mean normal is `cosine` from the eye: the mirror's
+ * share times how much less than a mirror such a surface reflects, since the facets that face the eye hide the others.
+ * The factor is that of the fit r + (1 - r) (1 - c)^(5 exp(-2.69 s)) / (1 + 22.7 s^1.5) for a standard deviation s of
+ * slopes (Bruneton, Neyret, Holzschuch 2010, section 4.3), by its value at s = 0. The mix of the reference works knows
+ * no facets. */
+LOM_INLINE lom_float lom_mean_fresnel(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
+                                      lom_float cosine)
+{
+    lom_float mirror = lom_surface_fresnel(u, cosine);
+    if (u->fresnel == LOM_FRESNEL_DOT)
+        return mirror;
+    const float root = (1.0f - u->eta) / (1.0f + u->eta), least = root * root;
+    lom_float deviation = lom_sqrt(lom_view_slope_of(p).variance);
+    lom_float rest = lom_max(1.0f - lom_saturate(cosine), lom_splat(1e-6f)), square = rest * rest;
+    lom_float mean =
+        lom_exp(5.0f * lom_exp(-2.69f * deviation) * lom_log(rest)) / (1.0f + 22.7f * deviation * lom_sqrt(deviation));
+    return mirror * (least + (1.0f - least) * mean) / (least + (1.0f - least) * square * square * rest);
+}
+
+/* What is left of a mirrored ray that goes down, by its sine: it meets the water again, taken to be level there, which
+ * mirrors it up by this share and sends for the rest what the water sends here. The mix of the reference works knows no
+ * second surface. */
+LOM_INLINE lom_float lom_second_share(const struct lom_surface_uniforms *u, lom_float up)
+{
+    const lom_float one = lom_splat(1.0f);
+    lom_mask down = up < 0.0f;
+    if (u->fresnel == LOM_FRESNEL_DOT || !lom_any(down))
+        return one;
+    return lom_select(down, lom_surface_fresnel(u, -up), one);
+}
+
+/* The sun in the facets: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the sun to the eye
+ * (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour. */
+LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    lom_float3 sun = lom_uniform3(u->light.to_light), none = { { 0 }, { 0 }, { 0 } };
+    if (!(u->light.to_light[1] > 0) || u->side < 0 || !(u->glitter > 0))
+        return none;
+    lom_float3 h = lom_normalize3(lom_add3(p->to_eye, sun));
+    lom_float hy = lom_max(h.y, lom_splat(0.02f)), up = 1.0f / p->normal.y;
+    lom_float dx = h.x / hy - p->normal.x * up, dz = h.z / hy - p->normal.z * up;
+    lom_float disc = lom_splat(5e-6f); /* the sun is no point: half its angle, squared */
+    lom_float vxx = p->slopes.vxx + disc, vzz = p->slopes.vzz + disc, vxz = p->slopes.vxz;
+    lom_float determinant = lom_max(vxx * vzz - vxz * vxz, lom_splat(2e-11f));
+    lom_float square = (vzz * dx * dx - 2.0f * vxz * dx * dz + vxx * dz * dz) / determinant;
+    lom_mask bright = square < 40.0f;
+    if (!lom_any(bright))
+        return none;
+    lom_float density = lom_exp(-0.5f * square) / ((float)lom_two_pi * lom_sqrt(determinant));
+    lom_float variance = 0.5f * (vxx + vzz);
+    lom_float seen = lom_max(lom_dot3(p->normal, p->to_eye), lom_splat(0.02f));
+    lom_float lit = lom_max(lom_dot3(p->normal, sun), lom_splat(1e-3f));
+    lom_float shadow = 1.0f / (1.0f + lom_smith_lambda(seen, variance) + lom_smith_lambda(lit, variance));
+    lom_float f = lom_surface_fresnel(u, lom_dot3(h, p->to_eye)), square_y = hy * hy;
+    lom_float radiance = (float)lom_pi * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
+    radiance = lom_select(bright, lom_min(radiance, lom_splat(1e4f)), (lom_float){ 0 });
+    return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->offset));
+}
+
+#endif
