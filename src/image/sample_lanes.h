@@ -89,7 +89,7 @@ LOM_INLINE sample_place sample_place_of_levels(const lom_texture *texture, lom_i
         return sample_place_of_level(texture, level[0]);
     lom_float4 row = lom_gather_rows(&texture->row[0].width, level * ROW_WORDS);
     lom_int depth = lom_max_int(lom_splat_int(texture->level[0].depth) >> level, lom_splat_int(1));
-    lom_int pitch = lom_as_int(row.z), slice = pitch * (__builtin_convertvector(row.y, lom_int) + 2);
+    lom_int pitch = lom_as_int(row.z), slice = pitch * (lom_bounded_to_int(row.y) + 2);
     return (sample_place){ row.x, row.y, lom_to_float(depth), pitch, slice, lom_as_int(row.w) };
 }
 

@@ -23,7 +23,7 @@ LOM_INLINE lom_int edge_at(lom_float start, lom_float step_x, lom_float step_y, 
 {
     const float unit = 1.0f / SUBPIXELS;
     lom_float steps = x * (step_x * unit) + y * (step_y * unit);
-    return lom_as_int(start) + (__builtin_convertvector(steps, lom_int) << SUBPIXEL_BITS);
+    return lom_as_int(start) + (lom_bounded_to_int(steps) << SUBPIXEL_BITS);
 }
 
 LOM_INLINE void weigh(const struct lom_tile *tile, struct packed *p)
