@@ -1,0 +1,89 @@
+/* The small scenes over which test_key_ranges.c tries keys: each is drawn in milliseconds, and says which keys change its
+ * picture. */
+#ifndef LOM_TESTS_KEY_BASES_H
+#define LOM_TESTS_KEY_BASES_H
+
+/* After the head; the keys under these names (in a picture that they change) are tried in it. */
+struct base {
+    const char *name, *keys, *text;
+};
+
+static const char head[] = "[output]\nwidth = 16\nheight = 9\nformat = \"rgb32f\"\n";
+#define VIEW    "[camera]\nposition = [0, 3, 12]\ntarget = [0, 1, 0]\n[light]\nazimuth = 20\nelevation = 25\n"
+#define TERRAIN "[terrain]\nheight_map = \"height.png\"\nsize = 40\nheight = 6\nbase = -3\ntexture = \"color.png\"\n"
+#define KEYS                                                                                                           \
+    "[[camera.key]]\ntime = 0\n[[camera.key]]\ntime = 1\nposition = [1, 4, 12]\n[[light.key]]\ntime = "                \
+    "0\n[[light.key]]\ntime = 1\nazimuth = 40\n"
+#define CLOUD     "[[cloud]]\nkind = \"cumulus_mediocris\"\nsize = [12, 6, 8]\nposition = [0, 2, -8]\nvoxels = [8, 6, 7]\n"
+#define WIND      "[[clouds.wind]]\nheight = 3\nspeed = 11\ndirection = -35\n"
+#define SEA       "[water.waves]\nkind = \"sea\"\nsize = 16\ncascades = 1\n"
+#define DISPLACED "[quality]\nwater = \"displaced\"\n[water]\nlevel = 0\nsize = 40\n"
+
+static const struct base bases[] = {
+    { "ground",
+      "output camera.position camera.target camera.roll camera.up camera.field_of_view camera.near "
+      "camera.interpolation "
+      "camera.key camera.person light.azimuth light.elevation light.color light.intensity light.ambient light.ground "
+      "light.key haze sky terrain entity quality.terrain_error quality.terrain_shadows "
+      "quality.entity_shadows quality.ambient_occlusion quality.shading quality.texture_filter quality.mipmaps",
+      VIEW KEYS TERRAIN
+      "tile = 5\ndetail_map = \"color.png\"\nnormal_map = \"normal.png\"\n[terrain.material]\nspecular = 0.3\n"
+      "[[terrain.layer]]\nmap = \"layer.ppm\"\nfrom_height = 0\nto_slope = 60\n[haze]\nheight = 50\nglow = [0.4, 0.2, "
+      "0.1]\n"
+      "[sky]\npattern = \"sky_%s.png\"\n[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
+      "[entity.material]\nspecular = 0.5\n[[entity.key]]\ntime = 0\n[[entity.key]]\ntime = 1\nposition = [1, 1, "
+      "1]\n[quality]\nterrain_shadows = true\nentity_shadows = 64\nambient_occlusion = true\n" },
+    { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
+      "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "
+      "[0.5, 0.2, 0.1]\n" },
+    { "lake", "water quality.reflection_scale quality.refraction_scale quality.scissor quality.water camera.position",
+      VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n" },
+    { "clouds",
+      "cloud clouds camera.near camera.position camera.field_of_view light.elevation quality.cloud_error "
+      "quality.cloud_stop quality.cloud_octaves quality.cloud_jitter quality.cloud_light_scale quality.clouds",
+      VIEW TERRAIN CLOUD
+      "[[cloud]]\nkind = \"stratus\"\nsize = [20, 3, 20]\nposition = [0, 5, -20]\nvoxels = [8, 4, 8]\n" WIND
+      "[clouds]\nhaze_distance = 90\nshadows = false\n" },
+    { "cloud_shadows",
+      "clouds.shadows clouds.shadow_strength cloud.0.size cloud.0.position cloud.0.yaw cloud.0.density "
+      "cloud.0.extinction cloud.0.detail_size light.elevation terrain.size",
+      VIEW TERRAIN CLOUD },
+    { "original", "clouds.lighter clouds.dark_light clouds.original_light cloud.0.size cloud.0.density",
+      VIEW CLOUD "[quality]\nclouds = \"original\"\n" },
+    { "evolve", "clouds.evolve clouds.swell clouds.wind output.fps", VIEW CLOUD WIND "[clouds]\nevolve = 3\n" },
+    { "impostors",
+      "quality.impostor quality.impostors cloud.0.size cloud.0.position cloud.0.yaw camera.near "
+      "camera.field_of_view",
+      VIEW CLOUD "[quality]\nimpostors = \"bounded\"\n" },
+    { "reference_impostors", "quality.impostor cloud.0.size cloud.0.position",
+      VIEW CLOUD "[quality]\nimpostors = \"reference\"\n" },
+    { "gerstner", "water quality.water camera.position",
+      VIEW DISPLACED
+      "[water.waves]\nkind = \"gerstner\"\ncount = 4\n[water.optics]\ncaustics = 1\ncaustics_texels = 16\n" },
+    { "sea", "water.waves water.level output.fps", VIEW DISPLACED SEA },
+    { "foam", "water.foam water.waves.choppiness output.fps",
+      VIEW DISPLACED SEA "[water.foam]\namount = 1\nwindow = 0.2\n" },
+    { "marched", "water.waves.height water.waves.length water.optics water.size camera.position",
+      VIEW "[quality]\nwater = \"marched\"\n[water]\nlevel = 0\nsize = 40\n[water.waves]\nkind = \"gerstner\"\ncount = "
+           "2\n" },
+    { "flow", "water.waves.speed water.waves.direction water.tile water.position",
+      VIEW DISPLACED "normal_map = \"normal.png\"\n[water.waves]\nkind = \"flow\"\n" },
+    { "surf", "surf terrain.size terrain.height terrain.base water.level water.size",
+      VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\n" },
+    { "shallow", "shallow terrain.size water.size water.level",
+      VIEW TERRAIN DISPLACED "[shallow]\ncells = 16\nsize = 20\n[[shallow.spring]]\nposition = [1, 1]\nrate = 2\n"
+                             "[[shallow.body]]\nposition = [2, 2]\nduration = 1\n" },
+    { "spray", "spray quality.spray camera.near output.fps",
+      VIEW
+      "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\njets = 2\nspread = 0.3\nspread_up = 0.2\ndrag = 0.3\n"
+      "size = [0.3, 0.5]\nstretch = 0.1\n" },
+    { "falls", "spray.0.height spray.0.velocity",
+      VIEW "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\nspread = 0.3\nheight = 4\n" },
+    { "reference", "quality.reference water.optics light.elevation",
+      VIEW TERRAIN "[water]\nlevel = 0\n[quality]\nwater = \"reference\"\n"
+                   "[quality.reference]\nsamples = 1\ndepth = 2\n" },
+    { "reference_clouds", "cloud.0 clouds.albedo clouds.forward",
+      VIEW CLOUD "[quality]\nclouds = \"reference\"\n[quality.reference]\nsamples = 1\n" },
+};
+
+#endif
