@@ -195,6 +195,9 @@ FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 $(BUILD)/tests/faults/test_frame_allocations: private LDFLAGS += -Wl,--wrap=lom_reserve
 
+# tests/world counts which files are opened.
+$(BUILD)/tests/world/%: private LDFLAGS += -Wl,--wrap=openat
+
 # A fuzz target on files given as arguments, without libFuzzer: tests/fuzz/test_corpus.sh runs the corpus with these.
 $(BUILD)/tests/fuzz/run_%: tests/fuzz/%.c tests/fuzz/main.c tests/fuzz/bytes.h $(BUILD)/liblom.a
 	@mkdir -p $(@D)

@@ -47,7 +47,7 @@ bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw
 
 static void look(struct frame *f)
 {
-    f->camera = lom_scene_camera_at(f->scene, f->time);
+    f->camera = f->renderer->moment.camera;
     f->view.projection = lom_perspective(f->camera.field_of_view, (double)f->width / f->height, f->camera.near_plane);
     f->view.view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
     f->view.eye = f->camera.position;
@@ -127,12 +127,12 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
     lom_renderer *renderer = f->renderer;
     lom_counters before = lom_device_counters(renderer->device);
     f->wave_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) : 0;
-    renderer->moment.light = lom_scene_light_at(&renderer->moment, f->time);
-    lom_move_entities(renderer, f->time);
-    look(f);
     lom_error failed = { 0 };
-    lom_image *traced = renderer->reference != NULL ? lom_draw_reference(f, &failed) : NULL;
-    bool drawn = renderer->reference == NULL && draw_stages(f, out->stage, &failed);
+    const bool placed = lom_world_at(renderer->world, f->time, &renderer->moment, &failed);
+    if (placed)
+        look(f);
+    lom_image *traced = placed && renderer->reference != NULL ? lom_draw_reference(f, &failed) : NULL;
+    bool drawn = placed && renderer->reference == NULL && draw_stages(f, out->stage, &failed);
     double start = milliseconds();
     out->image = drawn ? lom_output_target(f->scene, renderer->targets.of[LOM_TARGET_COLOR], &failed)
                        : lom_output_image(f->scene, traced, &failed);

@@ -1,6 +1,7 @@
 /* Making and freeing a renderer. In: a scene. Out: a device with everything that the scene names. */
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
+#include "reference/reference.h"
 #include "render/renderer.h"
 #include "water/water_models.h"
 
@@ -16,13 +17,13 @@ static const struct room {
 };
 static const size_t room_count = sizeof rooms / sizeof rooms[0];
 
-static bool load(lom_renderer *renderer, lom_error *error)
+static bool load(lom_renderer *renderer, const lom_scene *scene, lom_error *error)
 {
-    const lom_scene *scene = renderer->scene;
+    renderer->world = lom_create_world(scene, error);
+    if (renderer->world == NULL || !lom_world_at(renderer->world, 0, &renderer->moment, error))
+        return false;
     if (lom_water_models[scene->quality.water].is_traced || scene->quality.clouds == LOM_CLOUDS_REFERENCE) {
-        renderer->reference = lom_create_reference(scene, error);
-        if (renderer->reference != NULL)
-            lom_add_warnings(&renderer->warnings, lom_reference_warnings(renderer->reference));
+        renderer->reference = lom_create_reference_of(renderer->world, error);
         return renderer->reference != NULL;
     }
     if (!lom_load_sky(renderer, error))
@@ -30,6 +31,7 @@ static bool load(lom_renderer *renderer, lom_error *error)
     for (size_t i = 0; i < room_count; i++)
         if (!rooms[i].load(renderer, error))
             return false;
+    lom_release_world_files(renderer->world);
     return true;
 }
 
@@ -40,11 +42,10 @@ lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc 
     if (renderer == NULL)
         return NULL;
     lom_enter_float_state(&state);
-    renderer->moment = *scene;
-    renderer->scene = &renderer->moment;
+    renderer->scene = &renderer->moment.scene;
     renderer->device = lom_open_device(desc);
     lom_error failed = { 0 };
-    bool done = lom_check_device(renderer->device, &failed) && load(renderer, &failed);
+    bool done = lom_check_device(renderer->device, &failed) && load(renderer, scene, &failed);
     done = lom_check_device(renderer->device, &failed) && done;
     assert(done == (failed.code == LOM_OK)); /* as in lom_render_frame */
     lom_pass_error(&failed, error);
@@ -63,18 +64,20 @@ void lom_free_renderer(lom_renderer *renderer)
     for (size_t i = 0; i < room_count; i++)
         rooms[i].free(renderer);
     lom_free_textures(renderer);
+    lom_free_moment(&renderer->moment);
+    lom_free_world(renderer->world);
     lom_close_device(renderer->device);
     lom_release(renderer);
 }
 
 const char *lom_renderer_warning(const lom_renderer *renderer)
 {
-    return renderer->warnings.text;
+    return renderer->world->warnings.text;
 }
 
 size_t lom_renderer_warning_count(const lom_renderer *renderer)
 {
-    return renderer->warnings.count;
+    return renderer->world->warnings.count;
 }
 
 const lom_device *lom_renderer_device(const lom_renderer *renderer)

@@ -11,14 +11,15 @@
 #include "render/targets.h"
 #include "render/textures.h"
 #include "render/water/water.h"
+#include "world/world.h"
 
 #include <lom/reference.h>
 
 struct lom_renderer {
-    lom_scene moment;       /* the scene at the time of the frame: its light moves */
-    const lom_scene *scene; /* moment, for those who read it */
+    struct lom_world *world;
+    struct lom_moment moment; /* the world at the time of the frame */
+    const lom_scene *scene;   /* of the moment */
     lom_device *device;
-    lom_warnings warnings;    /* of the meshes and their textures */
     lom_reference *reference; /* instead of all that follows, where the water's model is the reference */
 
     struct lom_texture_cache textures;

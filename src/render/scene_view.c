@@ -2,12 +2,13 @@
  * outside the view or wholly behind the clip plane is left out, which changes no pixel. Compiled for speed. */
 #include "base/numbers.h"
 #include "render/renderer.h"
+#include "scene/scene_light.h"
 
 struct lom_light_uniform lom_scene_light(const lom_scene *scene)
 {
     const lom_light *light = &scene->light;
-    struct lom_light_uniform u = { .to_light = { (float)-light->direction.x, (float)-light->direction.y,
-                                                 (float)-light->direction.z } };
+    const lom_vec3 to_light = lom_to_light(light);
+    struct lom_light_uniform u = { .to_light = { (float)to_light.x, (float)to_light.y, (float)to_light.z } };
     for (int i = 0; i < 3; i++) {
         u.color[i] = (float)(light->color[i] * light->intensity);
         u.ambient[i] = (float)light->ambient[i];

@@ -1,5 +1,6 @@
 /* The sky in a pass. In: the scene's sky. Out: its box and the sun's picture as textures, drawn where a pass shows
  * nothing else. */
+#include "pipeline/check_device.h"
 #include "render/renderer.h"
 #include "sky/sky_draw.h"
 
@@ -20,12 +21,21 @@ static bool load_sun(lom_renderer *renderer, lom_error *error)
     return renderer->sky.sun != NULL;
 }
 
-bool lom_load_sky(lom_renderer *renderer, lom_error *error)
+static bool load_box(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    const bool srgb = scene->output.transfer == LOM_TRANSFER_SRGB;
-    return lom_load_sky_box(renderer->device, &scene->sky, srgb, &renderer->sky.box, error) &&
-           load_sun(renderer, error);
+    if (!scene->sky.present || scene->sky.faces[0] == NULL)
+        return true;
+    lom_image *faces = lom_read_sky_faces(&scene->sky, error);
+    if (faces != NULL)
+        renderer->sky.box = lom_make_sky_texture(renderer->device, faces, scene->output.transfer == LOM_TRANSFER_SRGB);
+    lom_free_image(faces);
+    return renderer->sky.box != NULL && lom_check_device(renderer->device, error);
+}
+
+bool lom_load_sky(lom_renderer *renderer, lom_error *error)
+{
+    return load_box(renderer, error) && load_sun(renderer, error);
 }
 
 void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_light_uniform *light)

@@ -6,7 +6,7 @@
 #include <lom/texture.h>
 
 struct lom_cached_texture {
-    const char *path; /* one of the cache's own */
+    const char *path; /* the scene's or the world's */
     bool color;
     lom_texture *texture; /* the device's */
 };
@@ -14,15 +14,11 @@ struct lom_cached_texture {
 struct lom_texture_cache {
     struct lom_cached_texture *items;
     size_t count, capacity;
-    char **paths;
-    size_t path_count, path_capacity;
 };
 
-/* The texture of a picture, loaded once; color: it holds colours (sRGB-encoded unless the scene's transfer is naive).
- */
+/* The texture of a picture of the world, which is then released; loaded once. color: it holds colours (sRGB-encoded
+ * unless the scene's transfer is naive). */
 lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error);
-/* The same once it is loaded; NULL for a NULL path. */
-lom_texture *lom_find_texture(const lom_renderer *renderer, const char *path, bool color);
 void lom_free_textures(lom_renderer *renderer);
 
 #endif

@@ -5,51 +5,14 @@
 
 #include <string.h>
 
-/* Six square pictures of one size, side by side in one block of RGBA8. */
-static uint8_t *join_faces(const lom_sky_params *sky, int *size, lom_error *error)
+lom_texture *lom_make_sky_texture(lom_device *device, const lom_image *faces, bool srgb)
 {
-    uint8_t *pixels = NULL;
-    for (int i = 0; i < 6; i++) {
-        lom_image *file = lom_read_image(sky->faces[i], error);
-        lom_image *image = file == NULL ? NULL : lom_convert_image(file, LOM_FORMAT_RGBA8, error);
-        lom_free_image(file);
-        bool fits = image != NULL && image->width == image->height && (i == 0 || image->width == *size);
-        if (image != NULL && !fits)
-            lom_fail(error, LOM_ERROR_INPUT,
-                     "%s: the faces of a sky box are squares of one size, and this one is %dx%d.", sky->faces[i],
-                     image->width, image->height);
-        if (fits && i == 0) {
-            *size = image->width;
-            pixels = lom_allocate(lom_image_size(image), 6, error);
-        }
-        if (fits && pixels != NULL)
-            memcpy(pixels + (size_t)i * lom_image_size(image), image->pixels, lom_image_size(image));
-        lom_free_image(image);
-        if (!fits || pixels == NULL) {
-            lom_release(pixels);
-            return NULL;
-        }
-    }
-    return pixels;
-}
-
-bool lom_load_sky_box(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error)
-{
-    int size = 0;
-    *box = NULL;
-    if (!sky->present || sky->faces[0] == NULL)
-        return true;
-    uint8_t *pixels = join_faces(sky, &size, error);
-    if (pixels == NULL)
-        return false;
-    *box = lom_make_texture(device, &(lom_texture_desc){ .kind = LOM_TEXTURE_CUBE,
-                                                         .width = size,
-                                                         .height = size,
+    return lom_make_texture(device, &(lom_texture_desc){ .kind = LOM_TEXTURE_CUBE,
+                                                         .width = faces->width,
+                                                         .height = faces->height,
                                                          .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
-                                                         .pixels = pixels,
+                                                         .pixels = faces->pixels,
                                                          .mips = LOM_MIPS_ALL });
-    lom_release(pixels);
-    return lom_check_device(device, error);
 }
 
 /* The ray through (ndc x, ndc y) in view space is (x / p00, y / p11, -1); the rows of the view's rotation take it to

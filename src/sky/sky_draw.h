@@ -7,9 +7,9 @@
 #include <lom/geometry.h>
 #include <lom/sky.h>
 
-/* The sky box as a cube texture of the device, *box; srgb: its pictures are decoded. *box is NULL where the sky is a
- * colour. */
-bool lom_load_sky_box(lom_device *device, const lom_sky_params *sky, bool srgb, lom_texture **box, lom_error *error);
+/* The sky box as a cube texture of the device, from six faces (+x, -x, +y, -y, +z, -z), slices of RGBA8; srgb: they are
+ * decoded. */
+lom_texture *lom_make_sky_texture(lom_device *device, const lom_image *faces, bool srgb);
 
 /* What the shaders get of a sky that is a gradient; off where it is not. */
 struct lom_gradient_uniform lom_sky_gradient_of(const lom_sky_params *sky, const lom_texture *box,

@@ -4,12 +4,14 @@
  * closed forms. */
 #include "check.h"
 
+#include "geometry/terrain.h"
 #include "render/ground/ground.h"
 
 enum { SIZE = 150 }; /* vertices: no whole number of blocks */
 
 static lom_device *device;
 static lom_image *map;
+static float *map_heights;
 static struct lom_ground ground;
 static const lom_terrain terrain = { .size = { 300, 200 }, .height = 40, .base = -3 };
 
@@ -32,14 +34,17 @@ static void load(uint16_t (*height)(int x, int y))
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++)
             *(uint16_t *)lom_image_pixel(map, x, y, 0) = height(x, y);
-    CHECK(lom_make_ground_blocks(&ground, &terrain, map, &(lom_quality){ .ambient_occlusion = true, .mipmaps = true },
-                                 device, &error),
+    map_heights = lom_allocate(SIZE * SIZE, sizeof *map_heights, &error);
+    CHECK(lom_read_terrain_heights(map, terrain.size, terrain.height, map_heights, &error), "%s", error.text);
+    CHECK(lom_make_ground_blocks(&ground, &terrain, map, map_heights,
+                                 &(lom_quality){ .ambient_occlusion = true, .mipmaps = true }, device, &error),
           "%s", error.text);
 }
 
 static void release(void)
 {
     lom_free_ground_blocks(&ground);
+    lom_release(map_heights);
     lom_free_image(map);
     lom_close_device(device);
 }

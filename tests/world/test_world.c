@@ -7,6 +7,44 @@
 #include "geometry/terrain.h"
 #include "world/world.h"
 
+#include <fcntl.h>
+#include <stdarg.h>
+#include <sys/types.h>
+
+/* ---- files that are opened to be read (openat is wrapped: Makefile) ---- */
+
+static struct {
+    char path[200];
+    int count;
+} opened[64];
+static int opened_count = -1; /* below 0: nobody asks */
+
+int __real_openat(int folder, const char *path, int flags, ...);
+int __wrap_openat(int folder, const char *path, int flags, ...);
+
+static void note_opened(const char *path)
+{
+    int i = 0;
+    while (i < opened_count && strcmp(opened[i].path, path) != 0)
+        i++;
+    if (i == opened_count && opened_count < 64) {
+        snprintf(opened[opened_count].path, sizeof opened[0].path, "%s", path);
+        opened[opened_count++].count = 0;
+    }
+    opened[i].count++;
+}
+
+int __wrap_openat(int folder, const char *path, int flags, ...)
+{
+    va_list rest;
+    va_start(rest, flags);
+    mode_t mode = va_arg(rest, mode_t);
+    va_end(rest);
+    if (opened_count >= 0 && (flags & O_ACCMODE) == O_RDONLY && strstr(path, small_folder) != NULL)
+        note_opened(path);
+    return __real_openat(folder, path, flags, mode);
+}
+
 /* ---- scenes ---- */
 
 static lom_scene *scene;
@@ -232,6 +270,37 @@ static void a_file_is_read_once(void)
           "put back");
 }
 
+/* By the pipeline and by the reference, on the ground, with keys, whether one thing or several name it. */
+static void frames_read_each_file_once(void)
+{
+    static const char *const models[] = { "'planar'", "'reference'" };
+    static const char text[] =
+        LAND "texture = 'color.png'\n[[terrain.layer]]\nmap = 'layer.ppm'\n[sky]\npattern = 'sky_%s.png'\n"
+             "[water]\nnormal_map = 'normal.png'\n" BOX "on_ground = true\n" BOX
+             "[[entity.key]]\ntime = 0\n[[entity.key]]\ntime = 1\nposition = [1, 1, 2]\n"
+             "[output]\nwidth = 8\nheight = 8\n[quality.reference]\nsamples = 1\ndepth = 1\n[quality]\nwater = ";
+    for (int i = 0; i < 2; i++) {
+        char whole[1200];
+        lom_error error = { 0 };
+        snprintf(whole, sizeof whole, "%s%s\n", text, models[i]);
+        scene = lom_decode_scene(whole, strlen(whole), small_path("scene.toml"), NULL, 0, &error);
+        opened_count = 0;
+        lom_renderer *renderer = scene == NULL ? NULL : lom_create_renderer(scene, NULL, &error);
+        for (int frame = 0; renderer != NULL && frame < 2; frame++) {
+            lom_frame drawn;
+            CHECK(lom_render_frame(renderer, &(lom_frame_desc){ .frame = frame }, &drawn, &error), "%s", error.text);
+            lom_free_image(drawn.image);
+        }
+        CHECK(renderer != NULL && opened_count == 12, "%s: %d files: %s", models[i], opened_count, error.text);
+        for (int k = 0; k < opened_count; k++)
+            CHECK(opened[k].count == 1, "%s: %s is read %d times", models[i], opened[k].path, opened[k].count);
+        opened_count = -1;
+        lom_free_renderer(renderer);
+        lom_free_scene(scene);
+        scene = NULL;
+    }
+}
+
 static void deep_pictures_stay_deep(void)
 {
     if (!open_good(BOX))
@@ -325,6 +394,7 @@ int main(int argc, char **argv)
     RUN(a_mesh_without_materials_is_white);
     RUN(a_map_that_cannot_be_read_is_a_warning);
     RUN(a_file_is_read_once);
+    RUN(frames_read_each_file_once);
     RUN(deep_pictures_stay_deep);
     RUN(the_flow_map_is_made_from_the_file);
     RUN(the_faces_of_a_sky_are_squares_of_one_size);

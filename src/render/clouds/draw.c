@@ -21,8 +21,8 @@ static struct lom_cloud_view cloud_view(const struct frame *f, const struct lom_
 
 bool lom_prepare_clouds(struct frame *f, lom_error *error)
 {
-    const lom_vec3 direction = f->scene->light.direction;
-    const double to_light[3] = { -direction.x, -direction.y, -direction.z };
+    const lom_vec3 sun = f->renderer->moment.to_light;
+    const double to_light[3] = { sun.x, sun.y, sun.z };
     int swept = 0;
     if (f->renderer->clouds.set == NULL)
         return true;

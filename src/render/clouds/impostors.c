@@ -26,9 +26,10 @@ static double angle_between(const double a[3], const double b[3])
 
 /* Whether the light has left what a cloud's plates were made for: the sun by more than the allowance, a colour by more
  * than a 30th. */
-static bool has_light_moved(const struct lom_cloud_sun *sun, const lom_light *light)
+static bool has_light_moved(const struct lom_cloud_sun *sun, const struct lom_moment *moment)
 {
-    const double to_light[3] = { -light->direction.x, -light->direction.y, -light->direction.z };
+    const lom_light *light = &moment->scene.light;
+    const double to_light[3] = { moment->to_light.x, moment->to_light.y, moment->to_light.z };
     bool is_other = angle_between(to_light, sun->to_light) > sun->allowance;
     for (int i = 0; i < 3; i++) {
         double color = light->color[i] * light->intensity, change = color - sun->color[i];
@@ -42,16 +43,17 @@ static bool has_light_moved(const struct lom_cloud_sun *sun, const lom_light *li
 static bool follow_sun(struct frame *f, lom_error *error)
 {
     struct lom_impostors *state = &f->renderer->clouds.impostors;
-    const lom_light *light = &f->scene->light;
+    const struct lom_moment *moment = &f->renderer->moment;
+    const lom_light *light = &moment->scene.light;
     size_t count = f->renderer->clouds.set->count;
     if (state->suns == NULL)
         state->suns = lom_allocate(count, sizeof *state->suns, error);
     for (size_t i = 0; state->suns != NULL && i < count; i++) {
         struct lom_cloud_sun *sun = &state->suns[i];
-        if (state->continues && !has_light_moved(sun, light))
+        if (state->continues && !has_light_moved(sun, moment))
             continue;
         double whole = f->scene->quality.impostor.sun, part = (double)(i + 1) / (double)count;
-        *sun = (struct lom_cloud_sun){ { -light->direction.x, -light->direction.y, -light->direction.z },
+        *sun = (struct lom_cloud_sun){ { moment->to_light.x, moment->to_light.y, moment->to_light.z },
                                        .allowance = state->continues ? whole : whole * part };
         for (int k = 0; k < 3; k++)
             sun->color[k] = light->color[k] * light->intensity;

@@ -28,11 +28,11 @@ static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_entity_p
                                              [LOM_SHADING_GOURAUD] = &lom_entity_gouraud,
                                              [LOM_SHADING_FLAT] = &lom_entity_flat };
 
-static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *entity,
+static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *entity,
                         const struct lom_scene_view *view, const struct lom_view_uniform *uniform)
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
-    lom_mat4 offset_from_model = entity->world_from_model;
+    lom_mat4 offset_from_model = entity->at->world_from_model;
     offset_from_model.m[0][3] -= view->eye.x;
     offset_from_model.m[1][3] -= view->eye.y;
     offset_from_model.m[2][3] -= view->eye.z;
@@ -40,26 +40,28 @@ static void draw_entity(lom_renderer *renderer, const struct lom_loaded_entity *
     struct lom_entity_uniforms uniforms = { .view = *uniform,
                                             .clip_from_model = lom_round_matrix(&clip_from_model),
                                             .offset_from_model = lom_round_matrix(&offset_from_model),
-                                            .normal_from_model = lom_round_matrix(&entity->normal_from_model) };
+                                            .normal_from_model = lom_round_matrix(&entity->at->normal_from_model) };
     lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
-                           .front_clockwise = view->mirrored != is_mirroring(&entity->world_from_model) };
-    set_attributes(&draw, entity->drawn);
-    for (size_t i = 0; i < entity->drawn->part_count; i++) {
-        uniforms.material = entity->parts[i].material;
-        draw.first = entity->parts[i].first;
-        draw.count = entity->parts[i].count;
+                           .front_clockwise = view->mirrored != is_mirroring(&entity->at->world_from_model) };
+    set_attributes(&draw, entity->source->mesh);
+    for (size_t i = 0; i < entity->source->mesh->part_count; i++) {
+        uniforms.material = entity->materials[i];
+        draw.first = entity->source->parts[i].first;
+        draw.count = entity->source->parts[i].count;
         lom_draw(renderer->device, &draw);
     }
 }
 
-void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world)
+void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *entity, const lom_mat4 *clip_from_world)
 {
-    lom_mat4 clip_from_model = lom_multiply(clip_from_world, &entity->world_from_model);
+    lom_mat4 clip_from_model = lom_multiply(clip_from_world, &entity->at->world_from_model);
     struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_model) };
-    lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .count = entity->drawn->index_count };
-    set_attributes(&draw, entity->drawn);
+    lom_draw_desc draw = { .shader = &lom_caster_shader,
+                           .uniforms = &uniforms,
+                           .count = entity->source->mesh->index_count };
+    set_attributes(&draw, entity->source->mesh);
     lom_draw(renderer->device, &draw);
 }
 
@@ -82,9 +84,9 @@ struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_
     return u;
 }
 
-static bool is_shown(const struct lom_loaded_entity *entity, const struct lom_culler *culler)
+static bool is_shown(const struct lom_drawn_entity *entity, const struct lom_culler *culler)
 {
-    return !entity->is_hidden && lom_is_visible(culler, &entity->bounds);
+    return !entity->source->is_hidden && lom_is_visible(culler, &entity->at->bounds);
 }
 
 void lom_draw_entities(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,

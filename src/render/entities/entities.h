@@ -4,26 +4,15 @@
 
 #include "render/scene_view.h"
 
-#include <lom/scene.h>
+#include "world/world.h"
 
 struct frame;
 
-struct lom_loaded_part { /* the triangles of one material */
-    uint32_t first, count;
-    struct lom_material_uniform material;
-};
-
-struct lom_loaded_entity {
-    const lom_entity *entity;
-    lom_mesh *mesh; /* NULL where another entity owns it, or nothing is drawn */
-    const lom_mesh *drawn;
-    struct lom_loaded_part *parts;
-    lom_mat4 world_from_model, normal_from_model;
-    lom_box bounds;   /* in the world */
-    lom_vec3 home;    /* where it was put, before it moves, */
-    double home_size; /* and the longest side of its bounds there */
-    bool is_hidden;   /* the camera is in it */
-    int shadow_map;   /* that it is drawn into in this frame; -1: none */
+struct lom_drawn_entity {
+    const struct lom_world_entity *source;
+    const struct lom_placement *at;         /* in the frame */
+    struct lom_material_uniform *materials; /* one a part */
+    int shadow_map;                         /* that it is drawn into in this frame; -1: none */
 };
 
 /* A map of what entities keep the sun off. */
@@ -36,14 +25,12 @@ struct lom_entity_shadow {
 };
 
 struct lom_drawn_entities {
-    struct lom_loaded_entity *items;
+    struct lom_drawn_entity *items;
     size_t count;
     struct lom_entity_shadow shadows[LOM_ENTITY_SHADOWS];
 };
 
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
-/* Puts those that move where they are at a time. */
-void lom_move_entities(lom_renderer *renderer, double time);
 /* Makes the maps of their shadows. */
 bool lom_prepare_entities(struct frame *f, lom_error *error);
 /* Draws those that a pass sees. */
@@ -56,6 +43,6 @@ bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *c
 /* The map of a shadow, for places less the eye. */
 struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye);
 /* Draws the depth of an entity, both sides of its faces, into the pass that has begun. */
-void lom_draw_caster(lom_renderer *renderer, const struct lom_loaded_entity *entity, const lom_mat4 *clip_from_world);
+void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *entity, const lom_mat4 *clip_from_world);
 
 #endif

@@ -35,9 +35,9 @@ static lom_box join(lom_box a, lom_box b)
 /* All that a shadow could fall on. */
 static lom_box find_receivers(const lom_renderer *r)
 {
-    lom_box all = r->entities.items[0].bounds;
+    lom_box all = r->entities.items[0].at->bounds;
     for (size_t i = 1; i < r->entities.count; i++)
-        all = join(all, r->entities.items[i].bounds);
+        all = join(all, r->entities.items[i].at->bounds);
     for (int i = 0; i < r->ground.across * r->ground.down; i++)
         all = join(all, r->ground.blocks[i].bounds);
     return all;
@@ -91,11 +91,11 @@ static struct views find_views(const struct frame *f)
 }
 
 /* Whether an entity's shadow may be seen. */
-static bool casts(const struct lom_loaded_entity *entity, const struct views *views, lom_vec3 to_light,
+static bool casts(const struct lom_drawn_entity *entity, const struct views *views, lom_vec3 to_light,
                   const lom_box *all)
 {
-    lom_box volume = shadow_volume(entity->bounds, to_light, all);
-    for (int i = 0; i < views->count && !entity->is_hidden; i++)
+    lom_box volume = shadow_volume(entity->at->bounds, to_light, all);
+    for (int i = 0; i < views->count && !entity->source->is_hidden; i++)
         if (lom_box_visibility(&views->frustum[i], volume) != LOM_OUTSIDE)
             return true;
     return false;
@@ -121,9 +121,9 @@ static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *lig
     lom_box all = find_receivers(r);
     double nearest = 1e300, farthest = 0;
     for (size_t i = 0; i < r->entities.count; i++) {
-        struct lom_loaded_entity *e = &r->entities.items[i];
+        struct lom_drawn_entity *e = &r->entities.items[i];
         e->shadow_map = casts(e, &views, to_light, &all) ? 0 : -1;
-        double distance = greater(distance_to(f->view.eye, e->bounds), f->camera.near_plane);
+        double distance = greater(distance_to(f->view.eye, e->at->bounds), f->camera.near_plane);
         if (e->shadow_map == 0) {
             nearest = lesser(nearest, distance);
             farthest = greater(farthest, distance);
@@ -131,11 +131,11 @@ static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *lig
     }
     double middle = lom_double_sqrt(nearest * farthest);
     for (size_t i = 0; i < r->entities.count; i++) {
-        struct lom_loaded_entity *e = &r->entities.items[i];
+        struct lom_drawn_entity *e = &r->entities.items[i];
         if (e->shadow_map < 0)
             continue;
-        e->shadow_map = greater(distance_to(f->view.eye, e->bounds), f->camera.near_plane) > middle;
-        add_extent(&casters[e->shadow_map], lom_transform_box(light, e->bounds));
+        e->shadow_map = greater(distance_to(f->view.eye, e->at->bounds), f->camera.near_plane) > middle;
+        add_extent(&casters[e->shadow_map], lom_transform_box(light, e->at->bounds));
     }
 }
 
@@ -154,7 +154,7 @@ static double texel_size(double least, double length)
 /* From the world to the map's clip space; depth grows towards the sun. Sizes and places of texels are counted from
  * those of the first entity, wherever the scene is and whatever its scale. */
 static void project_map(struct lom_entity_shadow *shadow, const lom_box *extent, const lom_mat4 *light, int size,
-                        const struct lom_loaded_entity *first)
+                        const struct lom_world_entity *first)
 {
     double width = extent->high.x - extent->low.x, height = extent->high.y - extent->low.y;
     double least = greater(greater(width, height) / (size - 2 * margin), 1e-30);
@@ -192,7 +192,7 @@ static uint64_t hash_casters(const lom_renderer *r, int map, const lom_mat4 *pro
     uint64_t hash = lom_hash_bytes(LOM_HASH_START, projection, sizeof *projection);
     for (size_t i = 0; i < r->entities.count; i++)
         if (r->entities.items[i].shadow_map == map)
-            hash = lom_hash_bytes(lom_hash_bytes(hash, &i, sizeof i), &r->entities.items[i].world_from_model,
+            hash = lom_hash_bytes(lom_hash_bytes(hash, &i, sizeof i), &r->entities.items[i].at->world_from_model,
                                   sizeof(lom_mat4));
     return hash;
 }
@@ -212,7 +212,7 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
     }
     if (!make_map(f, shadow, size))
         return false;
-    project_map(shadow, &casters->extent, light, size, &r->entities.items[0]);
+    project_map(shadow, &casters->extent, light, size, r->entities.items[0].source);
     uint64_t hash = hash_casters(r, map, &shadow->clip_from_world);
     if (shadow->made_for == hash) {
         lom_add_step(f, names[map], false, "neither the sun nor an entity has moved");
@@ -234,7 +234,7 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
 bool lom_prepare_entities(struct frame *f, lom_error *error)
 {
     (void)error;
-    const lom_vec3 direction = f->scene->light.direction, to_light = { -direction.x, -direction.y, -direction.z };
+    const lom_vec3 to_light = f->renderer->moment.to_light;
     struct casters casters[2] = { { .count = 0 }, { .count = 0 } };
     if (f->renderer->entities.count == 0)
         return true;

@@ -24,7 +24,6 @@ static void take_row(void *context, int row, const lom_mesh_vertex *vertices)
     for (int i = 0; i < loader->width; i++) {
         const lom_mesh_vertex *v = &vertices[i];
         float *surface = loader->surface[first + (size_t)i];
-        loader->ground->heights[first + (size_t)i] = v->position[1];
         loader->x[i] = v->position[0];
         for (int k = 0; k < 3; k++)
             surface[k] = v->normal[k];
@@ -189,14 +188,13 @@ static bool make_surface(const struct loader *loader, int height, bool mipmaps, 
     return lom_check_device(device, error);
 }
 
-bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, const lom_image *map,
+bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, const lom_image *map, const float *heights,
                             const lom_quality *quality, lom_device *device, lom_error *error)
 {
     size_t vertices = (size_t)map->width * (size_t)map->height;
-    *ground = (struct lom_ground){ .columns = map->width - 1, .rows = map->height - 1 };
+    *ground = (struct lom_ground){ .columns = map->width - 1, .rows = map->height - 1, .heights = heights };
     ground->across = joined(ground->columns, LOM_GROUND_LEVELS - 1);
     ground->down = joined(ground->rows, LOM_GROUND_LEVELS - 1);
-    ground->heights = lom_allocate(vertices, sizeof(float), error);
     struct loader loader = { .ground = ground,
                              .width = map->width,
                              .base = t->base,
@@ -204,7 +202,7 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                              .surface = lom_allocate(vertices, 4 * sizeof(float), error),
                              .x = lom_allocate((size_t)map->width, sizeof(float), error),
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
-    bool done = ground->heights != NULL && loader.surface != NULL && loader.x != NULL && loader.z != NULL &&
+    bool done = loader.surface != NULL && loader.x != NULL && loader.z != NULL &&
                 lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
                 lay_out(ground, error) && lom_make_ground_patterns(ground, error);
     if (done)
@@ -230,6 +228,5 @@ void lom_free_ground_blocks(struct lom_ground *ground)
     lom_release(ground->order);
     lom_release(ground->distance);
     lom_release(ground->position);
-    lom_release(ground->heights);
     lom_free_texture(ground->shadow);
 }

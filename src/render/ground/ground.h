@@ -48,7 +48,7 @@ struct lom_ground {
     struct lom_ground_block *blocks;
     float (*position)[3]; /* from the middle of the base */
     size_t position_count;
-    float *heights; /* of all vertices over the base, (columns + 1) x (rows + 1) */
+    const float *heights; /* of all vertices over the base, (columns + 1) x (rows + 1): the world's */
     /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
     lom_texture *surface;
     lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
@@ -77,10 +77,10 @@ bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *
 /* The shadow that it throws, for places less the eye. */
 void lom_set_ground_light(struct lom_light_uniform *light, const lom_renderer *renderer, lom_vec3 eye);
 
-/* Reads the terrain of a scene, with the dials ambient_occlusion and mipmaps; `surface` belongs to the device. False on
- * failure; freed with lom_free_ground_blocks. */
+/* The terrain of a map whose vertices have these heights over the base, with the dials ambient_occlusion and mipmaps;
+ * `surface` belongs to the device, heights to the caller. False on failure; freed with lom_free_ground_blocks. */
 bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map,
-                            const lom_quality *quality, lom_device *device, lom_error *error);
+                            const float *heights, const lom_quality *quality, lom_device *device, lom_error *error);
 /* Texture coordinates of the textures with a texel a vertex are (x, z) scale + shift for places less the eye. */
 void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_vec3 eye, float scale[2],
                     float shift[2]);

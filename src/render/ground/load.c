@@ -1,4 +1,4 @@
-/* Terrain for drawing. In: the scene's height map and its pictures. Out: its blocks, and the textures that its shaders
+/* Terrain for drawing. In: the world's height map and the scene's pictures. Out: its blocks, and the textures that its shaders
  * look up. */
 #include "render/renderer.h"
 
@@ -54,14 +54,10 @@ bool lom_load_ground(lom_renderer *renderer, lom_error *error)
     const lom_terrain *t = &renderer->scene->terrain;
     if (!t->present)
         return true;
-    lom_image *map = lom_read_image(t->height_map, error);
-    if (map == NULL)
-        return false;
-    const lom_scene *scene = renderer->scene;
-    struct lom_ground *ground = &renderer->ground;
-    bool done = lom_make_ground_blocks(ground, t, map, &scene->quality, renderer->device, error);
-    lom_free_image(map);
-    return done && load_maps(renderer, error);
+    const struct lom_world *world = renderer->world;
+    return lom_make_ground_blocks(&renderer->ground, t, world->height_map, world->heights, &renderer->scene->quality,
+                                  renderer->device, error) &&
+           load_maps(renderer, error);
 }
 
 void lom_free_ground(lom_renderer *renderer)

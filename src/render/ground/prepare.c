@@ -26,8 +26,7 @@ static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec
 static bool cast_shadow(struct frame *f, lom_error *error)
 {
     struct lom_ground *ground = &f->renderer->ground;
-    const lom_vec3 light = f->scene->light.direction, made = ground->shadowed_from;
-    const lom_vec3 to_light = { -light.x, -light.y, -light.z };
+    const lom_vec3 to_light = f->renderer->moment.to_light, made = ground->shadowed_from;
     if (!f->scene->quality.terrain_shadows) {
         lom_add_step(f, "terrain shadow", false, "quality.terrain_shadows is off");
         return true;

@@ -131,14 +131,14 @@ bool lom_draw_spray(struct frame *f, lom_error *error)
         lom_add_step(f, "spray", false, "%s", reason);
         return true;
     }
-    const lom_vec3 light = f->scene->light.direction;
+    const lom_vec3 to_light = f->renderer->moment.to_light;
     struct lom_spray_view view = { .projection = f->view.projection,
                                    .view = f->view.view,
                                    .eye = f->view.eye,
                                    .near_plane = f->camera.near_plane,
                                    .width = f->width,
                                    .height = f->height,
-                                   .to_light = { -light.x, -light.y, -light.z } };
+                                   .to_light = { to_light.x, to_light.y, to_light.z } };
     struct lom_sprites sprites = {
         .sprite = f->renderer->spray.sprites, .depth = f->renderer->spray.depth, .low = { 1, 1 }, .high = { -1, -1 }
     };

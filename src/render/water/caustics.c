@@ -81,7 +81,7 @@ static const char *reason_without(const struct frame *f)
         return "water.optics.caustics is 0";
     if (f->renderer->water.bed == NULL)
         return "there is no terrain for them to fall on";
-    if (!(f->scene->light.direction.y < -0.05))
+    if (!(f->renderer->moment.to_light.y > 0.05))
         return "the sun is too low";
     if (f->waves.trochoid_count == 0 && f->waves.cascade_count == 0)
         return "still water focuses no light";

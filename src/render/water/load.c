@@ -11,25 +11,18 @@ static bool load_maps(lom_renderer *renderer, lom_error *error)
     const lom_water_params *w = &renderer->scene->water;
     if (!w->present || w->normal_map == NULL)
         return true;
-    renderer->water.normal_map = lom_load_texture(renderer, w->normal_map, false, error);
-    if (renderer->water.normal_map == NULL)
-        return false;
+    const bool is_made = w->flow && w->flow_map == NULL;
+    const lom_image *flow = is_made ? lom_world_made_flow(renderer->world, error) : NULL;
+    if (flow != NULL)
+        renderer->water.flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = flow->width,
+                                                                                           .height = flow->height,
+                                                                                           .pixels = flow->pixels,
+                                                                                           .mips = LOM_MIPS_ALL });
     if (w->flow_map != NULL)
         renderer->water.flow_map = lom_load_texture(renderer, w->flow_map, false, error);
-    if (w->flow_map != NULL || !w->flow)
-        return renderer->water.flow_map != NULL || !w->flow;
-    lom_image *file = lom_read_image(w->normal_map, error);
-    lom_image *flow = file == NULL ? NULL : lom_make_flow_map(file, error);
-    lom_image *rgba = flow == NULL ? NULL : lom_convert_image(flow, LOM_FORMAT_RGBA8, error);
-    if (rgba != NULL)
-        renderer->water.flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = rgba->width,
-                                                                                           .height = rgba->height,
-                                                                                           .pixels = rgba->pixels,
-                                                                                           .mips = LOM_MIPS_ALL });
-    lom_free_image(file);
-    lom_free_image(flow);
-    lom_free_image(rgba);
-    return renderer->water.flow_map != NULL;
+    renderer->water.normal_map = lom_load_texture(renderer, w->normal_map, false, error);
+    return renderer->water.normal_map != NULL &&
+           (renderer->water.flow_map != NULL || (w->flow_map == NULL && !is_made));
 }
 
 static bool load_foam(lom_renderer *renderer, lom_error *error)
@@ -52,15 +45,9 @@ static bool load_foam(lom_renderer *renderer, lom_error *error)
 static bool load_waves(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    const struct lom_ground *ground = &renderer->ground;
     if (!scene->water.present || !lom_water_models[scene->quality.water].has_waves)
         return true;
-    renderer->water.site =
-        lom_scene_wave_site(scene, &(struct lom_bed){ ground->heights,
-                                                      ground->columns,
-                                                      ground->rows,
-                                                      { scene->terrain.size[0], scene->terrain.size[1] },
-                                                      scene->terrain.base });
+    renderer->water.site = lom_world_wave_site(renderer->world);
     const struct lom_wave_source source = { &renderer->water.site, renderer->water.normal_map, renderer->device };
     if (!load_foam(renderer, error))
         return false;
@@ -72,14 +59,15 @@ static bool load_waves(lom_renderer *renderer, lom_error *error)
 static bool load_bed(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
-    if (renderer->ground.heights == NULL || !scene->water.present ||
-        !lom_water_models[scene->quality.water].has_waves || !(scene->water.optics.caustics > 0))
+    const struct lom_bed *bed = &renderer->world->bed;
+    if (bed->heights == NULL || !scene->water.present || !lom_water_models[scene->quality.water].has_waves ||
+        !(scene->water.optics.caustics > 0))
         return true;
     renderer->water.bed = lom_make_texture(
-        renderer->device, &(lom_texture_desc){ .width = renderer->ground.columns + 1,
-                                               .height = renderer->ground.rows + 1,
+        renderer->device, &(lom_texture_desc){ .width = bed->columns + 1,
+                                               .height = bed->rows + 1,
                                                .format = LOM_FORMAT_R32F,
-                                               .pixels = renderer->ground.heights,
+                                               .pixels = bed->heights,
                                                .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     return lom_check_device(renderer->device, error);
 }

@@ -1,6 +1,7 @@
 /* What the shaders of water with waves are told. In: a frame. Out: its optics, its sky, its foam, its place and size,
  * as offsets from the eye. */
 #include "render/water/sea.h"
+#include "scene/scene_light.h"
 #include "sky/sky_draw.h"
 
 /* World directions of (ndc x, ndc y, 1): the view's rotation of (x / p00, y / p11, -1). */
@@ -17,7 +18,7 @@ static void set_rays(float out[3][3], const struct lom_scene_view *view)
 static void set_medium(struct lom_medium_uniform *medium, const lom_scene *scene)
 {
     const lom_water_optics *optics = &scene->water.optics;
-    double up = -scene->light.direction.y, flat = 1 - up * up;
+    double up = lom_to_light(&scene->light).y, flat = 1 - up * up;
     double refracted = 1 - flat / (optics->index * optics->index);
     double slant = up > 0 ? 1 / lom_double_sqrt(refracted) : 1;
     medium->slant = (float)slant;
@@ -88,7 +89,7 @@ static double find_range(const struct frame *f)
     for (int i = 0; i < r->ground.across * r->ground.down; i++)
         farthest = farther(farthest, f->view.eye, &r->ground.blocks[i].bounds);
     for (size_t i = 0; i < r->entities.count; i++)
-        farthest = farther(farthest, f->view.eye, &r->entities.items[i].bounds);
+        farthest = farther(farthest, f->view.eye, &r->entities.items[i].at->bounds);
     return lom_double_sqrt(farthest);
 }
 
