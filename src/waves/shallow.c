@@ -231,7 +231,7 @@ bool lom_step_shallow(lom_shallow *s, const lom_shallow_source *sources, int sou
         raise_bed(s, &obstacles[i]);
     for (int i = 0; i < source_count; i++)
         apply_source(s, &sources[i]);
-    lom_flow_shallow(s);
+    lom_move_shallow_lines(s);
     s->steps++;
     return true;
 }

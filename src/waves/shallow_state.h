@@ -19,6 +19,6 @@ struct lom_shallow {
 /* Doubles that the solver needs for lines of so many cells. */
 size_t lom_shallow_scratch(int cells);
 /* Water flows along x, then along z, for one step. */
-void lom_flow_shallow(lom_shallow *shallow);
+void lom_move_shallow_lines(lom_shallow *shallow);
 
 #endif

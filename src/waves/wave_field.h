@@ -53,7 +53,7 @@ struct lom_wave_kind {
     enum lom_wave_stage stage;
     void (*report)(const void *state, const struct lom_wave_moment *moment, struct lom_wave_report *report);
 };
-extern const struct lom_wave_kind lom_trochoid_waves, lom_flow_waves, lom_surf_waves, lom_shallow_waves, lom_sea_waves;
+extern const struct lom_wave_kind lom_trochoid_waves, lom_river_waves, lom_surf_waves, lom_shallow_waves, lom_sea_waves;
 
 struct lom_wave_field;
 

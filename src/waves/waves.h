@@ -33,7 +33,7 @@ struct lom_cascade_uniform {
 
 /* Ripples of a normal map that a flow carries, in two phases: each drifts for a period and starts again where its
  * weight is 0. */
-struct lom_flow_uniform {
+struct lom_river_uniform {
     const lom_texture *field; /* velocities in parts of the mean speed; NULL: no flow */
     const lom_texture *ripples;
     float corner[2], scale[2]; /* of the field over x and z */
@@ -60,7 +60,7 @@ struct lom_surf_uniform {
 
 struct lom_waves_uniform {
     double origin[3]; /* the place in the world that places are counted from */
-    struct lom_flow_uniform flow;
+    struct lom_river_uniform river;
     struct lom_shallow_uniform shallow;
     struct lom_surf_uniform surf;
     int trochoid_count, cascade_count;
@@ -83,8 +83,8 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
                         const double origin[2], double time);
 /* Both phases of a flow at a time, for ripples that repeat after `tile` metres and places less `origin`: a period is as
  * long as the mean speed takes for a third of it. Closed in time. */
-void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, const double origin[2],
-                          double time);
+void lom_fill_river_phases(struct lom_river_uniform *river, double speed, double tile, const double origin[2],
+                           double time);
 /* The height over the point (x, z) itself, less the origin, in double: the rest position is found by iteration. */
 double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z);
 

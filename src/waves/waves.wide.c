@@ -210,25 +210,25 @@ static void add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, 
 
 /* Two waves of independent phase: their variances add up as w0^2 + w1^2, which is divided out, so that the ripples
  * never pulse. What the map's levels average away shortens the normals: (1 - l) / l is its variance (Toksvig 2005). */
-static void add_flow_slopes(const struct lom_flow_uniform *flow, lom_float x, lom_float z,
-                            const struct lom_footprint *f, struct lom_wave_slopes *w)
+static void add_river_slopes(const struct lom_river_uniform *river, lom_float x, lom_float z,
+                             const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
-    lom_float s = (x - flow->corner[0]) * flow->scale[0], t = (z - flow->corner[1]) * flow->scale[1];
-    lom_float4 v = lom_sample(flow->field, s, t, (lom_float){ 0 });
-    lom_float lod = lom_wave_lod(flow->ripples, f, flow->inverse_tile);
+    lom_float s = (x - river->corner[0]) * river->scale[0], t = (z - river->corner[1]) * river->scale[1];
+    lom_float4 v = lom_sample(river->field, s, t, (lom_float){ 0 });
+    lom_float lod = lom_wave_lod(river->ripples, f, river->inverse_tile);
     lom_float sx = { 0 }, sz = { 0 }, lost = { 0 };
     for (int i = 0; i < 2; i++) {
-        lom_float u = (x - v.x * flow->drift[i]) * flow->inverse_tile + flow->jump[i][0];
-        lom_float r = (z - v.y * flow->drift[i]) * flow->inverse_tile + flow->jump[i][1];
-        lom_float4 texel = lom_sample(flow->ripples, u, r, lod);
+        lom_float u = (x - v.x * river->drift[i]) * river->inverse_tile + river->jump[i][0];
+        lom_float r = (z - v.y * river->drift[i]) * river->inverse_tile + river->jump[i][1];
+        lom_float4 texel = lom_sample(river->ripples, u, r, lod);
         lom_float3 n = { texel.x * 2.0f - 1.0f, texel.z * 2.0f - 1.0f, texel.y * 2.0f - 1.0f };
         lom_float length = lom_clamp(lom_sqrt(lom_dot3(n, n)), lom_splat(0.1f), lom_splat(1.0f));
-        lom_float scale = flow->weight[i] * flow->steepness / lom_max(n.y, lom_splat(0.1f));
+        lom_float scale = river->weight[i] * river->steepness / lom_max(n.y, lom_splat(0.1f));
         sx = sx - n.x * scale;
         sz = sz - n.z * scale;
-        lost = lost + flow->weight[i] * flow->weight[i] * (1.0f - length) / length;
+        lost = lost + river->weight[i] * river->weight[i] * (1.0f - length) / length;
     }
-    lom_float hidden = 0.5f * flow->steepness * flow->steepness * lost;
+    lom_float hidden = 0.5f * river->steepness * river->steepness * lost;
     w->sx = w->sx + sx;
     w->sz = w->sz + sz;
     w->vxx = w->vxx + hidden;
@@ -250,8 +250,8 @@ static struct lom_wave_slopes find_slopes(const struct lom_waves_uniform *waves,
         add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
     if (waves->shallow.surface != NULL)
         add_shallow_slopes(&waves->shallow, x, z, f, &w);
-    if (waves->flow.field != NULL)
-        add_flow_slopes(&waves->flow, x, z, f, &w);
+    if (waves->river.field != NULL)
+        add_river_slopes(&waves->river, x, z, f, &w);
     return w;
 }
 

@@ -225,7 +225,7 @@ static void flow_along(lom_shallow *s, const struct lines *lines)
     }
 }
 
-void lom_flow_shallow(lom_shallow *s)
+void lom_move_shallow_lines(lom_shallow *s)
 {
     const lom_shallow_desc *d = &s->desc;
     size_t columns = (size_t)d->columns;

@@ -1,6 +1,6 @@
 /* The flow of a river: a field of velocities derived from the bed and the level, and ripples that it carries. */
-#ifndef LOM_WAVES_FLOW_H
-#define LOM_WAVES_FLOW_H
+#ifndef LOM_WAVES_RIVER_H
+#define LOM_WAVES_RIVER_H
 
 #include <lom/image.h>
 
@@ -8,6 +8,6 @@
  * enters over the border rows and columns of the map on the side that `direction` (radians from +x towards +z) comes
  * from, 0 where it leaves on the other, and no flow through the shores. depth: size x size metres, 0 or less is land.
  * Velocities are scaled to a mean speed of 1 over the water. An RG32F picture of vx, vz; NULL on failure. */
-lom_image *lom_make_flow(const double *depth, int size, double direction, lom_error *error);
+lom_image *lom_make_river(const double *depth, int size, double direction, lom_error *error);
 
 #endif

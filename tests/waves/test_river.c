@@ -2,7 +2,7 @@
  * two phases: constant variance, and each starts again where its weight is 0. */
 #include "check.h"
 
-#include "waves/flow.h"
+#include "waves/river.h"
 #include "waves/waves.h"
 
 enum { SIZE = 64 };
@@ -17,7 +17,7 @@ static void a_straight_channel_flows_evenly(void)
     double depth[SIZE * SIZE];
     for (int i = 0; i < SIZE * SIZE; i++)
         depth[i] = i % SIZE >= 20 && i % SIZE < 36 ? 2 : -1;
-    lom_image *field = lom_make_flow(depth, SIZE, 1.5707963267948966, NULL);
+    lom_image *field = lom_make_river(depth, SIZE, 1.5707963267948966, NULL);
     for (int y = 1; y < SIZE - 1; y++)
         for (int x = 0; x < SIZE; x++) {
             const float *v = velocity(field, x, y);
@@ -35,7 +35,7 @@ static void a_narrow_is_fast(void)
         int x = i % SIZE, y = i / SIZE, half = y < 28 ? 16 : 8;
         depth[i] = x >= 32 - half && x < 32 + half ? 3 : 0;
     }
-    lom_image *field = lom_make_flow(depth, SIZE, 1.5707963267948966, NULL);
+    lom_image *field = lom_make_river(depth, SIZE, 1.5707963267948966, NULL);
     double wide = velocity(field, 32, 8)[1], narrow = velocity(field, 32, 54)[1];
     CHECK(narrow / wide > 1.9 && narrow / wide < 2.1, "%g in the wide, %g in the narrow", wide, narrow);
     lom_free_image(field);
@@ -43,16 +43,16 @@ static void a_narrow_is_fast(void)
 
 static void phases_do_not_pulse(void)
 {
-    struct lom_flow_uniform before, flow;
-    lom_fill_flow_phases(&before, 1.3, 7, (double[2]){ 0, 0 }, 0);
+    struct lom_river_uniform before, river;
+    lom_fill_river_phases(&before, 1.3, 7, (double[2]){ 0, 0 }, 0);
     for (int i = 1; i < 5000; i++) {
-        lom_fill_flow_phases(&flow, 1.3, 7, (double[2]){ 0, 0 }, i * 0.002);
-        float sum = flow.weight[0] * flow.weight[0] + flow.weight[1] * flow.weight[1];
+        lom_fill_river_phases(&river, 1.3, 7, (double[2]){ 0, 0 }, i * 0.002);
+        float sum = river.weight[0] * river.weight[0] + river.weight[1] * river.weight[1];
         CHECK(sum > 0.9999f && sum < 1.0001f, "the variance is %g", (double)sum);
         for (int k = 0; k < 2; k++)
-            CHECK(flow.jump[k][1] == before.jump[k][1] || (flow.weight[k] < 0.01f && before.weight[k] < 0.01f),
-                  "phase %d jumps at weight %g", k, (double)flow.weight[k]);
-        before = flow;
+            CHECK(river.jump[k][1] == before.jump[k][1] || (river.weight[k] < 0.01f && before.weight[k] < 0.01f),
+                  "phase %d jumps at weight %g", k, (double)river.weight[k]);
+        before = river;
     }
 }
 

@@ -1,7 +1,7 @@
 /* Waves of kind "flow": the ripples of a river, carried by a field of velocities that follows from the bed and the
  * level. In: a site, a time. Out: the field as a texture, and the phases of the ripples. Invariant: closed in time. */
 #include "pipeline/check_device.h"
-#include "waves/flow.h"
+#include "waves/river.h"
 #include "waves/wave_field.h"
 
 enum { CELLS = 160 };
@@ -37,7 +37,7 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     if (depth == NULL)
         return false;
     find_depths(state->site, depth);
-    lom_image *field = lom_make_flow(depth, CELLS, state->site->waves->direction, error);
+    lom_image *field = lom_make_river(depth, CELLS, state->site->waves->direction, error);
     lom_release(depth);
     if (field == NULL)
         return false;
@@ -51,43 +51,44 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     return lom_check_device(source->device, error);
 }
 
-void lom_fill_flow_phases(struct lom_flow_uniform *flow, double speed, double tile, const double origin[2], double time)
+void lom_fill_river_phases(struct lom_river_uniform *river, double speed, double tile, const double origin[2],
+                           double time)
 {
     double period = speed > 0 ? tile / (3 * speed) : 1, weight[2];
     for (int i = 0; i < 2; i++) {
         double cycles = time / period + 0.5 * i, whole = lom_double_floor(cycles), share = cycles - whole;
         double jump[2] = { 0.381966 * whole + 0.5 * i + origin[0] / tile, 0.618034 * whole + origin[1] / tile };
         weight[i] = share < 0.5 ? 2 * share : 2 - 2 * share;
-        flow->drift[i] = (float)(speed * period * (share - 0.5));
+        river->drift[i] = (float)(speed * period * (share - 0.5));
         for (int k = 0; k < 2; k++)
-            flow->jump[i][k] = (float)(jump[k] - lom_double_floor(jump[k]));
+            river->jump[i][k] = (float)(jump[k] - lom_double_floor(jump[k]));
     }
     double norm = lom_double_sqrt(weight[0] * weight[0] + weight[1] * weight[1]);
-    flow->weight[0] = (float)(weight[0] / norm);
-    flow->weight[1] = (float)(weight[1] / norm);
+    river->weight[0] = (float)(weight[0] / norm);
+    river->weight[1] = (float)(weight[1] / norm);
 }
 
 static void bound(const void *memory, struct lom_waves_uniform *out, double time)
 {
     const struct state *state = memory;
     const struct lom_wave_site *site = state->site;
-    struct lom_flow_uniform *flow = &out->flow;
-    flow->field = state->field;
-    flow->ripples = state->ripples;
-    flow->inverse_tile = (float)(1 / site->tile);
-    flow->steepness = (float)(1 / site->ripple_up);
+    struct lom_river_uniform *river = &out->river;
+    river->field = state->field;
+    river->ripples = state->ripples;
+    river->inverse_tile = (float)(1 / site->tile);
+    river->steepness = (float)(1 / site->ripple_up);
     const bool has_bed = site->bed.heights != NULL;
     const double at[2] = { out->origin[0], out->origin[2] }, *size = has_bed ? site->bed.size : site->size;
     double from_middle[2];        /* of the water */
     for (int i = 0; i < 2; i++) { /* the grid's corners are the middles of its texels */
         double step = size[i] / (CELLS - 1);
         from_middle[i] = at[i] - site->middle[i];
-        flow->corner[i] = (float)(-size[i] / 2 - step / 2 - (has_bed ? at[i] : from_middle[i]));
-        flow->scale[i] = (float)(1 / (step * CELLS));
+        river->corner[i] = (float)(-size[i] / 2 - step / 2 - (has_bed ? at[i] : from_middle[i]));
+        river->scale[i] = (float)(1 / (step * CELLS));
     }
-    lom_fill_flow_phases(flow, site->waves->speed, site->tile, from_middle, time);
+    lom_fill_river_phases(river, site->waves->speed, site->tile, from_middle, time);
 }
 
-const struct lom_wave_kind lom_flow_waves = {
+const struct lom_wave_kind lom_river_waves = {
     .size = sizeof(struct state), .exists = exists, .load = load, .bound = bound
 };

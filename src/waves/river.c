@@ -1,7 +1,7 @@
-/* A field of flow. In: depths on a grid. Out: velocities. Method: successive over-relaxation (Young 1954) in a fixed
- * order and number of sweeps, so that the field is a function of the depths. */
+/* The velocities of a river. In: depths on a grid. Out: a field of them. Method: successive over-relaxation (Young 1954)
+ * in a fixed order and number of sweeps, so that the field is a function of the depths. */
 #include "base/numbers.h"
-#include "waves/flow.h"
+#include "waves/river.h"
 
 enum { SWEEPS = 600 };
 
@@ -84,7 +84,7 @@ static void write_velocities(const struct field *f, lom_image *out)
         }
 }
 
-lom_image *lom_make_flow(const double *depth, int size, double direction, lom_error *error)
+lom_image *lom_make_river(const double *depth, int size, double direction, lom_error *error)
 {
     struct field f = { .size = size,
                        .depth = depth,
