@@ -5,13 +5,8 @@
 #include <lom/lanes_mathematics.h>
 #include <lom/pipeline.h>
 
-#include "check.h"
 #include "pipeline/device.h"
-
-int draw_picture(int argc, char **argv);
-#define main draw_picture /* the lesson is a program */
-#include "../../docs/lessons/pipeline/pipeline.c"
-#undef main
+#include "plain.h"
 
 /* ---- the lesson's shader over lanes ---- */
 
@@ -97,38 +92,6 @@ static void list_stages(const struct fragment *f, float value[STAGE_VALUES])
 }
 
 /* ---- scenes ---- */
-
-struct skin {
-    struct texture plain; /* first: a draw names it */
-    lom_texture *lanes;
-    void *room;
-};
-
-static struct skin make_skin(int width, int height, const uint8_t *rgba)
-{
-    lom_texture_desc desc = { .width = width, .height = height, .format = LOM_FORMAT_RGBA8_SRGB };
-    desc.pixels = rgba;
-    desc.mips = LOM_MIPS_ALL;
-    void *room = lom_allocate(2 * (size_t)width * (size_t)height, 4 * sizeof(float), NULL);
-    return (struct skin){ make_texture(width, height, rgba, room), lom_create_texture(&desc, NULL), room };
-}
-
-static void free_skin(struct skin *skin)
-{
-    lom_release(skin->room);
-    lom_free_texture(skin->lanes);
-}
-
-/* Noise with alpha, of any power of two. */
-static struct skin make_noise(int width, int height)
-{
-    uint8_t *rgba = lom_allocate((size_t)width * (size_t)height, 4, NULL);
-    for (size_t i = 0; i < (size_t)width * (size_t)height * 4; i++)
-        rgba[i] = (uint8_t)(lom_random_bits(17, i) >> (i % 4 == 3 ? 57 : 56)) | (i % 4 == 3 ? 128 : 0);
-    struct skin skin = make_skin(width, height, rgba);
-    lom_release(rgba);
-    return skin;
-}
 
 static struct skin read_skin(const char *path)
 {
@@ -454,8 +417,8 @@ static void heaps_of_wild_triangles_are_the_same_bytes(void)
             mesh->indices[i] = (uint32_t)(i % 9 == 4 ? i - 3 : i);
         }
         struct draw *draw = add(&scene, mesh, &skin, &still);
-        const float rows[2][4] = { { 0, 0, 0.1f, 0.02f },
-                                   { 0, 0, 1, 0 } }; /* z = 0.1 w + 0.02: nearer than 1 next to w = 0 */
+        const float rows[2][4] = { { 0.2f, 0.45f, 0.1f, 0.3f },
+                                   { 0, 0, 1, 0 } }; /* beyond the near and the far plane */
         memcpy(draw->uniforms.to_clip.m[2], rows, sizeof rows);
         draw->blends = heap % 2 == 0;
         draw->uniforms.opacity = 0.6f;
@@ -467,64 +430,42 @@ static void heaps_of_wild_triangles_are_the_same_bytes(void)
     lom_free_mesh(mesh);
 }
 
-/* The smallest float with that code, by the lesson. */
-static float find_threshold(int code)
+/* Flat triangles over all of the picture, in clip space: halves whose plane goes through pixel centres, which one of them
+ * has; and one whose vertices all lie beyond the guard band. */
+static void planes_through_pixel_centres_are_the_same_bytes(void)
 {
-    float low = 0, high = 1;
-    while (nextafterf(low, high) < high) {
-        float middle = (low + high) / 2;
-        if (middle <= low || middle >= high)
-            middle = nextafterf(low, high);
-        *(encode(middle) >= code ? &high : &low) = middle;
+    static const int sizes[][2] = { { 33, 33 }, { 65, 17 }, { 255, 129 } };
+    static const float planes[][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, { 0.5f, 0.25f, 0 } };
+    lom_mat4 still = lom_identity();
+    lom_mesh *square = lom_make_quad(2, 2, NULL), *huge = lom_make_quad(2, 2, NULL);
+    struct skin skin = make_noise(32, 32);
+    huge->index_count = 3;
+    for (size_t i = 0; i < 4; i++) { /* from y to z; three far corners around the picture */
+        float at[3][2] = { { -30000, -30000 }, { 30000, -30000 }, { 0, 50000 } };
+        square->vertices[i].position[1] = -square->vertices[i].position[2];
+        memcpy(huge->vertices[i].position, at[i % 3], sizeof at[0]);
+        huge->indices[i % 3] = (uint32_t)(i % 3);
     }
-    return high;
-}
-
-/* Codes to light, all of them; light to codes on both sides of each threshold, so of all floats, since both increase. */
-static void conversions_are_those_of_the_library(void)
-{
-    lom_image *codes = lom_create_image(256, 1, 1, LOM_FORMAT_R8_SRGB, NULL);
-    lom_image *floats = lom_create_image(255 * 4, 1, 1, LOM_FORMAT_R32F, NULL);
-    float *x = (float *)(void *)floats->pixels;
-    for (int code = 0; code < 256; code++)
-        codes->pixels[code] = (uint8_t)code;
-    for (int code = 1; code < 256; code++, x += 4) {
-        x[2] = find_threshold(code);
-        x[1] = nextafterf(x[2], 0);
-        x[0] = nextafterf(x[1], 0);
-        x[3] = nextafterf(x[2], 1);
-    }
-    lom_image *decoded = lom_convert_image(codes, LOM_FORMAT_R32F, NULL);
-    lom_image *encoded = lom_convert_image(floats, LOM_FORMAT_R8_SRGB, NULL);
-    for (int code = 0; code < 256; code++)
-        CHECK(decode(code) == ((const float *)(const void *)decoded->pixels)[code], "code %d", code);
-    x = (float *)(void *)floats->pixels;
-    for (int i = 0; i < 255 * 4; i++)
-        CHECK(encode(x[i]) == encoded->pixels[i], "%.9g: %d, not %d", (double)x[i], encode(x[i]), encoded->pixels[i]);
-    lom_free_image(codes);
-    lom_free_image(floats);
-    lom_free_image(decoded);
-    lom_free_image(encoded);
-}
-
-static void levels_of_textures_are_those_of_the_library(void)
-{
-    static const int sizes[][2] = { { 64, 16 }, { 1, 32 }, { 128, 1 }, { 1, 1 }, { 256, 256 } };
-    for (int i = 0; i < 5; i++) {
-        struct skin skin = make_noise(sizes[i][0], sizes[i][1]);
-        CHECK(skin.plain.levels == lom_texture_levels(skin.lanes), "%d levels", skin.plain.levels);
-        for (int k = 0; k < skin.plain.levels; k++) {
-            const struct level *level = &skin.plain.level[k];
-            lom_image *image = lom_read_texture(skin.lanes, k, 0, NULL);
-            CHECK(image->width == level->width && image->height == level->height, "level %d", k);
-            for (int t = 0; t < 4 * level->width * level->height; t++) {
-                float texel = level->texel[t / 4][t % 4], byte = image->pixels[t];
-                CHECK(texel == (t % 4 < 3 ? decode(image->pixels[t]) : byte), "level %d, texel %d", k, t / 4);
-            }
-            lom_free_image(image);
+    for (int i = 0; i < 15; i++) {
+        struct scene scene = { .name = "square", .camera = i, .width = sizes[i % 3][0], .height = sizes[i % 3][1] };
+        scene.view_projection = still;
+        scene.eye = (lom_vec3){ 0, 0, 3 };
+        add(&scene, huge, &skin, &still);
+        for (int half = 0; half < 2; half++) {
+            const float *plane = planes[i / 3], sign = half == 0 ? 1 : -1;
+            struct draw *draw = add(&scene, square, &skin, &still);
+            cut_by(draw, sign * plane[0], sign * plane[1], 0, 0);
+            draw->uniforms.tiling[half] = 7;
         }
-        free_skin(&skin);
+        for (int d = 0; d < 3; d++) { /* z = 0.25 and 0.5, w = 1 */
+            const float rows[2][4] = { { 0, 0, 0, d == 0 ? 0.25f : 0.5f }, { 0, 0, 0, 1 } };
+            memcpy(scene.draw[d].uniforms.to_clip.m[2], rows, sizeof rows);
+        }
+        compare(&scene);
     }
+    free_skin(&skin);
+    lom_free_mesh(square);
+    lom_free_mesh(huge);
 }
 
 static void more_than_a_million_pixels_were_compared(void)
@@ -534,8 +475,7 @@ static void more_than_a_million_pixels_were_compared(void)
 
 int main(int argc, char **argv)
 {
-    RUN(conversions_are_those_of_the_library);
-    RUN(levels_of_textures_are_those_of_the_library);
+    RUN(planes_through_pixel_centres_are_the_same_bytes);
     RUN(a_cut_torus_on_the_ground_is_the_same_bytes);
     RUN(meshes_of_files_are_the_same_bytes);
     RUN(heaps_of_wild_triangles_are_the_same_bytes);

@@ -169,8 +169,8 @@ static double distance_to(const double n[5], const float p[4])
     return n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3] * p[3] + n[4];
 }
 
-/* p + (q - p) t, t = dp / (dp - dq), as one quotient: nothing cancels next to w = 0. Two triangles get the same vertex
- * on the edge that they share, bit for bit, since its end with the lexicographically smaller clip position is p. */
+/* p + (q - p) t, t = dp / (dp - dq), as one quotient: nothing cancels next to w = 0, and p and q exchanged give the
+ * triangle beside it the same vertex. The lexicographically smaller end is p, which decides the sign of a zero. */
 static struct vertex cut_edge(const struct plane *plane, const struct vertex *p, const struct vertex *q)
 {
     int i = CLIP;
