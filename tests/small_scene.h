@@ -13,11 +13,11 @@
 
 static char small_folder[96];
 
-/* The path of a file of the folder; valid until the next call but three. */
+/* The path of a file of the folder; valid until the next call but three of the thread. */
 static inline const char *small_path(const char *name)
 {
-    static char path[4][400];
-    static int next;
+    static _Thread_local char path[4][400];
+    static _Thread_local int next;
     next = (next + 1) % 4;
     snprintf(path[next], sizeof path[next], "%s/%s", small_folder, name);
     return path[next];
