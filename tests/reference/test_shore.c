@@ -1,6 +1,7 @@
 /* Proves surf and shallow water as rays meet them, and scenes that move: places and slopes are those of the maps and
  * the cells, no ray passes between, water at rest is level, and a frame of a moving scene is that of one standing
  * there. */
+#include "base/numbers.h"
 #include "check.h"
 #include "reference/waves.h"
 #include "scene_files.h"
@@ -52,7 +53,7 @@ static void check_rays(double within)
             continue;
         double x = c.place.x, z = c.place.z, y = lom_wave_surface_height(&surface, x, z);
         CHECK(__builtin_fabs(y - c.place.y) < within, "ray %d: %g, not %g", (int)i, c.place.y, y);
-        most = at_least(__builtin_fabs(y - surface.level), most);
+        most = lom_larger(__builtin_fabs(y - surface.level), most);
         double sx = (lom_wave_surface_height(&surface, x + step, z) - y) / step;
         double sz = (lom_wave_surface_height(&surface, x, z + step) - y) / step;
         CHECK(length(difference(c.normal, unit((lom_vec3){ -sx, 1, -sz }))) < 0.12, "ray %d: normal", (int)i);
