@@ -117,7 +117,7 @@ static atomic_bool ending;
 
 static bool make_name(char name[24])
 {
-    uint8_t bits[8];
+    uint8_t bits[8] = { 0 }; /* MemorySanitizer does not know what getentropy writes */
     if (getentropy(bits, sizeof bits) != 0)
         return false;
     memcpy(name, ".lom-", 5);
