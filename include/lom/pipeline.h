@@ -2,6 +2,11 @@
  *
  *   vertex -> clip -> setup -> bin -> raster -> fragment -> output
  *
+ * Steps of use, in order: lom_open_device; lom_make_texture for each target and picture; then for every pass
+ * lom_begin_pass, lom_draw as often as needed, lom_end_pass; lom_read_texture (lom/texture.h) for a picture to keep;
+ * lom_close_device. Shaders are defined with LOM_SHADER in a file that lom-cc compiles. Calls after a failure do
+ * nothing: it is enough to look at lom_end_pass or lom_device_error.
+ *
  * Conventions: right-handed, column vectors; clip volume -w <= x, y <= w and 0 <= z <= w with reversed depth (1 at the
  * near plane) unless the pass says otherwise; window origin top left, pixel centres at .5; front faces
  * counter-clockwise as seen with y up.

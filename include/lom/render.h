@@ -1,4 +1,8 @@
-/* lom/render.h - from a scene to pictures: the plan (which passes, and why) and running it, frame after frame. */
+/* lom/render.h - from a scene to pictures: the plan (which passes, and why) and running it, frame after frame.
+ *
+ * Steps of use, in order: lom_read_scene (lom/scene.h); lom_create_renderer, which loads what the scene names;
+ * lom_render_frame for each frame, whose picture is freed with lom_free_image; lom_free_renderer, lom_free_scene.
+ */
 #ifndef LOM_RENDER_H
 #define LOM_RENDER_H
 
