@@ -450,15 +450,17 @@ static void planes_through_pixel_centres_are_the_same_bytes(void)
         struct scene scene = { .name = "square", .camera = i, .width = sizes[i % 3][0], .height = sizes[i % 3][1] };
         scene.view_projection = still;
         scene.eye = (lom_vec3){ 0, 0, 3 };
-        add(&scene, huge, &skin, &still);
         for (int half = 0; half < 2; half++) {
             const float *plane = planes[i / 3], sign = half == 0 ? 1 : -1;
             struct draw *draw = add(&scene, square, &skin, &still);
             cut_by(draw, sign * plane[0], sign * plane[1], 0, 0);
             draw->uniforms.tiling[half] = 7;
         }
+        struct draw *over = add(&scene, huge, &skin, &still);
+        over->blends = true;
+        over->uniforms.opacity = 0.5f;
         for (int d = 0; d < 3; d++) { /* z = 0.25 and 0.5, w = 1 */
-            const float rows[2][4] = { { 0, 0, 0, d == 0 ? 0.25f : 0.5f }, { 0, 0, 0, 1 } };
+            const float rows[2][4] = { { 0, 0, 0, d == 2 ? 0.5f : 0.25f }, { 0, 0, 0, 1 } };
             memcpy(scene.draw[d].uniforms.to_clip.m[2], rows, sizeof rows);
         }
         compare(&scene);

@@ -66,10 +66,29 @@ static void levels_of_textures_are_those_of_the_library(void)
 /* Coordinates next to where something changes, at every level and between. */
 static void samples_are_those_of_the_library(void)
 {
-    static const float at[] = {
-        0,        -0.0f, 1,    -1,     0.5f, 0x1.fffffep-2f, 0x1.fffffep-1f, 0x1.fffffep-7f, -0x1p-30f, -0x1p-24f,
-        0x1p-24f, 0.25f, 0.3f, -17.7f, 1e8f, -1e8f,          0x1p23f,        3.1e-38f,       1e30f
-    };
+    static const float at[] = { 0,
+                                -0.0f,
+                                1,
+                                -1,
+                                0.5f,
+                                0x1.fffffep-2f,
+                                0x1.fffffep-1f,
+                                0x1.fffffep-7f,
+                                0x1.fffffcp-2f,
+                                0x1.fffffcp-6f,
+                                0x1.fffffcp-7f,
+                                0x1.fffffcp-8f,
+                                -0x1p-30f,
+                                -0x1p-24f,
+                                0x1p-24f,
+                                0.25f,
+                                0.3f,
+                                -17.7f,
+                                1e8f,
+                                -1e8f,
+                                0x1p23f,
+                                3.1e-38f,
+                                1e30f };
     static const float lods[] = { -2, -0.0f, 0x1p-30f, 0.5f, 0x1.fffffep-1f, 1, 2.7f, 0x1.fffffep+1f, 5, 9, 1000 };
     enum { PLACES = sizeof at / sizeof *at, LODS = sizeof lods / sizeof *lods };
     static const int sizes[][2] = { { 1, 32 }, { 64, 16 }, { 1, 1 } };
