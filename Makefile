@@ -6,6 +6,7 @@
 #   make lint, make format      what the house asks of the source; clang-format over all of it
 #   make install, uninstall     into PREFIX (/usr/local), under DESTDIR
 #   make bench                  milliseconds a frame of every workload; bench-*: the experiments of bench/results
+#   make wasm                   the program and the library for WebAssembly, in build/wasm (docs/wasm.md)
 #   make matrix                 one hash from every compiler and architecture
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
@@ -41,7 +42,8 @@ FLOAT_FLAGS = -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-
 WARNINGS    = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi -Wno-format-zero-length -Wno-uninitialized
 CPPFLAGS    = -D_GNU_SOURCE -Iinclude -Isrc
 # Where variables live is half of the time that vectors as wide as these take to compile; -O0 knows it without.
-CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking -fPIC -fvisibility=hidden -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
+CFLAGS      = -std=gnu11 -O$(O) -g -fno-var-tracking $(PIC) -fvisibility=hidden -fno-asynchronous-unwind-tables $(FLOAT_FLAGS) $(WARNINGS)
+PIC         = -fPIC
 LDLIBS      = -lm -lpthread
 comma := ,
 # Sanitized code is optimised little: it compiles many times faster and says more.
@@ -86,7 +88,16 @@ FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8
 FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16
 endif
 
-sources      := $(sort $(wildcard src/*/*.c src/*/*/*.c))
+# What the system has chooses among files: WebAssembly has no threads, signals and owners of files (docs/wasm.md). Its
+# stack lies first, so that one that overflows is an error and never another object's bytes.
+elsewhere = src/base/threads_none.c src/base/system_wasi.c src/cli/start_wasi.c
+ifneq ($(filter wasm32%,$(MACHINE)),)
+elsewhere = src/base/threads.c src/base/system_posix.c src/cli/signals.c
+PIC    =
+LDLIBS = -Wl,--stack-first -Wl,-z,stack-size=4194304 -Wl,--strip-all
+endif
+
+sources      := $(filter-out $(elsewhere),$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 cli_sources  := $(filter src/cli/%,$(sources))
 # What the program measures with is not in the library.
 measure_sources := $(filter src/measure/%,$(sources))
@@ -117,7 +128,7 @@ programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.w
 lessons      := $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard docs/lessons/*/*.c)))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: all demo check check-long coverage matrix fuzz lint format install uninstall clean help
+.PHONY: all demo check check-long coverage wasm matrix fuzz lint format install uninstall clean help
 .PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
 	bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
@@ -244,6 +255,15 @@ $(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
 LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/render/test_key_ranges
 check-long: $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
+
+# The program and the library for WebAssembly, by the newest clang; SIMD= leaves out its vectors of 128 bits.
+WASM_CC = $(or $(lastword $(sort $(notdir $(wildcard /usr/bin/clang-[1-9][0-9])))),clang)
+SIMD    = -msimd128
+wasm:
+	$(MAKE) CC='$(LAUNCHER) $(WASM_CC) --target=wasm32-wasi $(SIMD)' AR=llvm-ar VARIANTS=4 SAN= BUILD=$(BUILD)/wasm $(BUILD)/wasm/lom.wasm
+
+$(BUILD)/lom.wasm: $(BUILD)/lom
+	cp $< $@
 
 # One hash from gcc and clang at every level, and from emulated architectures (bench/results/matrix.md).
 matrix:

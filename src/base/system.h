@@ -1,6 +1,6 @@
 /* The seam between files and the system. In: descriptors and paths. Out: what a call gave, or -1 (false) and errno.
- * system_posix.c is its one implementation; a system without signals, owners or nameless files needs another one, and
- * nothing else of base/ but threads.c knows them. */
+ * system.c is what every system has; system_posix.c or, without signals, owners and processes, system_wasi.c the rest.
+ * Nothing else of base/ but threads.c knows them. */
 #ifndef LOM_BASE_SYSTEM_H
 #define LOM_BASE_SYSTEM_H
 
@@ -29,6 +29,19 @@ ssize_t lom_write_quietly(int descriptor, const void *data, size_t size);
 
 /* Gives the file the mode, and where the system lets it the owner, of another. */
 bool lom_keep_status(int descriptor, const struct stat *other);
+
+/* The signals that a thread holds back. */
+typedef struct lom_held_signals {
+    uint64_t set[16];
+} lom_held_signals;
+
+/* Holds all signals back, so that no handler comes between; lets them through again but for those held before, and
+ * leaves errno as it is. */
+void lom_hold_signals(lom_held_signals *before);
+void lom_let_signals(const lom_held_signals *before);
+
+/* The number of this process: a forked child has another one. */
+int lom_process(void);
 
 /* A temporary file's name, which lom_remove_temporaries knows. */
 typedef struct lom_temporary lom_temporary;

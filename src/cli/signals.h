@@ -1,4 +1,4 @@
-/* What the program does when a signal ends it. */
+/* What the program does when a signal ends it: signals.c; where there are none, start_wasi.c. */
 #ifndef LOM_CLI_SIGNALS_H
 #define LOM_CLI_SIGNALS_H
 

@@ -4,6 +4,8 @@
 #include "json.h"
 #include "options.h"
 
+#include "lanes/variants.h"
+
 #include <float.h>
 
 struct values {
@@ -50,6 +52,8 @@ static bool rounds_to_nearest(void)
 
 static const char *width_support(int width, const lom_cpu *cpu)
 {
+    if (lom_find_variant(width, false) < 0)
+        return "not built";
 #if defined __x86_64__
     if (width == 8)
         return cpu->avx2 ? "AVX2" : "lowered";

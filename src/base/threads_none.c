@@ -1,0 +1,29 @@
+/* The pool of a system without threads: the caller alone. In, a function; out, its effects. */
+#include "base/threads.h"
+
+struct lom_pool {
+    char none; /* a structure has a member */
+};
+
+lom_pool *lom_create_pool(int threads, lom_error *error)
+{
+    (void)threads;
+    return lom_allocate(1, sizeof(lom_pool), error);
+}
+
+void lom_free_pool(lom_pool *pool)
+{
+    lom_release(pool);
+}
+
+int lom_pool_size(const lom_pool *pool)
+{
+    (void)pool;
+    return 1;
+}
+
+void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
+{
+    (void)pool;
+    work(context, 0);
+}
