@@ -52,4 +52,9 @@ if (file === undefined) {
     console.error('usage: node lom.mjs lom.wasm [ARGUMENT]...');
     process.exit(2);
 }
-process.exitCode = run(new WebAssembly.Module(fs.readFileSync(file)), ['lom', ...words], system);
+try {
+    process.exitCode = run(new WebAssembly.Module(fs.readFileSync(file)), ['lom', ...words], system);
+} catch (error) {
+    console.error(`lom: ${file}: ${error.stack}`); // no such file, no WebAssembly, or a trap
+    process.exitCode = 2;
+}

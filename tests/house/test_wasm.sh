@@ -19,7 +19,7 @@ for candidate in $(ls /usr/bin/clang-[1-9][0-9] 2>/dev/null | sort -r) clang; do
     echo 'int main(void) { return 0; }' | $candidate --target=wasm32-wasi -x c -o "$folder/nothing.wasm" - 2>/dev/null &&
         compiler=$candidate && break
 done
-[ -n "$compiler" ] || skip "no clang links for wasm32-wasi (Debian: clang lld wasi-libc libclang-rt-VERSION-dev-wasm32)"
+[ -n "$compiler" ] || skip "no clang links for wasm32-wasi (Debian: clang-19 lld-19 wasi-libc libclang-rt-19-dev-wasm32)"
 simd=-msimd128
 [ "$(echo __clang_major__ | $compiler -E -P -x c -)" -ge 16 ] || simd=
 if ! make -s wasm O=1 BUILD="$BUILD/test" WASM_CC="$compiler" SIMD="$simd" >"$folder/log" 2>&1; then
