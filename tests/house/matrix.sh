@@ -42,13 +42,15 @@ missing() {
     esac
 }
 
-# What a build answers, a word each: the self-test's hash, the lake's at 4, 8, 16 lanes, "same" for the float stages.
+# What a build answers, a word each: the self-test's hash, the lake's at 4, 8, 16 lanes, "same" for the float stages (-
+# where they are not asked).
 answers() {
     local folder=$1 program="$emulator $1/lom" floats=same
     $program selftest 2>>"$folder/log" | cut -d' ' -f1
     for lanes in 4 8 16; do
         $program render assets/scenes/lake.toml --size 160x90 --lanes $lanes --hash --quiet 2>>"$folder/log" | cut -d' ' -f1
     done
+    case $compiler in *wasm32*) echo -; return ;; esac # the test wants threads and rounding modes
     for lanes in 4 8 16; do
         $emulator "$folder/tests/pipeline/test_invariance.w$lanes" float_stages_have_one_hash >>"$folder/log" 2>&1 ||
             floats=differ
@@ -77,7 +79,8 @@ for row in $rows; do
     folder=$root/$row
     mkdir -p "$folder"
     targets="$folder/lom"
-    for lanes in 4 8 16; do targets="$targets $folder/tests/pipeline/test_invariance.w$lanes"; done
+    case $compiler in *wasm32*) lanes_tested= ;; *) lanes_tested="4 8 16" ;; esac
+    for lanes in $lanes_tested; do targets="$targets $folder/tests/pipeline/test_invariance.w$lanes"; done
     if ! make -j"$jobs" CC="${LAUNCHER:-} $compiler" AR=$archiver O="${row##*-}" BUILD="$folder" SAN= LDFLAGS=$flags \
         $targets >"$folder/log" 2>&1; then
         echo "$row: the build fails:"
@@ -90,7 +93,8 @@ for row in $rows; do
     drawn=$(scenes "$row" "$folder")
     [ "$first_scenes" != - ] || first_scenes=$drawn
     mark=
-    if { [ "$drawn" != - ] && [ "$drawn" != "$first_scenes" ]; } || [ "$result" != "$first" ] || [ "${result% same }" = "$result" ]; then
+    if { [ "$drawn" != - ] && [ "$drawn" != "$first_scenes" ]; } ||
+        { [ "${result% - }" != "${first% same }" ] && [ "$result" != "$first" ]; } || [ "${result% differ }" != "$result" ]; then
         mark="  differs; see $folder/log"
         [ $status -ne 0 ] || status=1
     fi
