@@ -1,6 +1,6 @@
 #!/bin/sh
-# Proves that `lom render --watch` draws again when the scene, a mesh, its material file or its picture changes, and goes on
-# after an error in each of them.
+# Proves that `lom render --watch` draws again when the scene, a mesh, its material file or its picture changes, goes on after
+# an error in each of them, and does without a picture of a mesh that cannot be read.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/cli/cli.sh
 . tests/cli/scene.sh
@@ -54,9 +54,15 @@ changes_and_mistakes() {
     draws_after change "$1" "$2" && fails_after put "$1" "$3" && draws_after cp good "$1"
 }
 
+# The same of a mesh's own picture: a bad one is left out, with a warning, and drawn again when it is good.
+changes_and_is_left_out() {
+    cp "$1" good
+    draws_after change "$1" "$2" && draws_after put "$1" "$3" && draws_after cp good "$1"
+}
+
 check first_picture first_picture
 check the_scene_and_its_mistakes changes_and_mistakes scene.toml 's/0, 2, 5/1, 2, 5/' '[camera\n'
 check the_mesh_and_its_mistakes changes_and_mistakes box.obj 's/v 0 2 0/v 0 3 0/' 'mtllib box.mtl\nf 1 2 3\n'
 check the_materials_and_their_mistakes changes_and_mistakes box.mtl 's/Kd 1 1 1/Kd 0.2 1 0.2/' 'newmtl skin\nKd x\n'
-check the_picture_and_its_mistakes changes_and_mistakes skin.ppm 's/^P6 2 2/P6 1 4/' 'P6 1 1\n'
+check a_picture_that_cannot_be_read_is_left_out changes_and_is_left_out skin.ppm 's/^P6 2 2/P6 1 4/' 'P6 1 1\n'
 exit $failures
