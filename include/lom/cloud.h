@@ -38,11 +38,11 @@ typedef struct lom_cloud_desc {
 /* A volume of density, R16, the same bytes everywhere. NULL on failure; freed with lom_free_image. */
 lom_image *lom_make_cloud(const lom_cloud_desc *desc, lom_error *error);
 
-/* The reference work's lighting in advance (clouds.md 2): gray in RGB, the density as alpha, RGBA8. From each voxel
- * that holds something steps of 1 / longest side are taken towards the light (in the box's axes, any length) until the
- * volume is left or the sum of the densities met, of 0..255, times `lighter`, is above 250; then the count of steps is
- * multiplied by dark_light. The mean is the sum over the count: gray is 255 where it is below 100 or no voxel was met,
- * else 255 - mean (at least 0). NULL on failure. */
+/* The reference work's lighting in advance (docs/clouds.md, Light): gray in RGB, the density as alpha, RGBA8. From each
+ * voxel that holds something steps of 1 / longest side are taken towards the light (in the box's axes, any length)
+ * until the volume is left or the sum of the densities met, of 0..255, times `lighter`, is above 250; then the count of
+ * steps is multiplied by dark_light. The mean is the sum over the count: gray is 255 where it is below 100 or no voxel
+ * was met, else 255 - mean (at least 0). NULL on failure. */
 lom_image *lom_light_cloud_in_advance(const lom_image *density, const double to_light[3], double lighter,
                                       double dark_light, lom_error *error);
 /* A flat cloud, RGBA8 of size x size (8..1024): a round shape times noise of four octaves (32, 64, 128 and 256 cells at

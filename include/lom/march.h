@@ -152,7 +152,7 @@ typedef struct lom_march_count {
 } lom_march_count;
 
 /* Opacity and colour (already multiplied by it), front to back: with v = (1 - alpha) density absorption, colour +=
- * v c (1 - shade d), alpha += v (clouds.md 4's general form). count may be NULL and is added to. */
+ * v c (1 - shade d), alpha += v (Porter and Duff 1984, "over"). count may be NULL and is added to. */
 void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
                                 lom_march_count *count);
 

@@ -1,5 +1,5 @@
 /* The kinds of clouds. In: a name and a seed. Out: a volume of density. Invariant: a kind is a row of one table; its
- * heights are those of the World Meteorological Organization's genera as clouds.md 1 gives them. */
+ * heights are those of the World Meteorological Organization's genera. */
 #include "cloud/cloud_kinds.h"
 
 #include <string.h>

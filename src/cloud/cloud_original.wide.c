@@ -1,5 +1,5 @@
-/* The shaders of the earlier models: the reference work's fixed steps (clouds.md 3 and 4), and a flat picture. In: the
- * box's back faces, or a square that faces the eye. Out: colour times opacity, and opacity. */
+/* The shaders of the earlier models: the reference work's fixed steps (docs/clouds.md, Marching), and a flat picture.
+ * In: the box's back faces, or a square that faces the eye. Out: colour times opacity, and opacity. */
 #include "cloud/cloud_rays.h"
 
 enum { STEPS = 100 };

@@ -1,6 +1,6 @@
-/* The reference work's lighting in advance (clouds.md 2). In: densities and the way to the light. Out: gray and
- * density. Invariant: densities are read and grays written to another volume, so that no voxel's light depends on their
- * order. */
+/* The reference work's lighting in advance (formula: lom/cloud.h). In: densities and the way to the light. Out: gray
+ * and density. Invariant: densities are read and grays written to another volume, so that no voxel's light depends on
+ * their order. */
 #include <lom/cloud.h>
 
 #include "base/own_float_state.h"

@@ -1,6 +1,6 @@
-/* The reference work's clouds (clouds.md 1): a ball of radius 1/2.5 about the middle, its radius shortened by noise,
- * cut at y = 0.4 with noise; the altocumulus is that times Perlin noise. In: a seed. Out: densities. Invariant: the
- * longest side of a volume that is no cube is 1, and the ball stays round in its middle. */
+/* The reference work's clouds (docs/clouds.md, Making): a ball of radius 1/2.5 about the middle, its radius shortened
+ * by noise, cut at y = 0.4 with noise; the altocumulus is that times Perlin noise. In: a seed. Out: densities.
+ * Invariant: the longest side of a volume that is no cube is 1, and the ball stays round in its middle. */
 #include "cloud/cloud_kinds.h"
 
 #include "geometry/noise.h"

@@ -1,4 +1,4 @@
-/* Layers by kind (clouds.md 1's genera): what each is made of, in metres. In: a volume and a seed. Out: densities. */
+/* Layers by kind (docs/clouds.md, Making): what each is made of, in metres. In: a volume and a seed. Out: densities. */
 #include "cloud/cloud_kinds.h"
 #include "cloud/shape.h"
 

@@ -1,6 +1,7 @@
-/* Clouds of particles (clouds.md 1): each has a centre, a radius and a density, and adds it with a falloff: Gaussian
- * (puffs, Harris 2003, 3.1), or Wyvill, McPheeters and Wyvill 1986's polynomial, which is 0 from the radius on with a
- * slope of 0. In: a seed. Out: densities. Invariant: particles lie so that their radius stays inside the volume. */
+/* Clouds of particles (docs/clouds.md, Making): each has a centre, a radius and a density, and adds it with a
+ * falloff: Gaussian (puffs, Harris 2003, 3.1), or Wyvill, McPheeters and Wyvill 1986's polynomial, which is 0 from
+ * the radius on with a slope of 0. In: a seed. Out: densities. Invariant: particles lie so that their radius stays
+ * inside the volume. */
 #include "base/numbers.h"
 #include "cloud/cloud_kinds.h"
 

@@ -1,5 +1,5 @@
-/* A flat cloud (clouds.md 1, in two dimensions): four textures in one picture. In: a size and a seed. Out: gray and
- * opacity. Invariant: the border is clear. */
+/* A flat cloud: four textures in one picture. In: a size and a seed. Out: gray and opacity. Invariant: the border is
+ * clear. */
 #include <lom/cloud.h>
 
 #include "base/own_float_state.h"

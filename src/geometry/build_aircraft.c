@@ -61,7 +61,7 @@ static void build_fuselage(lom_mesh_builder *builder)
 }
 
 /* A wing or a fin from root to tip, chords along z. */
-struct surface {
+struct wing {
     lom_vec3 root, tip;     /* leading edges */
     double chord[2], thick; /* at root and tip; of the chord */
     double v;               /* of its leading edge in the texture */
@@ -73,7 +73,7 @@ static double half_thickness(double x)
     return 5 * (0.2969 * lom_double_sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - x * 0.1036))));
 }
 
-static void build_surface(lom_mesh_builder *builder, const struct surface *s)
+static void build_wing(lom_mesh_builder *builder, const struct wing *s)
 {
     lom_vec3 span = lom_vec3_subtract(s->tip, s->root);
     bool is_mirrored = span.x < 0;
@@ -102,17 +102,16 @@ static void build_surface(lom_mesh_builder *builder, const struct surface *s)
     }
 }
 
-static void build_surfaces(lom_mesh_builder *builder)
+static void build_wings(lom_mesh_builder *builder)
 {
     for (int hand = -1; hand <= 1; hand += 2) {
-        build_surface(builder,
-                      &(struct surface){
-                          { hand * 0.35, -0.42, -1.15 }, { hand * 5.20, 0.12, -0.75 }, { 1.75, 1.15 }, 0.14, 0.5 });
-        build_surface(
+        build_wing(
             builder,
-            &(struct surface){ { hand * 0.06, 0.34, 3.15 }, { hand * 1.75, 0.38, 3.45 }, { 1.00, 0.65 }, 0.10, 0.75 });
+            &(struct wing){ { hand * 0.35, -0.42, -1.15 }, { hand * 5.20, 0.12, -0.75 }, { 1.75, 1.15 }, 0.14, 0.5 });
+        build_wing(builder, &(struct wing){
+                                { hand * 0.06, 0.34, 3.15 }, { hand * 1.75, 0.38, 3.45 }, { 1.00, 0.65 }, 0.10, 0.75 });
     }
-    build_surface(builder, &(struct surface){ { 0, 0.34, 2.75 }, { 0, 1.85, 3.75 }, { 1.50, 0.70 }, 0.10, 0.75 });
+    build_wing(builder, &(struct wing){ { 0, 0.34, 2.75 }, { 0, 1.85, 3.75 }, { 1.50, 0.70 }, 0.10, 0.75 });
 }
 
 /* The gray of the keel: u = 0 of the fuselage. */
@@ -173,7 +172,7 @@ void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed, lom_error *err
     (void)error;
     lom_model_material(builder, "livery", 0.3, 60);
     build_fuselage(builder);
-    build_surfaces(builder);
+    build_wings(builder);
     build_gear(builder);
     build_propeller(builder);
 }

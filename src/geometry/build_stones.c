@@ -73,7 +73,7 @@ static shape shape_of(uint64_t seed)
 }
 
 /* The stone's surface in direction d: the nearest plane or the sphere, worn smooth where they meet, and rough. */
-static lom_vec3 surface_at(const shape *s, lom_vec3 d)
+static lom_vec3 point_towards(const shape *s, lom_vec3 d)
 {
     double radius = 1;
     for (int i = 0; i < CUTS; i++) {
@@ -96,7 +96,7 @@ void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone,
     for (size_t i = 0; i < s.count; i += 3) {
         lom_vec3 p[3];
         for (int k = 0; k < 3; k++) {
-            p[k] = surface_at(&form, s.points[i + (size_t)k]);
+            p[k] = point_towards(&form, s.points[i + (size_t)k]);
             p[k] = (lom_vec3){ p[k].x * stone->radii.x, p[k].y * stone->radii.y, p[k].z * stone->radii.z };
             p[k] = lom_vec3_add(p[k], stone->center);
         }

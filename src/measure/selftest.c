@@ -17,7 +17,7 @@ static const struct {
     { "mathematics in double", lom_selftest_mathematics, NULL, UINT64_C(0x87cf371a80adb72b) },
     { "pictures and their files", lom_selftest_pictures, NULL, UINT64_C(0xd10f7eb556e53057) },
     { "lane mathematics", NULL, lom_selftest_draw_functions, UINT64_C(0x4d98c67283ec74f4) },
-    { "textured surfaces", NULL, lom_selftest_draw_surface, UINT64_C(0xf631b38f26c6be2c) },
+    { "textured surfaces", NULL, lom_selftest_draw_textured, UINT64_C(0xf631b38f26c6be2c) },
     { "clipping, discarding, blending", NULL, lom_selftest_draw_cut, UINT64_C(0xfe41c2be833b60fa) },
     { "cubes, volumes, depth formats", NULL, lom_selftest_draw_samples, UINT64_C(0x43433f091ad22038) },
     { "a scene with water", NULL, lom_selftest_draw_lake, UINT64_C(0xe9e5e614632815b2) },

@@ -24,7 +24,7 @@ static void functions_fragment(lom_fragment *out, const lom_varyings *in, const 
     out->color[3] = (lom_float4){ lom_asin(small), lom_acos(small), lom_sqrt(positive), lom_round(a) / b };
 }
 
-static void surface_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+static void textured_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_selftest_uniforms *u = uniforms;
     lom_float aside = lom_to_float(in->instance) * 1.7f;
@@ -60,7 +60,7 @@ static lom_float3 lit(const lom_varyings *in, const struct lom_selftest_uniforms
                          texel.z * light * in->varying[COLOR + 2] + shine };
 }
 
-static void surface_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+static void textured_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     lom_float3 color = lit(in, uniforms);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
@@ -90,9 +90,9 @@ static void samples_fragment(lom_fragment *out, const lom_varyings *in, const vo
 
 LOM_SHADER(lom_selftest_functions, strip_vertex, functions_fragment, .varyings = 2, .reads_position = true, .colors = 4,
            .uniforms_size = sizeof(struct lom_selftest_uniforms))
-LOM_SHADER(lom_selftest_surface, surface_vertex, surface_fragment, .attributes = 4, .varyings = 12, .reads = 0x7ff,
+LOM_SHADER(lom_selftest_textured, textured_vertex, textured_fragment, .attributes = 4, .varyings = 12, .reads = 0x7ff,
            .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_selftest_uniforms))
-LOM_SHADER(lom_selftest_cut, surface_vertex, cut_fragment, .attributes = 4, .varyings = 12, .clip_distances = 2,
+LOM_SHADER(lom_selftest_cut, textured_vertex, cut_fragment, .attributes = 4, .varyings = 12, .clip_distances = 2,
            .reads = 0xfff, .differentiates = 3 << UV, .flat = 1 << SHADE, .reads_position = true, .discards = true,
            .colors = 2, .uniforms_size = sizeof(struct lom_selftest_uniforms))
 LOM_SHADER(lom_selftest_samples, strip_vertex, samples_fragment, .varyings = 2, .reads = 3, .writes_depth = true,

@@ -162,7 +162,7 @@ bool lom_selftest_draw_functions(struct lom_selftest_sum *sum, const lom_device_
     return done;
 }
 
-bool lom_selftest_draw_surface(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
+bool lom_selftest_draw_textured(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {
     static const lom_format formats[] = { LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_RGBA16F };
     lom_device *device = lom_open_device(desc);
@@ -172,7 +172,7 @@ bool lom_selftest_draw_surface(struct lom_selftest_sum *sum, const lom_device_de
     for (int i = 0; done && i < 2; i++) {
         struct targets targets = make_targets(device, 1, formats[i], LOM_FORMAT_DEPTH32F);
         lom_pass_desc pass = pass_into(&targets);
-        lom_draw_desc draw = mesh_draw(mesh, &lom_selftest_surface, &uniforms);
+        lom_draw_desc draw = mesh_draw(mesh, &lom_selftest_textured, &uniforms);
         draw.cull = i == 0 ? LOM_CULL_BACK : LOM_CULL_NONE;
         lom_begin_pass(device, &pass);
         lom_draw(device, &draw);

@@ -112,8 +112,8 @@ static bool make_ground(lom_workload *w, lom_error *error)
 static bool make_lake(lom_workload *w, lom_error *error)
 {
     w->dudv = tile_texture(lom_peer_dudv(error), error);
-    w->waves = tile_texture(lom_peer_normals(512, 16, 31, 12, error), error);
-    return w->dudv != NULL && w->waves != NULL && lom_peer_water(&w->water, error);
+    w->ripples = tile_texture(lom_peer_normals(512, 16, 31, 12, error), error);
+    return w->dudv != NULL && w->ripples != NULL && lom_peer_water(&w->water, error);
 }
 
 static bool make_cloud(lom_workload *w, lom_error *error)
@@ -196,7 +196,7 @@ void lom_free_workload(lom_workload *w)
 {
     if (w == NULL)
         return;
-    lom_texture *const textures[] = { w->albedo, w->normals, w->sky, w->dudv, w->waves };
+    lom_texture *const textures[] = { w->albedo, w->normals, w->sky, w->dudv, w->ripples };
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
         lom_free_texture(textures[i]);
     for (int i = 0; i < LOM_TARGETS; i++) {

@@ -49,7 +49,7 @@ struct lom_workload {
     int width, height;
     lom_texture *color[LOM_TARGETS], *depth[LOM_TARGETS];
     lom_peer_mesh torus, cube, terrain, water;
-    lom_texture *albedo, *normals, *sky, *dudv, *waves;
+    lom_texture *albedo, *normals, *sky, *dudv, *ripples;
     lom_volume *cloud;
     lom_peer_matrix to_clip, mirrored_to_clip;
     float light[3];               /* unit length */

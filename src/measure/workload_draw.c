@@ -179,7 +179,7 @@ static void draw_lake(lom_workload *w, lom_device *device)
                            .refraction = w->color[LOM_REFRACTION],
                            .refraction_depth = w->depth[LOM_REFRACTION],
                            .dudv = w->dudv,
-                           .normals = w->waves };
+                           .normals = w->ripples };
     memcpy(lake.to_clip, w->to_clip.m, sizeof lake.to_clip);
     memcpy(lake.eye, w->kind->view->eye, sizeof lake.eye);
     memcpy(lake.light, w->light, sizeof lake.light);

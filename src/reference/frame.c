@@ -1,7 +1,7 @@
 /* A picture by rays. In: a loaded scene and a frame's description. Out: linear RGB32F. Each pixel is computed from its
  * coordinates in the whole frame alone; threads take rows. */
 #include "base/threads.h"
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 
 #include <stdatomic.h>
 

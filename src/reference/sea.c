@@ -1,7 +1,7 @@
 /* A sea for rays. In: the scene's [water.waves], a time. Out: its cascades, read in double. Invariant: a place is read
  * from the samples that every model of water draws, so that an error against the reference is the model's and not the
  * spectrum's. */
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 
 #include "waves/sea_desc.h"
 

@@ -1,6 +1,5 @@
-/* What an opaque surface sends back along a ray. In: a hit. Out: radiance by Phong's reflection of the scene's
- * directional light and ambient light (pipeline specification, lighting and materials), the terrain with its layers;
- * the sky in a direction. */
+/* What an opaque surface sends back along a ray. In: a hit. Out: radiance by Phong's reflection (1975) of the scene's
+ * directional light and ambient light, the terrain with its layers; the sky in a direction. */
 #include "base/numbers.h"
 #include "reference/reference.h"
 
@@ -14,25 +13,25 @@ static lom_vec3 mixed(lom_vec3 a, lom_vec3 b, double share)
     return along(a, difference(b, a), share);
 }
 
-/* ---- the surface at a hit ---- */
+/* ---- the point of a hit ---- */
 
-struct surface {
+struct point {
     lom_vec3 place, normal, color;
     double u, v;
 };
 
-static struct surface find_surface(const lom_reference *reference, const struct lom_ray_hit *hit)
+static struct point find_point(const lom_reference *reference, const struct lom_ray_hit *hit)
 {
     const uint32_t *index = reference->opaque.triangles[hit->triangle].corner;
     const struct lom_ray_corner *c0 = &reference->corners[index[0]], *c1 = &reference->corners[index[1]],
                                 *c2 = &reference->corners[index[2]];
     const double *b = hit->weight;
-    return (struct surface){ .place = blended(reference->points[index[0]], reference->points[index[1]],
-                                              reference->points[index[2]], b),
-                             .normal = unit(blended(c0->normal, c1->normal, c2->normal, b)),
-                             .color = blended(c0->color, c1->color, c2->color, b),
-                             .u = c0->u * b[0] + c1->u * b[1] + c2->u * b[2],
-                             .v = c0->v * b[0] + c1->v * b[1] + c2->v * b[2] };
+    return (struct point){ .place = blended(reference->points[index[0]], reference->points[index[1]],
+                                            reference->points[index[2]], b),
+                           .normal = unit(blended(c0->normal, c1->normal, c2->normal, b)),
+                           .color = blended(c0->color, c1->color, c2->color, b),
+                           .u = c0->u * b[0] + c1->u * b[1] + c2->u * b[2],
+                           .v = c0->v * b[0] + c1->v * b[1] + c2->v * b[2] };
 }
 
 /* ---- light ---- */
@@ -184,7 +183,7 @@ static lom_vec3 ground_facing(const lom_reference *reference, lom_vec3 place)
     return unit(mixed(mixed(c[0].normal, c[1].normal, x), mixed(d[0].normal, d[1].normal, x), z));
 }
 
-static lom_vec3 ground_color(const lom_reference *reference, const struct surface *s)
+static lom_vec3 ground_color(const lom_reference *reference, const struct point *s)
 {
     const lom_terrain *t = &reference->scene->terrain;
     double up = s->normal.y, slope = lom_double_acos(up < -1 ? -1 : up > 1 ? 1 : up);
@@ -211,7 +210,7 @@ static lom_vec3 ground_color(const lom_reference *reference, const struct surfac
 }
 
 /* The normal map's z points up the surface, its x and y along the ground's x and z. */
-static lom_vec3 ground_normal(const lom_reference *reference, const struct surface *s)
+static lom_vec3 ground_normal(const lom_reference *reference, const struct point *s)
 {
     if (reference->ground_normals.picture < 0)
         return s->normal;
@@ -225,7 +224,7 @@ static lom_vec3 ground_normal(const lom_reference *reference, const struct surfa
 lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                        double time)
 {
-    struct surface s = find_surface(reference, hit);
+    struct point s = find_point(reference, hit);
     double depth = lom_water_above(reference, s.place, time);
     struct incident in = find_light(reference, depth);
     if (dot(in.light, in.light) > 0 && !is_lit(reference, s.place, depth, in.to_light))

@@ -2,7 +2,7 @@
  * in double. Invariant: a place is read from the maps and the cells that every model of water draws; the slope of surf
  * is that of its height, not the models' k times the wave's own change. */
 #include "base/numbers.h"
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 
 #include "waves/shallow_surface.h"
 

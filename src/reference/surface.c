@@ -1,7 +1,7 @@
 /* The water's surface. In: rays, places, times. Out: where a ray crosses the surface, the normal and the depth there. A
  * plane is met exactly; any other height field by equal steps with bisection at the first change of side. */
 #include "base/numbers.h"
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 
 static bool has_water(const lom_reference_water *w)
 {
@@ -158,7 +158,7 @@ bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, 
 {
     const lom_reference_water *w = &reference->water;
     if (reference->waves != NULL) {
-        if (!lom_hit_waves(reference->waves, ray, from_below, low, high, c))
+        if (!lom_hit_wave_surface(reference->waves, ray, from_below, low, high, c))
             return false;
         c->normal = ripple(c->normal, c->place, reference->water.roughness);
         return true;

@@ -21,8 +21,8 @@ static const struct stage {
     { lom_prepare_water, "waves" },        /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },              /* terrain, entities and sky */
     { lom_draw_lake, "lake" },             /* tinted or planar water over them */
-    { lom_find_sea, "sea_waves" },         /* the waves of a sea where one is seen */
-    { lom_draw_sea, "sea" },               /* or water with waves */
+    { lom_find_surface, "sea_waves" },     /* the waves of a sea where one is seen */
+    { lom_draw_surface, "sea" },           /* or water with waves */
     { lom_draw_clouds, "clouds" },         /* clouds over all */
     { lom_draw_spray, "spray" },           /* drops, nearer than most clouds */
 };

@@ -2,7 +2,7 @@
 #ifndef LOM_RENDER_SCENE_VIEW_H
 #define LOM_RENDER_SCENE_VIEW_H
 
-#include "shading/surface.h"
+#include "shading/view_uniform.h"
 
 #include <lom/render.h>
 

@@ -1,6 +1,6 @@
 /* Shadows of entities. In: maps of the depth that the sun sees, places of surfaces. Out: the share of the sunlight that
  * comes to a place. */
-#include "shading/surface_light.h"
+#include "shading/phong.h"
 
 /* The share of a map's texels around a place that have nothing nearer to the sun: 3 x 3 of them, weighted by the
  * quadratic B-spline (Reeves, Salesin, Cook 1987, with a smooth kernel), so that edges move by less than a texel. */

@@ -1,5 +1,5 @@
 /* Rough water, over lanes (Cox and Munk 1954): slopes too small to be seen are normally distributed about the mean slope
- * with the covariance of waves.h. In: a point of the surface. Out: what such facets mirror of the scene and of the sun. */
+ * with the covariance of wave_lanes.h. In: a point of the surface. Out: what such facets mirror of the scene and of the sun. */
 #ifndef LOM_WATER_FACETS_H
 #define LOM_WATER_FACETS_H
 

@@ -7,20 +7,20 @@
 
 #include <lom/water.h>
 
-/* Waves have whole numbers of periods along both sides: wave numbers n, m in -WAVES .. WAVES. */
-enum { WAVES = 56, COUNT = 2 * WAVES + 1 };
+/* Waves have whole numbers of periods along both sides: wave numbers n, m in -PERIODS .. PERIODS. */
+enum { PERIODS = 56, COUNT = 2 * PERIODS + 1 };
 
 typedef struct wave {
     double real, imaginary;
 } wave;
 
-typedef struct surface {
+typedef struct ripples {
     int size;
     double *cosine;           /* of 2 pi i / size */
     wave (*slopes)[2][COUNT]; /* [x][along x, along y][m]: summed over n */
     wave (*spectrum)[COUNT];  /* [n][m] */
     double *slope[2];         /* size x size */
-} surface;
+} ripples;
 
 /* A directional spread about the wind, wide for short waves, that never quite vanishes: ripples from the shores cross
  * the wind's waves. The spectrum falls from a hump at 7 periods a side so slowly that all sizes show. */
@@ -28,43 +28,43 @@ static double amplitude(double n, double m)
 {
     const double wind[2] = { 0.8, 0.6 };
     double k = lom_double_sqrt(n * n + m * m);
-    if (k < 3 || k > WAVES)
+    if (k < 3 || k > PERIODS)
         return 0;
     double along = (n * wind[0] + m * wind[1]) / k;
-    double spread = lom_mix_double(0.25, 0.5, k / WAVES) + 0.75 * along * along;
+    double spread = lom_mix_double(0.25, 0.5, k / PERIODS) + 0.75 * along * along;
     double hump = lom_smooth_step(2, 9, k);
-    double tail = 1.0 - lom_smooth_step(0.6 * WAVES, WAVES, k);
+    double tail = 1.0 - lom_smooth_step(0.6 * PERIODS, PERIODS, k);
     return spread * hump * tail / (k * k * lom_double_sqrt(lom_double_sqrt(k)));
 }
 
-static void fill_spectrum(surface *s, uint64_t seed)
+static void fill_spectrum(ripples *s, uint64_t seed)
 {
-    for (int n = -WAVES; n <= WAVES; n++)
-        for (int m = -WAVES; m <= WAVES; m++) {
+    for (int n = -PERIODS; n <= PERIODS; n++)
+        for (int m = -PERIODS; m <= PERIODS; m++) {
             double normal[2];
-            lom_random_normal(seed, (uint64_t)((n + WAVES) * COUNT + m + WAVES), normal);
+            lom_random_normal(seed, (uint64_t)((n + PERIODS) * COUNT + m + PERIODS), normal);
             double a = amplitude(n, m);
-            s->spectrum[n + WAVES][m + WAVES] = (wave){ a * normal[0], a * normal[1] };
+            s->spectrum[n + PERIODS][m + PERIODS] = (wave){ a * normal[0], a * normal[1] };
         }
 }
 
-static wave turn(const surface *s, int periods, int place)
+static wave turn(const ripples *s, int periods, int place)
 {
     int step = (int)(((int64_t)periods * place % s->size + s->size) % s->size);
     return (wave){ s->cosine[step], s->cosine[(step + 3 * s->size / 4) % s->size] };
 }
 
 /* Real part of the sum over n and m of i (n, m) h(n, m) exp(2 pi i (n x + m y) / size), first over n, then over m. */
-static void sum_waves(surface *s)
+static void sum_waves(ripples *s)
 {
     for (int x = 0; x < s->size; x++)
-        for (int n = -WAVES; n <= WAVES; n++) {
+        for (int n = -PERIODS; n <= PERIODS; n++) {
             wave t = turn(s, n, x);
-            for (int m = -WAVES; m <= WAVES; m++) {
-                wave h = s->spectrum[n + WAVES][m + WAVES];
+            for (int m = -PERIODS; m <= PERIODS; m++) {
+                wave h = s->spectrum[n + PERIODS][m + PERIODS];
                 wave along = { h.real * t.real - h.imaginary * t.imaginary,
                                h.real * t.imaginary + h.imaginary * t.real };
-                wave *sum[2] = { &s->slopes[x][0][m + WAVES], &s->slopes[x][1][m + WAVES] };
+                wave *sum[2] = { &s->slopes[x][0][m + PERIODS], &s->slopes[x][1][m + PERIODS] };
                 sum[0]->real -= n * along.imaginary;
                 sum[0]->imaginary += n * along.real;
                 sum[1]->real -= m * along.imaginary;
@@ -74,7 +74,7 @@ static void sum_waves(surface *s)
     for (int y = 0; y < s->size; y++) {
         wave t[COUNT];
         for (int m = 0; m < COUNT; m++)
-            t[m] = turn(s, m - WAVES, y);
+            t[m] = turn(s, m - PERIODS, y);
         for (int x = 0; x < s->size; x++)
             for (int axis = 0; axis < 2; axis++) {
                 const wave *line = s->slopes[x][axis];
@@ -87,7 +87,7 @@ static void sum_waves(surface *s)
 }
 
 /* The factor that brings the root of the mean squared slope to `wanted`. */
-static double slope_factor(const surface *s, double wanted)
+static double slope_factor(const ripples *s, double wanted)
 {
     size_t pixels = (size_t)s->size * (size_t)s->size;
     double sum = 0;
@@ -97,7 +97,7 @@ static double slope_factor(const surface *s, double wanted)
 }
 
 /* Red and green are the horizontal components (x to the right, z down the picture), blue points up. */
-static lom_image *paint_normals(const surface *s, double roughness, lom_error *error)
+static lom_image *paint_normals(const ripples *s, double roughness, lom_error *error)
 {
     lom_image *map = lom_create_image(s->size, s->size, 1, LOM_FORMAT_RGB8, error);
     double factor = slope_factor(s, roughness);
@@ -119,7 +119,7 @@ lom_image *lom_make_normal_map(const lom_normal_map_desc *desc, lom_error *error
 {
     static const lom_normal_map_desc defaults = { .size = 0 };
     desc = desc != NULL ? desc : &defaults;
-    surface s = { .size = desc->size != 0 ? desc->size : 512 };
+    ripples s = { .size = desc->size != 0 ? desc->size : 512 };
     if (s.size < 128 || s.size > 4096 || s.size % 4 != 0) {
         lom_fail(error, LOM_ERROR_USAGE, "A normal map is made with a side of 128 to 4096, a multiple of 4, not %d.",
                  s.size);

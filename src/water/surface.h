@@ -1,10 +1,10 @@
-/* The surface of water with waves: what its shaders and draws need. Three geometries share one light (surface_light.h):
+/* The surface of water with waves: what its shaders and draws need. Three geometries share one light (surface_radiance.h):
  * two triangles, a mesh whose density follows the screen, and a ray for each pixel. */
 #ifndef LOM_WATER_SURFACE_H
 #define LOM_WATER_SURFACE_H
 
 #include "shading/gradient.h"
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 
 #include <lom/water.h>
 

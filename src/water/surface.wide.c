@@ -1,6 +1,6 @@
 /* The shaders of water with waves. In: the waves, pictures of the scene on both sides, the sky. Out: the colour of the
  * surface, opaque: what is seen through it is part of it. */
-#include "water/surface_light.h"
+#include "water/surface_radiance.h"
 
 enum { OFFSET = 0, REST_X = 3, REST_Z = 4 };
 

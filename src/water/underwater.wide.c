@@ -1,7 +1,7 @@
 /* What an eye under water sees of everything: absorption over the way to it, and the light that the water adds. In: a
  * triangle over the screen, the depth of the finished frame. Out: twice the same triangle: what remains of the colour
  * (multiplied), then what is added. */
-#include "water/surface_light.h"
+#include "water/surface_radiance.h"
 #include "water/underwater.h"
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)

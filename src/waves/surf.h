@@ -8,7 +8,7 @@
 #ifndef LOM_WAVES_SURF_H
 #define LOM_WAVES_SURF_H
 
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 
 struct lom_surf_desc {
     int width, height;   /* of the grid, 4..4097 */

@@ -6,7 +6,7 @@
 #ifndef LOM_WAVES_WAVE_FIELD_H
 #define LOM_WAVES_WAVE_FIELD_H
 
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 #include "waves/wave_site.h"
 
 /* How much of the waves at a time there is. */

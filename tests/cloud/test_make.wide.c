@@ -118,7 +118,7 @@ static void test_names(void)
           "%s", error.text);
 }
 
-/* Inside and outside of the noisy ball and base, whatever the noise (clouds.md 1). */
+/* Inside and outside of the noisy ball and base, whatever the noise (docs/clouds.md, Making). */
 static void test_hemisphere_keeps_its_formula(void)
 {
     enum { N = 50 };

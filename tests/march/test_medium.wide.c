@@ -1,6 +1,6 @@
-/* Proves, against closed forms and by name (numerics.md V, clouds.md 10 and 11): marching a medium is exact where it is
- * uniform, converges at the designed order elsewhere, keeps its bounds, starts anywhere, and skips empty space without
- * changing a byte. */
+/* Proves, against closed forms and by name (docs/numerics.md, V): marching a medium is exact where it is uniform,
+ * converges at the designed order elsewhere, keeps its bounds, starts anywhere, and skips empty space without changing
+ * a byte. */
 #include "check.h"
 #include "media.h"
 

@@ -1,5 +1,5 @@
-/* Proves, by name (numerics.md V), what marching makes of extremes: steps that end in the rounding of places, media
- * that hold nothing or everything, boxes and rays of any scale, light that is neither lost nor made. */
+/* Proves, by name (docs/numerics.md, V), what marching makes of extremes: steps that end in the rounding of places,
+ * media that hold nothing or everything, boxes and rays of any scale, light that is neither lost nor made. */
 #include "check.h"
 #include "media.h"
 

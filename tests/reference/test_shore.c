@@ -3,7 +3,7 @@
  * there. */
 #include "base/numbers.h"
 #include "check.h"
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 #include "scene_files.h"
 
 static lom_scene *scene;
@@ -47,8 +47,8 @@ static void check_rays(double within)
                                          2 * lom_random_uniform(3, i) - 1 });
         struct lom_ray above = { eye, down }, below = { { 1, -9, 2 }, { down.x, -down.y, down.z } };
         struct lom_crossing c, again;
-        bool hit = lom_hit_waves(&surface, &above, false, 0, 1e300, &c);
-        CHECK(hit && lom_hit_waves(&surface, &below, true, 0, 1e300, &again), "ray %d", (int)i);
+        bool hit = lom_hit_wave_surface(&surface, &above, false, 0, 1e300, &c);
+        CHECK(hit && lom_hit_wave_surface(&surface, &below, true, 0, 1e300, &again), "ray %d", (int)i);
         if (!hit)
             continue;
         double x = c.place.x, z = c.place.z, y = lom_wave_surface_height(&surface, x, z);

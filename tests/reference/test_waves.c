@@ -1,7 +1,7 @@
 /* Proves the surface with waves that rays meet: a sine's places and normals, no gaps below or above, the height at a
  * place, ripples of the stated slope. */
 #include "check.h"
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 #include "scene_files.h"
 
 static lom_scene *scene;
@@ -44,7 +44,7 @@ static void a_sine_lies_where_it_should(void)
     for (uint64_t i = 0; i < 400; i++) {
         struct lom_ray ray = { eye, downwards(i) };
         struct lom_crossing c;
-        bool hit = lom_hit_waves(&surface, &ray, false, 0, 1e300, &c);
+        bool hit = lom_hit_wave_surface(&surface, &ray, false, 0, 1e300, &c);
         CHECK(hit, "ray %d", (int)i);
         if (!hit)
             continue;
@@ -67,11 +67,11 @@ static void steep_waves_have_no_gap(void)
     for (uint64_t i = 0; i < 400; i++) {
         struct lom_ray down = { eye, downwards(i) }, up = { { 3, -4, 1 }, scaled(downwards(i), -1) };
         struct lom_crossing c;
-        CHECK(lom_hit_waves(&surface, &down, false, 0, 1e300, &c), "ray %d", (int)i);
+        CHECK(lom_hit_wave_surface(&surface, &down, false, 0, 1e300, &c), "ray %d", (int)i);
         CHECK(c.normal.y > 0 &&
               __builtin_fabs(lom_wave_surface_height(&surface, c.place.x, c.place.z) - c.place.y) < 0.01);
-        CHECK(lom_hit_waves(&surface, &up, true, 0, 1e300, &c) && c.facet.y > 0);
-        CHECK(!lom_hit_waves(&surface, &up, false, 0, c.t, &c));
+        CHECK(lom_hit_wave_surface(&surface, &up, true, 0, 1e300, &c) && c.facet.y > 0);
+        CHECK(!lom_hit_wave_surface(&surface, &up, false, 0, c.t, &c));
     }
     close_waves();
 }
@@ -99,11 +99,11 @@ static void a_sea_lies_where_its_waves_do(void)
     for (uint64_t i = 0; i < 400; i++) {
         struct lom_ray down = { eye, downwards(i) }, up = { { 3, -4, 1 }, scaled(downwards(i), -1) };
         struct lom_crossing at;
-        CHECK(lom_hit_waves(&surface, &down, false, 0, 1e300, &at), "ray %d", (int)i);
+        CHECK(lom_hit_wave_surface(&surface, &down, false, 0, 1e300, &at), "ray %d", (int)i);
         double height = lom_wave_surface_height(&surface, at.place.x, at.place.z);
         CHECK(at.normal.y > 0 && __builtin_fabs(height - at.place.y) < 0.02, "ray %d: %g, not %g", (int)i, at.place.y,
               height);
-        CHECK(lom_hit_waves(&surface, &up, true, 0, 1e300, &at) && at.facet.y > 0);
+        CHECK(lom_hit_wave_surface(&surface, &up, true, 0, 1e300, &at) && at.facet.y > 0);
     }
     lom_free_sea_moment(moment);
     close_waves();

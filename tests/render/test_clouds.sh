@@ -1,5 +1,5 @@
 #!/bin/sh
-# Proves, by name (numerics.md V), what a frame makes of clouds at their extremes: clouds of nothing leave every bit of the
+# Proves, by name (docs/numerics.md, V), what a frame makes of clouds at their extremes: clouds of nothing leave every bit of the
 # picture, what cannot be is refused at its key, a step cap that breaks the bound is said, jitter is a function of the
 # pixel alone.
 cd "$(dirname "$0")/../.." || exit 1

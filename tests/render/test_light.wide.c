@@ -1,7 +1,7 @@
 /* Proves what lighting makes of extremes: shininess of 0 and of a million, normals of no length, light from the side
  * and from behind, colours beyond what is shown; and that a fragment's light does not depend on the lanes beside it. */
 #include "check.h"
-#include "shading/surface_light.h"
+#include "shading/phong.h"
 
 static struct lom_view_uniform view_of(float x, float y, float z, float color)
 {
@@ -60,12 +60,12 @@ static void l5_normals_of_no_length_take_no_light(void)
     static const float tiny[] = { 0, -0.0f, 1e-30f };
     for (int i = 0; i < 3; i++) {
         lom_float3 normal = lom_normalize3(lom_splat3(tiny[i], tiny[i], tiny[i]));
-        struct lom_lit lit = lom_light_surface(&view, &m, below(), normal, lom_splat(1.0f));
+        struct lom_lit lit = lom_phong_light(&view, &m, below(), normal, lom_splat(1.0f));
         CHECK(lit.textured.x[0] == 0 && lit.highlight.x[0] == 0, "%g: %g %g", tiny[i], lit.textured.x[0],
               lit.highlight.x[0]);
     }
     /* the eye in the surface itself: no direction to it, no highlight */
-    struct lom_lit lit = lom_light_surface(&view, &m, lom_splat3(0, 0, 0), upwards(), lom_splat(1.0f));
+    struct lom_lit lit = lom_phong_light(&view, &m, lom_splat3(0, 0, 0), upwards(), lom_splat(1.0f));
     CHECK(lit.highlight.x[0] == 0 && lit.textured.x[0] == 0.8f, "%g %g", lit.highlight.x[0], lit.textured.x[0]);
 }
 
@@ -78,7 +78,7 @@ static void l7_light_from_the_side_and_from_behind(void)
         /* the eye is where a mirror would send it, behind the surface where the light is */
         lom_float3 place = lom_splat3(5, -5 * heights[i], 0);
         lom_float lambert = lom_lambert(&view.light, upwards());
-        struct lom_lit lit = lom_light_surface(&view, &m, place, upwards(), lom_splat(1.0f));
+        struct lom_lit lit = lom_phong_light(&view, &m, place, upwards(), lom_splat(1.0f));
         CHECK(lom_as_int(lambert)[0] == 0, "%g: %g, and its sign", heights[i], lambert[0]);
         CHECK(lit.textured.x[0] == 0 && lit.highlight.x[0] == 0, "%g: %g", heights[i], lit.highlight.x[0]);
     }
@@ -89,9 +89,9 @@ static void l8_colours_beyond_white(void)
 {
     struct lom_view_uniform view = view_of(0, 1, 0, 1e30f), behind = view_of(0, -1, 0, 1e30f);
     struct lom_material_uniform m = material_of(10);
-    struct lom_lit lit = lom_light_surface(&view, &m, below(), upwards(), lom_splat(1.0f));
+    struct lom_lit lit = lom_phong_light(&view, &m, below(), upwards(), lom_splat(1.0f));
     CHECK(lit.textured.x[0] == 1e30f && lit.highlight.x[0] == 1e30f, "%g %g", lit.textured.x[0], lit.highlight.x[0]);
-    lit = lom_light_surface(&behind, &m, below(), upwards(), lom_splat(1.0f));
+    lit = lom_phong_light(&behind, &m, below(), upwards(), lom_splat(1.0f));
     CHECK(lit.textured.x[0] == 0 && lit.highlight.x[0] == 0, "%g %g", lit.textured.x[0], lit.highlight.x[0]);
 }
 

@@ -2,7 +2,7 @@
  * Snell's law, total reflection, extremes, and the distance of each approximation from the exact equations. */
 #include "check.h"
 
-#include "water/surface_light.h"
+#include "water/surface_radiance.h"
 
 #include <lom/water.h>
 

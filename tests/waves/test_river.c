@@ -3,7 +3,7 @@
 #include "check.h"
 
 #include "waves/river.h"
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 
 enum { SIZE = 64 };
 

@@ -3,7 +3,7 @@
  * places far from the origin and late keep their phase, and the pipeline's waves are these. */
 #include "check.h"
 
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 
 #include <lom/water.h>
 

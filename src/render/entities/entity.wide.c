@@ -1,7 +1,7 @@
 /* The shaders of entities: textured meshes with Phong's reflection, at three shading frequencies; and the depth alone,
  * as the sun sees them. */
 #include "render/entities/shaders.h"
-#include "shading/surface_light.h"
+#include "shading/phong.h"
 
 enum { OFFSET = 0, NORMAL = 3, UV = 6, COLOR = 8, TEXTURED = 8, HIGHLIGHT = 11 };
 
@@ -48,7 +48,7 @@ static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *un
     const struct lom_entity_uniforms *entity = uniforms;
     struct corner c = transform(out, in, entity);
     struct lom_lit lit =
-        lom_light_surface(&entity->view, &entity->material, c.offset, lom_normalize3(c.normal), lom_splat(1.0f));
+        lom_phong_light(&entity->view, &entity->material, c.offset, lom_normalize3(c.normal), lom_splat(1.0f));
     lom_float3 color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
     store3(out->varying + TEXTURED, lom_mul3(lit.textured, color));
     store3(out->varying + HIGHLIGHT, lit.highlight);
@@ -72,14 +72,13 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
                    lom_float3 textured, lom_float3 highlight)
 {
     lom_float3 color = lom_add3(lom_mul3(textured, albedo(entity, in)), highlight);
-    lom_finish_surface(out, &entity->view, load3(in, OFFSET), color);
+    lom_finish_opaque(out, &entity->view, load3(in, OFFSET), color);
 }
 
 static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
                   lom_float3 normal)
 {
-    struct lom_lit lit =
-        lom_light_surface(&entity->view, &entity->material, load3(in, OFFSET), normal, lom_splat(1.0f));
+    struct lom_lit lit = lom_phong_light(&entity->view, &entity->material, load3(in, OFFSET), normal, lom_splat(1.0f));
     finish(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
 }
 

@@ -3,7 +3,7 @@
 #ifndef LOM_RENDER_ENTITIES_SHADERS_H
 #define LOM_RENDER_ENTITIES_SHADERS_H
 
-#include "shading/surface.h"
+#include "shading/view_uniform.h"
 
 struct lom_entity_uniforms {
     struct lom_view_uniform view;

@@ -10,7 +10,7 @@
 struct loader {
     struct lom_ground *ground;
     int width; /* vertices of a row */
-    float (*surface)[4];
+    float (*texels)[4];
     float *x;          /* of the columns */
     float *z;          /* of the rows */
     double spacing[2]; /* metres between columns and between rows */
@@ -23,11 +23,11 @@ static void take_row(void *context, int row, const lom_mesh_vertex *vertices)
     size_t first = (size_t)row * (size_t)loader->width;
     for (int i = 0; i < loader->width; i++) {
         const lom_mesh_vertex *v = &vertices[i];
-        float *surface = loader->surface[first + (size_t)i];
+        float *texel = loader->texels[first + (size_t)i];
         loader->x[i] = v->position[0];
         for (int k = 0; k < 3; k++)
-            surface[k] = v->normal[k];
-        surface[3] = 1;
+            texel[k] = v->normal[k];
+        texel[3] = 1;
     }
     loader->z[row] = vertices[0].position[2];
 }
@@ -176,13 +176,14 @@ static void fill_blocks(const struct loader *loader)
     }
 }
 
-static bool make_surface(const struct loader *loader, int height, bool mipmaps, lom_device *device, lom_error *error)
+static bool make_vertex_texture(const struct loader *loader, int height, bool mipmaps, lom_device *device,
+                                lom_error *error)
 {
-    loader->ground->surface = lom_make_texture(
+    loader->ground->vertex_texture = lom_make_texture(
         device, &(lom_texture_desc){ .width = loader->width,
                                      .height = height,
                                      .format = LOM_FORMAT_RGBA32F,
-                                     .pixels = loader->surface,
+                                     .pixels = loader->texels,
                                      .mips = mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     return lom_check_device(device, error);
@@ -199,19 +200,19 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                              .width = map->width,
                              .base = t->base,
                              .spacing = { t->size[0] / ground->columns, t->size[1] / ground->rows },
-                             .surface = lom_allocate(vertices, 4 * sizeof(float), error),
+                             .texels = lom_allocate(vertices, 4 * sizeof(float), error),
                              .x = lom_allocate((size_t)map->width, sizeof(float), error),
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
-    bool done = loader.surface != NULL && loader.x != NULL && loader.z != NULL &&
+    bool done = loader.texels != NULL && loader.x != NULL && loader.z != NULL &&
                 lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
                 lay_out(ground, error) && lom_make_ground_patterns(ground, error);
     if (done)
         fill_blocks(&loader);
     if (done && quality->ambient_occlusion)
         done =
-            lom_find_sky_visibility(ground->heights, map->width, map->height, t->size, &loader.surface[0][3], 4, error);
-    done = done && make_surface(&loader, map->height, quality->mipmaps, device, error);
-    lom_release(loader.surface);
+            lom_find_sky_visibility(ground->heights, map->width, map->height, t->size, &loader.texels[0][3], 4, error);
+    done = done && make_vertex_texture(&loader, map->height, quality->mipmaps, device, error);
+    lom_release(loader.texels);
     lom_release(loader.x);
     lom_release(loader.z);
     return done;

@@ -58,12 +58,12 @@ static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer
     const lom_terrain *t = &renderer->scene->terrain;
     const double eye[3] = { place.x, place.y - t->base, place.z };
     struct lom_terrain_uniforms u = { .view = *view,
-                                      .surface = renderer->ground.surface,
+                                      .vertex_texture = renderer->ground.vertex_texture,
                                       .base = lay(renderer->ground.maps.base, t->tile, t->size, eye),
                                       .detail = lay(renderer->ground.maps.detail, t->detail_tile, t->size, eye),
                                       .normals = lay(renderer->ground.maps.normals, t->detail_tile, t->size, eye),
                                       .layer_count = (int)t->layer_count };
-    lom_map_ground(&renderer->ground, t->size, place, u.surface_scale, u.surface_shift);
+    lom_map_ground(&renderer->ground, t->size, place, u.vertex_scale, u.vertex_shift);
     for (int i = 0; i < 3; i++) {
         u.eye[i] = (float)eye[i];
         u.eye_rest[i] = (float)(eye[i] - (double)u.eye[i]);

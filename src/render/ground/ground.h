@@ -1,5 +1,5 @@
 /* Terrain as it is drawn: square blocks of the height map's grid, each held at several levels of detail, and one
- * texture with what the surface's light needs.
+ * texture of what lights its vertices.
  *
  * Invariant: floats count heights from the terrain's base, wherever in the world it is. */
 #ifndef LOM_RENDER_GROUND_GROUND_H
@@ -50,7 +50,7 @@ struct lom_ground {
     size_t position_count;
     const float *heights; /* of all vertices over the base, (columns + 1) x (rows + 1): the world's */
     /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
-    lom_texture *surface;
+    lom_texture *vertex_texture;
     lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
     lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
     struct lom_ground_maps maps;
@@ -78,7 +78,7 @@ bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *
 void lom_set_ground_light(struct lom_light_uniform *light, const lom_renderer *renderer, lom_vec3 eye);
 
 /* The terrain of a map whose vertices have these heights over the base, with the dials ambient_occlusion and mipmaps;
- * `surface` belongs to the device, heights to the caller. False on failure; freed with lom_free_ground_blocks. */
+ * `vertex_texture` belongs to the device, heights to the caller. False on failure; freed with lom_free_ground_blocks. */
 bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map,
                             const float *heights, const lom_quality *quality, lom_device *device, lom_error *error);
 /* Texture coordinates of the textures with a texel a vertex are (x, z) scale + shift for places less the eye. */

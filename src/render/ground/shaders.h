@@ -4,7 +4,7 @@
 #define LOM_RENDER_GROUND_SHADERS_H
 
 #include "render/ground/ground.h"
-#include "shading/surface.h"
+#include "shading/view_uniform.h"
 
 /* The sides from which a map is laid on: a map's coordinates run along z and down, x and z, x and down. */
 enum { LOM_SIDE_X, LOM_SIDE_ABOVE, LOM_SIDE_Z, LOM_SIDES };
@@ -28,10 +28,10 @@ struct lom_layer_uniform {
 
 struct lom_terrain_uniforms {
     struct lom_view_uniform view;
-    struct lom_material_uniform material;     /* without its texture */
-    float eye[3], eye_rest[3];                /* from the middle of the terrain's base, and what its rounding left */
-    const lom_texture *surface;               /* normal and visible share of the sky, at the vertices */
-    float surface_scale[2], surface_shift[2]; /* its coordinates are (x, z) surface_scale + surface_shift */
+    struct lom_material_uniform material;   /* without its texture */
+    float eye[3], eye_rest[3];              /* from the middle of the terrain's base, and what its rounding left */
+    const lom_texture *vertex_texture;      /* normal and visible share of the sky, at the vertices */
+    float vertex_scale[2], vertex_shift[2]; /* its coordinates are (x, z) vertex_scale + vertex_shift */
     struct lom_laid_uniform base, detail, normals;
     int layer_count;
     struct lom_layer_uniform layer[LOM_MAX_TERRAIN_LAYERS];

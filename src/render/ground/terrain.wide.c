@@ -1,11 +1,11 @@
 /* The shaders of terrain: a base texture and layers painted over it by height and slope, with Phong's reflection at
  * three shading frequencies. A layer that no fragment of a packet shows is not sampled. */
 #include "render/ground/shaders.h"
-#include "shading/surface_light.h"
+#include "shading/phong.h"
 
 enum { OFFSET = 0, TEXTURED = 3, HIGHLIGHT = 6 };
 
-/* What the surface texture says of a place. */
+/* What the texture of vertices says of a place. */
 struct ground {
     lom_float3 normal;
     lom_float slope; /* radians */
@@ -28,8 +28,9 @@ static lom_float3 transform(lom_vertex *out, const lom_attributes *in, const str
 
 static struct ground look_up(const struct lom_terrain_uniforms *terrain, lom_float3 offset, lom_float lod)
 {
-    lom_float4 texel = lom_sample(terrain->surface, offset.x * terrain->surface_scale[0] + terrain->surface_shift[0],
-                                  offset.z * terrain->surface_scale[1] + terrain->surface_shift[1], lod);
+    lom_float4 texel =
+        lom_sample(terrain->vertex_texture, offset.x * terrain->vertex_scale[0] + terrain->vertex_shift[0],
+                   offset.z * terrain->vertex_scale[1] + terrain->vertex_shift[1], lod);
     struct ground g = { .normal = lom_normalize3((lom_float3){ texel.x, texel.y, texel.z }), .sky = texel.w };
     g.slope = lom_acos(lom_clamp(g.normal.y, lom_splat(-1.0f), lom_splat(1.0f)));
     return g;
@@ -45,7 +46,7 @@ static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *un
     const struct lom_terrain_uniforms *terrain = uniforms;
     lom_float3 offset = transform(out, in, terrain);
     struct ground g = look_up(terrain, offset, (lom_float){ 0 });
-    struct lom_lit lit = lom_light_surface(&terrain->view, &terrain->material, offset, g.normal, g.sky);
+    struct lom_lit lit = lom_phong_light(&terrain->view, &terrain->material, offset, g.normal, g.sky);
     out->varying[TEXTURED] = lit.textured.x;
     out->varying[TEXTURED + 1] = lit.textured.y;
     out->varying[TEXTURED + 2] = lit.textured.z;
@@ -61,9 +62,10 @@ LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
 
 static struct ground look_up_fragment(const struct lom_terrain_uniforms *terrain, const lom_varyings *in)
 {
-    const float *scale = terrain->surface_scale;
-    lom_float lod = lom_lod_of(terrain->surface, lom_dx(in, OFFSET) * scale[0], lom_dx(in, OFFSET + 2) * scale[1],
-                               lom_dy(in, OFFSET) * scale[0], lom_dy(in, OFFSET + 2) * scale[1]);
+    const float *scale = terrain->vertex_scale;
+    lom_float lod =
+        lom_lod_of(terrain->vertex_texture, lom_dx(in, OFFSET) * scale[0], lom_dx(in, OFFSET + 2) * scale[1],
+                   lom_dy(in, OFFSET) * scale[0], lom_dy(in, OFFSET + 2) * scale[1]);
     return look_up(terrain, load3(in, OFFSET), lod);
 }
 
@@ -153,7 +155,7 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_t
                    struct lom_lit lit, const struct ground *g)
 {
     lom_float3 color = lom_add3(lom_mul3(lit.textured, albedo(terrain, in, g)), lit.highlight);
-    lom_finish_surface(out, &terrain->view, load3(in, OFFSET), color);
+    lom_finish_opaque(out, &terrain->view, load3(in, OFFSET), color);
 }
 
 static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -161,8 +163,7 @@ static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void
     const struct lom_terrain_uniforms *terrain = uniforms;
     struct ground g = look_up_fragment(terrain, in);
     lom_float3 normal = perturb(terrain, in, g.normal);
-    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, OFFSET), normal, g.sky),
-           &g);
+    finish(out, in, terrain, lom_phong_light(&terrain->view, &terrain->material, load3(in, OFFSET), normal, g.sky), &g);
 }
 
 static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -170,8 +171,7 @@ static void flat_fragment(lom_fragment *out, const lom_varyings *in, const void 
     const struct lom_terrain_uniforms *terrain = uniforms;
     struct ground g = look_up_fragment(terrain, in);
     lom_float3 normal = lom_face_normal(in, OFFSET, g.normal);
-    finish(out, in, terrain, lom_light_surface(&terrain->view, &terrain->material, load3(in, OFFSET), normal, g.sky),
-           &g);
+    finish(out, in, terrain, lom_phong_light(&terrain->view, &terrain->material, load3(in, OFFSET), normal, g.sky), &g);
 }
 
 static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)

@@ -27,7 +27,7 @@ bool lom_skip_water(struct frame *f, const char *reason);
 /* Draws the surface over the finished scene, where water is seen: a step of the plan with this text. */
 bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface);
 
-/* waves.c: whether the scene's water has waves; of a sea its places, then the rest of it, with a step of the
+/* frame_waves.c: whether the scene's water has waves; of a sea its places, then the rest of it, with a step of the
  * plan. False: the error says why. */
 bool lom_has_waves(const struct frame *f);
 bool lom_place_frame_waves(struct frame *f, lom_error *error);

@@ -28,8 +28,8 @@ bool lom_prepare_water(struct frame *f, lom_error *error);
 /* Draws tinted or planar water over the scene; or finds where the scene leaves water with waves to be seen, and draws
  * it there. */
 bool lom_draw_lake(struct frame *f, lom_error *error);
-bool lom_find_sea(struct frame *f, lom_error *error);
-bool lom_draw_sea(struct frame *f, lom_error *error);
+bool lom_find_surface(struct frame *f, lom_error *error);
+bool lom_draw_surface(struct frame *f, lom_error *error);
 void lom_free_water(lom_renderer *renderer);
 
 #endif

@@ -4,21 +4,22 @@
  *   visibility (where may it be?) -> reflection, refraction (only there) -> water -> underwater
  *
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
-#include "render/water/sea.h"
+#include "render/water/surface.h"
 #include "water/underwater.h"
 
-static bool fill_mesh(struct sea *sea, struct frame *f, lom_error *error)
+static bool fill_mesh(struct surface *surface, struct frame *f, lom_error *error)
 {
-    struct lom_surface_uniforms *u = &sea->uniforms;
+    struct lom_surface_uniforms *u = &surface->uniforms;
     struct lom_polar_mesh *mesh = &f->renderer->water.polar;
     struct lom_polar_mesh_desc desc = { .projection = f->view.projection,
                                         .view = f->view.view,
-                                        .level = sea->level,
+                                        .level = surface->level,
                                         .near_plane = f->camera.near_plane,
                                         .lowest = (double)u->waves.lowest,
                                         .highest = (double)u->waves.highest,
                                         .reach = (double)u->waves.reach,
-                                        .quad = { sea->quad[0], sea->quad[1], sea->quad[2], sea->quad[3] },
+                                        .quad = { surface->quad[0], surface->quad[1], surface->quad[2],
+                                                  surface->quad[3] },
                                         .cell = f->scene->water.waves.cell,
                                         .pixel_angle = (double)u->pixel_angle };
     if (!lom_fill_polar_mesh(mesh, &desc, error))
@@ -29,18 +30,18 @@ static bool fill_mesh(struct sea *sea, struct frame *f, lom_error *error)
     return true;
 }
 
-static bool draw_surface(struct sea *sea, struct frame *f, lom_error *error)
+static bool draw_surface(struct surface *surface, struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
-    lom_draw_desc draw = { .shader = model->shader, .uniforms = &sea->uniforms };
+    lom_draw_desc draw = { .shader = model->shader, .uniforms = &surface->uniforms };
     switch (model->form) {
     case LOM_SURFACE_QUAD:
         draw.count = 4;
         draw.topology = LOM_TRIANGLE_STRIP;
         break;
     case LOM_SURFACE_MESH:
-        if (!fill_mesh(sea, f, error))
+        if (!fill_mesh(surface, f, error))
             return false;
         draw.indices = r->water.polar.indices;
         draw.count = r->water.polar.index_count;
@@ -55,10 +56,10 @@ static bool draw_surface(struct sea *sea, struct frame *f, lom_error *error)
 
 /* ---- the water between the eye and everything ---- */
 
-static bool draw_underwater(const struct sea *sea, struct frame *f)
+static bool draw_underwater(const struct surface *surface, struct frame *f)
 {
     lom_renderer *r = f->renderer;
-    const struct lom_surface_uniforms *u = &sea->uniforms;
+    const struct lom_surface_uniforms *u = &surface->uniforms;
     struct lom_underwater_uniforms under = { .medium = u->medium,
                                              .pixel = { u->pixel[0], u->pixel[1] },
                                              .near_plane = u->near_plane,
@@ -66,7 +67,7 @@ static bool draw_underwater(const struct sea *sea, struct frame *f)
                                              .origin = { (float)f->crop.x, (float)f->crop.y },
                                              .crop_pixel = { 1.0f / (float)f->crop.width,
                                                              1.0f / (float)f->crop.height },
-                                             .depth_of_eye = (float)sea->level,
+                                             .depth_of_eye = (float)surface->level,
                                              .highest = u->waves.highest,
                                              .multiplies = true };
     memcpy(under.ray, u->ray, sizeof under.ray);
@@ -91,20 +92,20 @@ static bool draw_underwater(const struct sea *sea, struct frame *f)
     return lom_draw_pass(r->device, &pass, draws, 2);
 }
 
-static bool draw_seen(struct sea *sea, struct frame *f, lom_error *error)
+static bool draw_seen(struct surface *surface, struct frame *f, lom_error *error)
 {
     if (!f->below && !lom_draw_caustics(f, error))
         return false;
-    return lom_draw_sea_pictures(sea, f, error) && draw_surface(sea, f, error);
+    return lom_draw_surface_pictures(surface, f, error) && draw_surface(surface, f, error);
 }
 
-bool lom_draw_sea(struct frame *f, lom_error *error)
+bool lom_draw_surface(struct frame *f, lom_error *error)
 {
-    struct sea sea;
+    struct surface surface;
     if (!lom_has_waves(f))
         return true;
-    lom_look_at_sea(&sea, f);
-    if (f->water.width != 0 && !draw_seen(&sea, f, error))
+    lom_look_at_surface(&surface, f);
+    if (f->water.width != 0 && !draw_seen(&surface, f, error))
         return false;
-    return !f->below || draw_underwater(&sea, f);
+    return !f->below || draw_underwater(&surface, f);
 }

@@ -3,8 +3,8 @@
  *
  * Rays are followed against pictures of the scene with depth; what they leave to is the sky above and bottomless water
  * below. The same function serves an eye below the surface: side and eta tell. */
-#ifndef LOM_WATER_SURFACE_LIGHT_H
-#define LOM_WATER_SURFACE_LIGHT_H
+#ifndef LOM_WATER_SURFACE_RADIANCE_H
+#define LOM_WATER_SURFACE_RADIANCE_H
 
 #include "base/numbers.h"
 #include "water/facets.h"

@@ -8,8 +8,8 @@
  *
  * Invariant: what a filter takes from the slopes it adds to their covariance (Olano and Baker 2010, LEAN mapping: the
  * mean square less the squared mean), so that a far surface is as rough as a near one. */
-#ifndef LOM_WAVES_WAVES_H
-#define LOM_WAVES_WAVES_H
+#ifndef LOM_WAVES_WAVE_LANES_H
+#define LOM_WAVES_WAVE_LANES_H
 
 #include "shading/matrix.h"
 

@@ -1,6 +1,6 @@
 /* A surface with waves as rays meet it: triangles around the eye, with normals from the waves themselves. */
-#ifndef LOM_REFERENCE_WAVES_H
-#define LOM_REFERENCE_WAVES_H
+#ifndef LOM_REFERENCE_WAVE_SURFACE_H
+#define LOM_REFERENCE_WAVE_SURFACE_H
 
 #include "reference/reference.h"
 #include "scene/scene_water.h"
@@ -60,8 +60,8 @@ void lom_free_ray_shore(struct lom_wave_surface *surface);
 void lom_add_shore(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z);
 
 /* The crossing of a ray, without the ripples on it. */
-bool lom_hit_waves(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below, double low,
-                   double high, struct lom_crossing *crossing);
+bool lom_hit_wave_surface(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below,
+                          double low, double high, struct lom_crossing *crossing);
 
 /* The height of the surface over (x, z) itself: the rest position is found by iteration. */
 double lom_wave_surface_height(const struct lom_wave_surface *surface, double x, double z);

@@ -3,9 +3,9 @@
  * displaced by
  * (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH 1986). */
 #include "base/numbers.h"
-#include "reference/waves.h"
+#include "reference/wave_surface.h"
 
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 
 static const double SPACING = 0.006;
 
@@ -180,8 +180,8 @@ void lom_free_wave_surface(struct lom_wave_surface *surface)
 
 /* ---- meeting it ---- */
 
-bool lom_hit_waves(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below, double low,
-                   double high, struct lom_crossing *c)
+bool lom_hit_wave_surface(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below,
+                          double low, double high, struct lom_crossing *c)
 {
     struct lom_ray_hit hit = { .t = high };
     if (!lom_hit_triangles(from_below ? &surface->below : &surface->above, ray, low, &hit))

@@ -1,10 +1,10 @@
-/* Phong's reflection over lanes: ambient + light (diffuse N.L + specular (R.E)^s), for a surface of a scene, and the
+/* Phong's reflection over lanes: ambient + light (diffuse N.L + specular (R.E)^s), for what is opaque in a scene, and the
  * air in front of it. The ambient light is a hemisphere's: a mix of the sky's and the ground's by the cosine between
  * the normal and up. */
-#ifndef LOM_SHADING_SURFACE_LIGHT_H
-#define LOM_SHADING_SURFACE_LIGHT_H
+#ifndef LOM_SHADING_PHONG_H
+#define LOM_SHADING_PHONG_H
 
-#include "shading/surface.h"
+#include "shading/view_uniform.h"
 
 /* What does not depend on the texture, and what is multiplied by it. */
 struct lom_lit {
@@ -16,21 +16,21 @@ void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_f
                                 lom_float *share);
 
 /* sky: the share of the sky that the place sees. One function a width, so that no shader has a copy. */
-void LOM_WIDE(lom_light_surface_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                       const lom_float3 *offset, const lom_float3 *normal, const lom_float *sky,
-                                       struct lom_lit *lit);
+void LOM_WIDE(lom_phong_light_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
+                                     const lom_float3 *offset, const lom_float3 *normal, const lom_float *sky,
+                                     struct lom_lit *lit);
 
-LOM_INLINE struct lom_lit lom_light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                            lom_float3 offset, lom_float3 normal, lom_float sky)
+LOM_INLINE struct lom_lit lom_phong_light(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
+                                          lom_float3 offset, lom_float3 normal, lom_float sky)
 {
     struct lom_lit lit;
-    LOM_WIDE(lom_light_surface_lanes)(view, m, &offset, &normal, &sky, &lit);
+    LOM_WIDE(lom_phong_light_lanes)(view, m, &offset, &normal, &sky, &lit);
     return lit;
 }
 
 /* The colour of a fragment at an offset from the eye. */
-LOM_INLINE void lom_finish_surface(lom_fragment *out, const struct lom_view_uniform *view, lom_float3 offset,
-                                   lom_float3 color)
+LOM_INLINE void lom_finish_opaque(lom_fragment *out, const struct lom_view_uniform *view, lom_float3 offset,
+                                  lom_float3 color)
 {
     color = lom_apply_haze(&view->haze, view->light.to_light, offset, color);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };

@@ -1,6 +1,6 @@
 /* What the shaders of water with waves are told. In: a frame. Out: its optics, its sky, its foam, its place and size,
  * as offsets from the eye. */
-#include "render/water/sea.h"
+#include "render/water/surface.h"
 #include "scene/scene_light.h"
 #include "sky/sky_draw.h"
 
@@ -93,13 +93,13 @@ static double find_range(const struct frame *f)
     return lom_double_sqrt(farthest);
 }
 
-void lom_look_at_sea(struct sea *sea, const struct frame *f)
+void lom_look_at_surface(struct surface *surface, const struct frame *f)
 {
-    memset(sea, 0, sizeof *sea);
-    struct lom_surface_uniforms *u = &sea->uniforms;
+    memset(surface, 0, sizeof *surface);
+    struct lom_surface_uniforms *u = &surface->uniforms;
     const lom_water_params *water = &f->scene->water;
-    sea->clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
-    u->clip_from_offset = lom_round_matrix(&sea->clip_from_offset);
+    surface->clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
+    u->clip_from_offset = lom_round_matrix(&surface->clip_from_offset);
     set_optics(u, f->scene);
     u->light = lom_renderer_light(f->renderer, f->view.eye);
     set_sky(&u->sky, f->renderer);
@@ -113,12 +113,12 @@ void lom_look_at_sea(struct sea *sea, const struct frame *f)
     u->pixel[1] = 1.0f / (float)f->height;
     u->near_plane = (float)f->camera.near_plane;
     u->pixel_angle = (float)(2 / f->view.projection.m[1][1] / f->height);
-    sea->level = water->level - f->view.eye.y;
+    surface->level = water->level - f->view.eye.y;
     for (int i = 0; i < 2; i++) {
         double middle = water->position[i] - (i == 0 ? f->view.eye.x : f->view.eye.z);
-        sea->quad[i] = middle - water->size[i] / 2;
-        sea->quad[2 + i] = middle + water->size[i] / 2;
+        surface->quad[i] = middle - water->size[i] / 2;
+        surface->quad[2 + i] = middle + water->size[i] / 2;
     }
     for (int i = 0; i < 4; i++)
-        u->quad[i] = (float)sea->quad[i];
+        u->quad[i] = (float)surface->quad[i];
 }

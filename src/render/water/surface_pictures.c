@@ -1,6 +1,6 @@
 /* Pictures of the scene for water with waves to look up. In: where the water is seen. Out: the scene on the eye's side,
  * mirrored in the level, and the scene behind the surface, each with its depth; only as far as lookups can reach. */
-#include "render/water/sea.h"
+#include "render/water/surface.h"
 
 static const float nothing[4] = { 0, 0, 0, 0 };
 
@@ -44,10 +44,10 @@ static lom_mat4 zoom_to(const struct lom_window *window, const lom_mat4 *project
 
 /* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it.
  * False where it does not meet the surface, or does not pass. */
-static bool bend_ray(const struct sea *sea, const struct frame *f, double x, double y, double out[2])
+static bool bend_ray(const struct surface *surface, const struct frame *f, double x, double y, double out[2])
 {
-    const float(*r)[3] = sea->uniforms.ray;
-    double d[3], side = f->below ? -1 : 1, eta = (double)sea->uniforms.eta;
+    const float(*r)[3] = surface->uniforms.ray;
+    double d[3], side = f->below ? -1 : 1, eta = (double)surface->uniforms.eta;
     for (int i = 0; i < 3; i++)
         d[i] = (double)r[i][0] * x + (double)r[i][1] * y + (double)r[i][2];
     double size = lom_double_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = -side * d[1] / size;
@@ -66,15 +66,15 @@ static bool bend_ray(const struct sea *sea, const struct frame *f, double x, dou
 
 /* What the picture behind the surface has to show: all that rays of the view, bent at still water, can see, and a
  * margin for waves; of the view itself what is not above the horizon. A function of the whole frame's camera. */
-static struct lom_window bent_window(const struct sea *sea, const struct frame *f)
+static struct lom_window bent_window(const struct surface *surface, const struct frame *f)
 {
     struct lom_window window = lom_whole_view;
     double top = -1, bent[2];
-    if (!sea->uniforms.bent && !f->below)
+    if (!surface->uniforms.bent && !f->below)
         return window;
     for (int i = 0; i <= 64; i++) {
         double x = i % 8 / 3.5 - 1, y = i / 8 / 4.0 - 1;
-        if (!bend_ray(sea, f, x, y, bent))
+        if (!bend_ray(surface, f, x, y, bent))
             continue;
         top = y > top ? y : top;
         for (int k = 0; k < 2; k++) {
@@ -98,7 +98,7 @@ static void clip_at(struct lom_scene_view *view, const struct frame *f, double s
     view->sky = false;
 }
 
-static bool draw_mirrored(struct sea *sea, struct frame *f, lom_error *error)
+static bool draw_mirrored(struct surface *surface, struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     struct lom_scene_view view = f->view;
@@ -113,20 +113,20 @@ static bool draw_mirrored(struct sea *sea, struct frame *f, lom_error *error)
     }
     lom_step *step =
         lom_add_step(f, "reflection", true, "terrain and entities on the eye's side, mirrored in the level");
-    lom_mat4 mirrored = lom_mirror((lom_vec3){ 0, 1, 0 }, sea->level),
-             clip = lom_multiply(&sea->clip_from_offset, &mirrored);
-    set_picture(&sea->uniforms.mirrored, f, &lom_whole_view, &clip, r->targets.of[LOM_TARGET_REFLECTION],
+    lom_mat4 mirrored = lom_mirror((lom_vec3){ 0, 1, 0 }, surface->level),
+             clip = lom_multiply(&surface->clip_from_offset, &mirrored);
+    set_picture(&surface->uniforms.mirrored, f, &lom_whole_view, &clip, r->targets.of[LOM_TARGET_REFLECTION],
                 r->targets.of[LOM_TARGET_REFLECTION_DEPTH]);
     return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFLECTION], r->targets.of[LOM_TARGET_REFLECTION_DEPTH],
                             &view, nothing, lookups(f, &lom_whole_view, r->targets.of[LOM_TARGET_REFLECTION]), error);
 }
 
-static bool draw_behind(struct sea *sea, struct frame *f, lom_error *error)
+static bool draw_behind(struct surface *surface, struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     struct lom_scene_view view = f->view;
-    const struct lom_waves_uniform *waves = &sea->uniforms.waves;
-    struct lom_window window = bent_window(sea, f);
+    const struct lom_waves_uniform *waves = &surface->uniforms.waves;
+    struct lom_window window = bent_window(surface, f);
     view.projection = zoom_to(&window, &f->view.projection);
     clip_at(&view, f, f->below ? 1 : -1, f->below ? -(double)waves->lowest : (double)waves->highest);
     if (!lom_shows_scene(r, &view)) {
@@ -135,13 +135,13 @@ static bool draw_behind(struct sea *sea, struct frame *f, lom_error *error)
     }
     lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities behind the surface, with their depth");
     lom_mat4 clip = lom_clip_from_offset(&view.projection, &view.view);
-    set_picture(&sea->uniforms.behind, f, &window, &clip, r->targets.of[LOM_TARGET_REFRACTION],
+    set_picture(&surface->uniforms.behind, f, &window, &clip, r->targets.of[LOM_TARGET_REFRACTION],
                 r->targets.of[LOM_TARGET_REFRACTION_DEPTH]);
     return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFRACTION], r->targets.of[LOM_TARGET_REFRACTION_DEPTH],
                             &view, nothing, lookups(f, &window, r->targets.of[LOM_TARGET_REFRACTION]), error);
 }
 
-bool lom_draw_sea_pictures(struct sea *sea, struct frame *f, lom_error *error)
+bool lom_draw_surface_pictures(struct surface *surface, struct frame *f, lom_error *error)
 {
-    return draw_mirrored(sea, f, error) && draw_behind(sea, f, error);
+    return draw_mirrored(surface, f, error) && draw_behind(surface, f, error);
 }

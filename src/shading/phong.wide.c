@@ -1,6 +1,6 @@
-/* The light on surfaces of a scene. In: places, normals. Out: what is reflected of sun, sky and ground, in the shadow
- * of terrain, clouds and entities and through the waves above (surface_light.h). */
-#include "shading/surface_light.h"
+/* The light on what is opaque in a scene. In: places, normals. Out: what is reflected of sun, sky and ground, in the shadow
+ * of terrain, clouds and entities and through the waves above (phong.h). */
+#include "shading/phong.h"
 
 /* The sunlight at a point in parts of the sun's: what the waves above it focus, fading in below the level and out at
  * the borders of the map. */
@@ -18,8 +18,8 @@ static lom_float caustic_light(const struct lom_view_uniform *view, lom_float3 o
     return lom_max(lom_mix(one, light, share), (lom_float){ 0 });
 }
 
-static struct lom_lit light_surface(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                    lom_float3 offset, lom_float3 normal, lom_float sky)
+static struct lom_lit phong_light(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
+                                  lom_float3 offset, lom_float3 normal, lom_float sky)
 {
     const struct lom_light_uniform *light = &view->light;
     lom_float share = lom_light_share(light, offset), facing = lom_lambert(light, normal);
@@ -43,9 +43,9 @@ static struct lom_lit light_surface(const struct lom_view_uniform *view, const s
     return lit;
 }
 
-void LOM_WIDE(lom_light_surface_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
-                                       const lom_float3 *offset, const lom_float3 *normal, const lom_float *sky,
-                                       struct lom_lit *lit)
+void LOM_WIDE(lom_phong_light_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
+                                     const lom_float3 *offset, const lom_float3 *normal, const lom_float *sky,
+                                     struct lom_lit *lit)
 {
-    *lit = light_surface(view, m, *offset, *normal, *sky);
+    *lit = phong_light(view, m, *offset, *normal, *sky);
 }

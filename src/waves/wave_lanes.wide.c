@@ -1,7 +1,7 @@
 /* The waves of a surface over lanes. In: rest positions and the size of what is sampled there; out: displacements,
- * slopes with the variance of what is too small to be seen, foam (waves.h says what each kind of wave is). */
+ * slopes with the variance of what is too small to be seen, foam (wave_lanes.h says what each kind of wave is). */
 #include "base/numbers.h"
-#include "waves/waves.h"
+#include "waves/wave_lanes.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
-/* Uniforms that the surfaces of a scene share: what they are made of, and what a pass sees them by. */
-#ifndef LOM_SHADING_SURFACE_H
-#define LOM_SHADING_SURFACE_H
+/* Uniforms that what is opaque in a scene shares: what it is made of, and what a pass sees it by. */
+#ifndef LOM_SHADING_VIEW_UNIFORM_H
+#define LOM_SHADING_VIEW_UNIFORM_H
 
 #include "shading/haze.h"
 
@@ -28,7 +28,7 @@ struct lom_shadow_map_uniform {
 
 enum { LOM_ENTITY_SHADOWS = 2 };
 
-/* What every surface of a pass shares. Offsets are places less the eye. */
+/* What every draw of opaque things in a pass shares. Offsets are places less the eye. */
 struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_offset;
     struct lom_light_uniform light;
