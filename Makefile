@@ -117,7 +117,7 @@ plain_sources := $(filter-out %.wide.c,$(sources))
 speed_sources := $(call within,$(FOR_SPEED)) $(shell grep -l 'Compiled for speed' $(plain_sources))
 size_sources  := $(filter-out %.wide.c $(speed_sources),$(call within,$(FOR_SIZE)))
 ifeq ($(O),3)
-$(size_sources:%.c=$(BUILD)/%.o): private CFLAGS += -Os
+$(size_sources:%.c=$(BUILD)/%.o) $(lesson_objects): private CFLAGS += -Os
 $(patsubst %.c,$(BUILD)/%.o,$(filter-out $(speed_sources) $(size_sources),$(plain_sources))): private CFLAGS += -O2
 endif
 
@@ -125,7 +125,10 @@ tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
 wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
-lessons      := $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard docs/lessons/*/*.c)))
+# A lesson is docs/lessons/NAME/NAME.c: a program, and contained in lom under another name than main.
+lesson_sources := $(foreach folder,$(wildcard docs/lessons/*/),$(wildcard $(folder)$(notdir $(folder:/=)).c))
+lessons        := $(lesson_sources:%.c=$(BUILD)/%)
+lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o)
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
 .PHONY: all demo check check-long coverage wasm matrix fuzz lint format install uninstall clean help
@@ -159,7 +162,7 @@ $(BUILD)/measure.a: $(measure_objects)
 	@rm -f $@
 	$(call short,AR)$(AR) rcs $@ $^
 
-$(BUILD)/lom: $(cli_objects) $(COUNTING) $(BUILD)/measure.a $(BUILD)/liblom.a
+$(BUILD)/lom: $(cli_objects) $(lesson_objects) $(COUNTING) $(BUILD)/measure.a $(BUILD)/liblom.a
 	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 # Rebuilt when the flags change, so that a build folder never mixes two. They are read before any target adds its own.
@@ -196,6 +199,10 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/liblom.a tests/check.h
 $(BUILD)/docs/lessons/%: docs/lessons/%.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) -Iinclude $(CFLAGS) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
+$(BUILD)/docs/lessons/%.contained.o: docs/lessons/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) -Iinclude $(CFLAGS) -Dmain=lom_lesson_$(*F) -Wno-missing-prototypes -MMD -MP -c -o $@ $<
 
 # The tests of what the program measures with.
 $(BUILD)/tests/measure/%: private LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
@@ -335,10 +342,12 @@ bench-sampling: $(foreach v,4 8 16,$(BUILD)/bench/sampling.w$(v))
 format:
 	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch] docs/lessons/*/*.c)
 
-# The installed library: header files, both libraries, the program, pkg-config's file and the compiler of shaders.
+# The installed library: header files, both libraries, the program, pkg-config's file, the compiler of shaders and the lessons.
 INSTALL_BIN = $(DESTDIR)$(PREFIX)/bin
 INSTALL_LIB = $(DESTDIR)$(PREFIX)/lib
 INSTALL_INC = $(DESTDIR)$(PREFIX)/include/lom
+INSTALL_LESSONS = $(DESTDIR)$(PREFIX)/share/lom/lessons
+lesson_files := $(patsubst docs/lessons/%,%,$(wildcard docs/lessons/*.md docs/lessons/*/*))
 FILL = sed -e 's|@PREFIX@|$(PREFIX)|g; s|@LIBDIR@|$(PREFIX)/lib|g; s|@INCLUDEDIR@|$(PREFIX)/include|g' \
 	-e 's|@VERSION@|$(VERSION)|g; s|@FLOAT_FLAGS@|$(FLOAT_FLAGS)|g; s|@FLAGS_AVX512@|$(AVX512)|g'
 install: all
@@ -351,12 +360,16 @@ install: all
 	$(FILL) src/lanes/lom.pc.in > $(INSTALL_LIB)/pkgconfig/lom.pc
 	$(FILL) src/lanes/lom-cc > $(INSTALL_BIN)/lom-cc
 	chmod 755 $(INSTALL_BIN)/lom-cc
+	mkdir -p $(addprefix $(INSTALL_LESSONS)/,$(sort $(dir $(lesson_files))))
+	for file in $(lesson_files); do install -m 644 docs/lessons/$$file $(INSTALL_LESSONS)/$$file || exit 1; done
 
 # What install puts there, and its folder of headers where it is empty then.
 uninstall:
 	rm -f $(INSTALL_BIN)/lom $(INSTALL_BIN)/lom-cc $(INSTALL_LIB)/liblom.a $(INSTALL_LIB)/liblom.so $(INSTALL_LIB)/liblom.so.$(ABI) \
 	    $(INSTALL_LIB)/pkgconfig/lom.pc $(patsubst include/lom/%,$(INSTALL_INC)/%,$(wildcard include/lom/*.h))
-	-rmdir $(INSTALL_INC) 2>/dev/null
+	rm -f $(addprefix $(INSTALL_LESSONS)/,$(lesson_files))
+	-rmdir $(INSTALL_INC) $(addprefix $(INSTALL_LESSONS)/,$(filter-out ./,$(sort $(dir $(lesson_files))))) \
+	    $(INSTALL_LESSONS) $(DESTDIR)$(PREFIX)/share/lom 2>/dev/null
 
 # Format, layers, conversions to integers, exported names, header files alone in C and C++, cppcheck. Tools that are not installed are named.
 lint: $(BUILD)/liblom.a
@@ -365,4 +378,4 @@ lint: $(BUILD)/liblom.a
 clean:
 	rm -rf $(BUILD)
 
--include $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(programs:=.d) $(lessons:=.d)
+-include $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(lesson_objects:.o=.d) $(programs:=.d) $(lessons:=.d)

@@ -22,6 +22,7 @@ static const command commands[] = {
     { "plan", "say which passes a scene needs, why, and what was left out", lom_command_plan },
     { "render", "draw a scene", lom_command_render },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
+    { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },
     { "selftest", "draw built-in content: one hash, the same on every machine", lom_command_selftest },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };

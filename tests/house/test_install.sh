@@ -1,7 +1,8 @@
 #!/bin/sh
 # Proves that a shader of a user's own builds against the installed library, as README.md says, at every width with lom-cc
 # and at one width with plain cc, in C and in C++, with the static and the shared library, and draws the same bytes each
-# time; that lom-cc says what it takes; that every public header stands alone; and that uninstall leaves nothing.
+# time; that lom-cc says what it takes; that every public header stands alone; that the lessons are there; and that
+# uninstall leaves nothing.
 set -u
 BUILD=${BUILD:-build}
 folder=$(mktemp -d)
@@ -95,8 +96,14 @@ for header in "$prefix"/include/lom/*.h; do
 done
 echo "PASS headers_stand_alone"
 
+told=$("$prefix/bin/lom" lesson triangle | sed -n 's/^ *program *//p')
+$CC -O2 -I"$prefix/include" -ffp-contract=off "$told" $archive -o lesson && ./lesson one.png && "$prefix/bin/lom" lesson triangle -o two.png >/dev/null && cmp -s one.png two.png ||
+    fail lessons_are_installed "the program of a lesson, $told"
+[ -s "$prefix/share/lom/lessons/triangle/README.md" ] || fail lessons_are_installed "their texts"
+echo "PASS lessons_are_installed"
+
 cd "$root" || exit 1
 make_target uninstall
 left=$(find "$prefix" ! -type d)
-[ -z "$left" ] && [ ! -d "$prefix/include/lom" ] || fail uninstall_leaves_nothing "$left"
+[ -z "$left" ] && [ ! -d "$prefix/include/lom" ] && [ ! -d "$prefix/share/lom" ] || fail uninstall_leaves_nothing "$left"
 echo "PASS uninstall_leaves_nothing"

@@ -1,24 +1,76 @@
 #!/bin/sh
 # Proves that each lesson's program, docs/lessons/NAME/NAME.c, draws the picture that is beside it, small enough for a
-# page; and that the pipeline in one file is what it says: under 500 lines of strict C that include libc and no header of
-# the library below its public ones.
+# page, in at most 120 lines of public headers; that making the table of hashes again gives the same table; that `lom
+# lesson` knows every lesson, draws the same pictures and tells right answers from wrong ones; and that the pipeline in one
+# file is what it says: under 500 lines of strict C that include libc and no header of the library below its public ones.
 cd "$(dirname "$0")/../.." || exit 1
 BUILD=${BUILD:-build}
-picture=$(mktemp) || exit 1
-trap 'rm -f "$picture" "$picture.png"' EXIT
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+picture=$folder/picture.png lom=$BUILD/lom
 
 result() { # name, what is wrong or nothing
     [ -z "$2" ] && echo "PASS $1" || echo "FAIL $1: $2; repeat: tests/lessons/test_lessons.sh"
 }
 
-for source in docs/lessons/*/*.c; do
-    name=$(basename "$source" .c) why=
-    "$BUILD/${source%.c}" "$picture.png" || why="$BUILD/${source%.c} failed"
-    [ -n "$why" ] || "$BUILD/lom" compare --quiet "${source%.c}.png" "$picture.png" || why="${source%.c}.png is another picture"
+"$lom" lesson >"$folder/list"
+for text in docs/lessons/*/README.md; do
+    name=$(basename "$(dirname "$text")") why=
+    source=docs/lessons/$name/$name.c
+    [ -f "$source" ] || continue
+    "$BUILD/${source%.c}" "$picture" || why="$BUILD/${source%.c} failed"
+    [ -n "$why" ] || "$lom" compare --quiet "${source%.c}.png" "$picture" || why="${source%.c}.png is another picture"
     [ "$(wc -c <"${source%.c}.png")" -lt 60000 ] || why="${source%.c}.png has 60 000 bytes or more"
     "$BUILD/${source%.c}" 2>/dev/null && why="$BUILD/${source%.c} without a file is no failure"
+    [ "$name" = pipeline ] || [ "$(wc -l <"$source")" -le 120 ] || why="$source has more than 120 lines"
+    strange=$(grep '^#include' "$source" | grep -vE '<(math|stdio|stdlib|string|lom/[a-z_]*)\.h>')
+    [ -z "$strange" ] || why="$source has $strange"
+    grep -q "!\[.*\]($name.png)" "$text" || why="$text does not show $name.png"
+    [ "$name" = pipeline ] || grep -q '^## Exercises' "$text" || why="$text has no exercises"
+    grep -q "($name/README.md)" docs/lessons/README.md || why="docs/lessons/README.md lacks $name"
+    grep -q "^  $name " "$folder/list" || why="lom lesson does not list $name"
+    "$lom" lesson "$name" -o "$folder/own.png" >"$folder/hash" && cmp -s "$folder/own.png" "$picture" || why="lom lesson $name -o draws another picture"
+    "$lom" lesson "$name" | grep -q "docs/lessons/$name/README.md" || why="lom lesson $name does not say where it is"
     result "the_lesson_${name}_draws_its_picture" "$why"
 done
+
+why=
+mkdir "$folder/changed"
+KEEP=$folder/changed tests/lessons/remake.sh >"$folder/table" || why="tests/lessons/remake.sh failed"
+cmp -s "$folder/table" src/cli/lesson_answers.h || why="the table is another one: $(diff "$folder/table" src/cli/lesson_answers.h | head -n 3 | tr '\n' ' ')"
+result the_table_of_lessons_is_remade_alike "$why"
+
+why=
+"$BUILD/tests/lessons/test_answers" --right >"$folder/right"
+[ "$(wc -l <"$folder/right")" -ge 10 ] || why='there are few answers'
+while read -r name exercise answer; do
+    "$lom" lesson "$name" "$exercise" "$answer" | grep -q '^Right' || why="$name $exercise is not $answer"
+    "$lom" lesson "$name" "$exercise" "1$answer" >"$folder/out"
+    [ $? -eq 1 ] || why="$name $exercise takes 1$answer"
+    grep -q "^$exercise\. " "docs/lessons/$name/README.md" || why="docs/lessons/$name/README.md has no exercise $exercise"
+done <"$folder/right"
+for changed in "$folder"/changed/*.png; do
+    pair=$(basename "$changed" .png)
+    "$lom" lesson "${pair%-*}" "${pair##*-}" "$changed" | grep -q '^Right' || why="$pair is not right"
+    "$lom" lesson "${pair%-*}" "${pair##*-}" "docs/lessons/${pair%-*}/${pair%-*}.png" >"$folder/out" && why="$pair takes the unchanged picture"
+done
+result answers_are_told_from_wrong_ones "$why"
+
+why=
+refuses() { # TEXT ARGUMENT...
+    text=$1
+    shift
+    "$lom" lesson "$@" >"$folder/out" 2>"$folder/err"
+    [ $? -eq 2 ] && grep -qF "$text" "$folder/err" && [ ! -s "$folder/out" ] || why="lom lesson $*: $(cat "$folder/out" "$folder/err")"
+}
+refuses 'did you mean "triangle"' traingle
+refuses 'has no exercise 99' triangle 99 1
+refuses 'needs an answer' triangle 1
+refuses 'is no number' triangle 1 one
+refuses 'no/such.png' triangle 3 no/such.png
+refuses 'name of a lesson' -o "$folder/none.png"
+refuses 'nothing was written' triangle -o "$folder/none/none.png"
+result lom_lesson_refuses_what_is_none "$why"
 
 source=docs/lessons/pipeline/pipeline.c why=
 [ "$(wc -l <$source)" -lt 500 ] || why="$(wc -l <$source) lines"
