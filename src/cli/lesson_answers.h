@@ -1,5 +1,6 @@
 /* Hashes of the lessons' pictures (exercise 0) and of the answers to their exercises. Made by tests/lessons/remake.sh
  * --write; the answers are in tests/lessons/test_answers.c. */
+/* clang-format off */
     { "clip_space", 0, IS_PICTURE, 0x6b4732abd7a1ffe4, true, "" },
     { "pipeline", 0, IS_PICTURE, 0xc840e0cbdbc5e084, true, "" },
     { "rasterization", 0, IS_PICTURE, 0x84ac1bc3791ed20a, true, "" },

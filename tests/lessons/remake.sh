@@ -17,6 +17,7 @@ compiler=$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags")
 {
     echo "/* Hashes of the lessons' pictures (exercise 0) and of the answers to their exercises. Made by tests/lessons/remake.sh"
     echo ' * --write; the answers are in tests/lessons/test_answers.c. */'
+    echo '/* clang-format off */'
     for source in docs/lessons/*/*.c; do
         name=$(basename "$source" .c)
         [ "$source" = "docs/lessons/$name/$name.c" ] || continue
