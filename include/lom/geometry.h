@@ -137,7 +137,8 @@ lom_material lom_default_material(const char *name);
  * one vertex; vertices are numbered by first use in triangles. A backslash at the end of a line continues it. '#' at
  * the start of a word begins a comment, but the names of materials and files go on to the end of their line ("Material
  * #25"); a comment behind one is told from it when what stands before '#' is a material or file that is there, or, for
- * a map, ends with an extension. Other statements (g, o, s) are passed over.
+ * a map, ends with an extension; and a material that is used and that no file defines is the one whose name it is before
+ * a comment ("usemtl red", "newmtl red # warm"), when there is one such. Other statements (g, o, s) are passed over.
  * Missing normals: the normalised sum of the unit normals of all faces (polygons, not triangles) that share the v; the
  * first of these faces decides where the sum is 0, and (0, 1, 0) where all are degenerate.
  * mesh->warnings tells, once for each sort with its number: points, lines and curves, which are passed over; faces of

@@ -59,8 +59,7 @@ int lom_find_material(struct lom_materials *materials, const char *name, size_t 
     if (!lom_reserve(&materials->entries, &materials->capacity, materials->count + 1, sizeof *materials->entries,
                      error))
         return -1;
-    materials->entries[materials->count].material = lom_default_material(terminated);
-    materials->entries[materials->count].defined = false;
+    materials->entries[materials->count] = (struct lom_material_entry){ .material = lom_default_material(terminated) };
     materials->slots[slot] = (uint32_t)++materials->count;
     return (int)materials->count - 1;
 }

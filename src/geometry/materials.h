@@ -10,7 +10,8 @@ enum { LOM_MATERIAL_LIMIT = 65536 };
 
 struct lom_material_entry {
     lom_material material;
-    bool defined; /* by a material file; otherwise only used */
+    bool defined;                       /* by a material file; otherwise only used */
+    uint32_t commented, last_commented; /* defined materials whose name before a comment is this one: how many, one */
 };
 
 struct lom_materials {

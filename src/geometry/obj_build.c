@@ -219,8 +219,34 @@ static void fill_parts(const struct lom_obj *obj, lom_mesh *mesh)
     }
 }
 
+/* A material that is used and that no file defines is the one whose name it is before a comment ("newmtl red # warm"),
+ * when there is one such. */
+static void define_before_comments(struct lom_materials *materials)
+{
+    struct lom_material_entry *entries = materials->entries;
+    for (size_t k = 0; k < materials->count; k++) {
+        struct lom_word name = { entries[k].material.name, strlen(entries[k].material.name) };
+        struct lom_word shorter = lom_before_comment(name);
+        int used = entries[k].defined && shorter.length > 0 && shorter.length < name.length
+                       ? lom_known_material(materials, shorter.start, shorter.length)
+                       : -1;
+        if (used >= 0) {
+            entries[used].commented++;
+            entries[used].last_commented = (uint32_t)k;
+        }
+    }
+    for (size_t k = 0; k < materials->count; k++)
+        if (!entries[k].defined && entries[k].commented == 1) {
+            lom_material material = entries[entries[k].last_commented].material;
+            memcpy(material.name, entries[k].material.name, sizeof material.name);
+            entries[k].material = material;
+            entries[k].defined = true;
+        }
+}
+
 static void fill_materials(struct lom_obj *obj, lom_mesh *mesh)
 {
+    define_before_comments(&obj->materials);
     for (size_t k = 0; k < mesh->material_count; k++) {
         mesh->materials[k] = obj->materials.entries[k].material;
         if (!obj->materials.entries[k].defined && obj->read_material != NULL)

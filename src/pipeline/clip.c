@@ -113,7 +113,8 @@ static int32_t snap(float units)
     return lom_int_of(__builtin_rintf(units));
 }
 
-/* The row's header, by the same steps as the vertex stage; a position on the guard band is held to it. */
+/* The row's header, by the same steps as the vertex stage. A cut on the guard band is held to it: w times the band's
+ * edge was rounded. What is exactly inside divides to no more than the edge, so that nothing holds it. */
 static void project_row(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t number)
 {
     struct lom_projection f = lom_projection_of(pass);

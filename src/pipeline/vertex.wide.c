@@ -120,7 +120,9 @@ LOM_INLINE lom_mask is_wild(lom_float x)
     return ~(lom_abs(x) <= 0x1p124f); /* FLT_MAX / 16 */
 }
 
-/* Outcodes of clip positions, as the planes of lom_clip_triangle see them. */
+/* Outcodes of clip positions, as the planes of lom_clip_triangle see them. A position on the rounded edge of the guard
+ * band has its code: the band's exact edge may lie before it. Those before the edge are exactly inside, and so is what
+ * their quotients round to: lom_clip_triangle leaves them and their rows as they are. */
 static lom_int classify(const struct lom_pass *pass, lom_float4 p)
 {
     lom_float near_distance, far_distance;
@@ -132,7 +134,7 @@ static lom_int classify(const struct lom_pass *pass, lom_float4 p)
         far_distance = p.w - p.z;
     }
     struct lom_guard guard = lom_guard_of(pass);
-    lom_mask out = (lom_abs(p.x) > p.w * guard.x) | (lom_abs(p.y) > p.w * guard.y);
+    lom_mask out = (lom_abs(p.x) >= p.w * guard.x) | (lom_abs(p.y) >= p.w * guard.y);
     return ((near_distance < 0.0f) & CODE_NEAR) | ((far_distance < 0.0f) & CODE_FAR) | (out & CODE_GUARD) |
            ((p.w < LOM_SMALLEST_W) & CODE_W) |
            ((is_wild(p.x) | is_wild(p.y) | is_wild(p.z) | is_wild(p.w)) & CODE_INVALID);

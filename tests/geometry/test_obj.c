@@ -396,6 +396,39 @@ static void names_with_marks(void)
     lom_free_mesh(mesh);
 }
 
+/* Readers differ in whether a comment ends the name behind newmtl: what is used without it is found when it is one. */
+static void comments_behind_newmtl(void)
+{
+    static const struct {
+        const char *mtl, *use;
+        float red; /* of the face's diffuse colour: 1 is the default's */
+        size_t warnings;
+    } cases[] = {
+        { "newmtl red # warm\nKd .5 0 0\n", "mtllib a.mtl\nusemtl red\n", .5f, 0 },
+        { "newmtl red # warm\nKd .5 0 0\n", "usemtl red\nmtllib a.mtl\n", .5f, 0 },
+        { "newmtl red\t#warm\nKd .5 0 0\n", "mtllib a.mtl\nusemtl red # again\n", 1, 1 },
+        { "newmtl red # warm\nKd .5 0 0\n", "mtllib a.mtl\nusemtl red # warm\n", .5f, 0 },
+        { "newmtl red # warm\nKd .5 0 0\nnewmtl red\nKd .25 0 0\n", "mtllib a.mtl\nusemtl red\n", .25f, 0 },
+        { "newmtl red #1\nKd .5 0 0\nnewmtl red #2\nKd .25 0 0\n", "mtllib a.mtl\nusemtl red\n", 1, 1 },
+        { "newmtl red#1\nKd .5 0 0\n", "mtllib a.mtl\nusemtl red\n", 1, 1 },
+        { "newmtl # warm\nKd .5 0 0\n", "mtllib a.mtl\nusemtl warm\n", 1, 1 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[200];
+        lom_error error = { 0 };
+        snprintf(text, sizeof text, TRIANGLE "%sf 1 2 3\n", cases[i].use);
+        lom_mesh *mesh =
+            lom_decode_obj_with(text, strlen(text), "a.obj", read_given, (void *)(uintptr_t)cases[i].mtl, &error);
+        CHECK(mesh != NULL && mesh->part_count == 1 && mesh->parts[0].material >= 0, "%zu: %s", i, error.text);
+        if (mesh == NULL)
+            continue;
+        const lom_material *used = &mesh->materials[mesh->parts[0].material];
+        CHECK(used->diffuse[0] == cases[i].red && mesh->warnings.count == cases[i].warnings, "%zu: \"%s\", %g, \"%s\"",
+              i, used->name, (double)used->diffuse[0], mesh->warnings.text);
+        lom_free_mesh(mesh);
+    }
+}
+
 /* A map's name ends where a comment begins that looks like one. */
 static void map_names(void)
 {
@@ -592,6 +625,7 @@ int main(int argc, char **argv)
     RUN(mixed_normals);
     RUN(materials);
     RUN(names_with_marks);
+    RUN(comments_behind_newmtl);
     RUN(map_names);
     RUN(files);
     RUN(round_trip);

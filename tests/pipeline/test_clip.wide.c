@@ -4,6 +4,9 @@
  * linear function of the window position. Pixels further than a pixel's 1/256 from every zero line must agree. */
 #include "stage.h"
 
+#include "base/reserve.h"
+#include "pipeline/project.h"
+
 enum { SIZE = 96, MAX_CONDITIONS = 13 };
 
 static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
@@ -235,6 +238,71 @@ static void random_triangles_equal_the_homogeneous_oracle(void)
     }
     CHECK(open < rounds * SIZE * SIZE / 50, "%lld pixels left open", (long long)open);
     close_stage(&s);
+}
+
+/* n floats further from 0. */
+static float step_by(float x, int n)
+{
+    int32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits += n;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* A vertex within a few roundings of the guard band's edge, between one inside and one far outside. */
+static void put_at_the_guard_band(struct lom_guard guard)
+{
+    float w = random_float(0.5f, 1.0f) * step_by(1, (int)random_whole(-60, 60) << 23), z = 0.25f * w;
+    float x = step_by(w * guard.x, (int)random_whole(-2, 2)), y = random_float(-1, 1) * w * guard.y;
+    if (random_whole(0, 1) != 0) {
+        x = random_float(-1, 1) * w * guard.x;
+        y = step_by(w * guard.y, (int)random_whole(-2, 2));
+    }
+    put(0, random_whole(0, 1) ? x : -x, random_whole(0, 1) ? y : -y, z, w);
+    put(1, 0, 0, z, w);
+    put(2, -random_float(2, 9) * w * guard.x, random_float(-9, 9) * w * guard.y, z, w);
+}
+
+/* A triangle that is cut and its neighbour that is not share vertices: what needs no clipping by itself is neither cut
+ * nor moved where a triangle is. */
+static void clipping_leaves_vertices_inside_as_they_are(void)
+{
+    struct lom_draw draw = { .desc = draw_of(&counter, vertices, 3), .variant = LOM_WIDE(LOM_SLOT), .row_floats = 8 };
+    struct lom_assembly assembly = { .clip = NULL };
+    struct lom_chunk chunk = { .draw = &draw, .assembly = &assembly, .vertex_count = 3 };
+    int inside = 0, outside = 0;
+    draw.uniforms = plus;
+    for (int round = 0; round < 20000; round++) {
+        struct lom_pass pass = { .desc = { .max_depth = 1 } };
+        pass.viewport = (lom_rect){ 0, 0, (int)random_whole(1, 4000), (int)random_whole(1, 4000) };
+        put_at_the_guard_band(lom_guard_of(&pass));
+        float before[3][8];
+        uint32_t corner[3] = { 0, 1, 2 }, fan[LOM_MAX_FAN][3];
+        chunk.row_count = chunk.vertex_count;
+        if (!lom_reserve_rows(&chunk, chunk.row_count))
+            break;
+        memset(chunk.rows, 0, 24 * sizeof *chunk.rows);
+        LOM_WIDE(lom_shade_vertices)(&pass, &chunk);
+        memcpy(before, chunk.rows, sizeof before);
+        const float *p = vertices[0].position;
+        if (assembly.codes[0] != 0) {
+            outside++;
+            continue;
+        }
+        inside++;
+        int pieces = lom_clip_triangle(&pass, &chunk, corner, CODE_GUARD, fan);
+        bool kept = false;
+        for (int i = 0; i < 3 * pieces; i++)
+            kept |= fan[0][i] == 0;
+        CHECK(kept && memcmp(before, chunk.rows, 2 * sizeof before[0]) == 0, "round %d: %a, %a, w %a in %d x %d: %s",
+              round, (double)p[0], (double)p[1], (double)p[3], pass.viewport.width, pass.viewport.height,
+              kept ? "moved" : "cut");
+    }
+    CHECK(inside > 5000 && outside > 5000, "%d inside, %d outside", inside, outside);
+    lom_release(chunk.rows);
+    lom_release(assembly.clip);
+    lom_release(assembly.codes);
 }
 
 /* Depth and a varying of what clipping left lie between their exact values around the pixel. */
@@ -570,6 +638,7 @@ int main(int argc, char **argv)
 {
     RUN(extreme_triangles_are_clipped);
     RUN(random_triangles_equal_the_homogeneous_oracle);
+    RUN(clipping_leaves_vertices_inside_as_they_are);
     RUN(clipped_values_are_those_of_the_whole);
     RUN(long_slivers_hit_only_their_centres);
     RUN(wild_positions_drop_their_triangle_alone);

@@ -130,9 +130,33 @@ static int draw_in_child(lom_renderer *renderer, uint64_t whole)
     return status;
 }
 
+/* ThreadSanitizer ends a child of several threads that starts another, as the reference does for each frame. */
+#if defined __SANITIZE_THREAD__
+#define ENDS_CHILDREN 1
+#elif defined __has_feature
+#if __has_feature(thread_sanitizer)
+#define ENDS_CHILDREN 1
+#endif
+#endif
+
+static bool is_skipped(int model)
+{
+#ifdef ENDS_CHILDREN
+    if (strstr(models[model], "reference") != NULL) {
+        printf("SKIP a_forked_child_draws_and_frees, %s: ThreadSanitizer lets no forked child start threads\n",
+               models[model]);
+        return true;
+    }
+#endif
+    (void)model;
+    return false;
+}
+
 static void a_forked_child_draws_and_frees(void)
 {
     for (int model = 0; model < MODELS; model++) {
+        if (is_skipped(model))
+            continue;
         lom_error error = { 0 };
         lom_scene *scene;
         lom_renderer *renderer = open_model(&scene, model, THREADS, &error);

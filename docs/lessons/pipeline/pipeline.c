@@ -149,7 +149,7 @@ static void shade_vertex(const struct picture *p, const struct uniforms *u, cons
     v->value[DISTANCE] = clamp(distance, -1e30f, 1e30f);
     /* The outcode: a bit for each side on which it lies outside of 0 <= z <= w, the guard band, a user's plane. */
     const float *at = v->value + CLIP, z = at[2], w = at[3];
-    bool outside = fabsf(at[0]) > w * p->band[0] || fabsf(at[1]) > w * p->band[1];
+    bool outside = fabsf(at[0]) >= w * p->band[0] || fabsf(at[1]) >= w * p->band[1];
     v->code = (distance < 0 ? OUT_DISTANCE : 0) | (w - z < 0 ? OUT_NEAR : 0) | (z < 0 ? OUT_FAR : 0) |
               (w < smallest_w ? OUT_W : 0) | (outside ? OUT_BAND : 0) | (distance == distance ? 0 : NO_NUMBER);
     for (int i = 0; i < 4; i++)
