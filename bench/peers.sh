@@ -1,8 +1,9 @@
 #!/bin/sh
 # bench/peers.sh [--size WxH] [--frames N] [--repeats N] [--output FILE] [WORKLOAD]...
 # Draws the workloads of bench/peers/README.md with lom and with every renderer of bench/peers that is installed, in
-# turn, and writes a Markdown table: medians of the repeats, ratios, and how well the pictures agree. A renderer that is
-# not there is named with SKIP. LOM names another program than build/lom.
+# turn, and writes a Markdown table: medians of the repeats, ratios, how well the pictures agree, and what share of this
+# machine's limit lom reaches (bench/peers/work.md); then a table of the first frame and of frames that are read back. A
+# renderer that is not there is named with SKIP. LOM names another program than build/lom.
 cd "$(dirname "$0")/.." || exit 2
 lom=${LOM:-${BUILD:-build}/lom} size=1280x720 frames=15 repeats=3 output='' workloads=''
 usage() { echo "bench/peers.sh: $1" >&2; sed -n 2p "$0" >&2; exit 2; }
@@ -16,7 +17,7 @@ while [ $# -gt 0 ]; do
     *) workloads="$workloads $1"; shift ;;
     esac
 done
-[ -n "$workloads" ] || workloads='clear fill blend depth mesh terrain water cloud cloud-skip'
+[ -n "$workloads" ] || workloads='clear fill blend depth mesh terrain water cloud cloud-skip sprites foliage gradients draws textured'
 [ -n "$output" ] || output=bench/results/peers-$size.md
 [ -x "$lom" ] || usage "there is no $lom; run make first."
 work=$(mktemp -d) || exit 2
@@ -30,6 +31,31 @@ peer_workload() { case $1 in cloud-skip) echo cloud ;; *) echo "$1" ;; esac; }
 run_peer() { bench/peers/run "$1" "$(peer_workload "$2")" "$size" "$frames" -t 20 -o "$work/$1.ppm" 2>"$work/log"; }
 median() { sort -n "$1" | awk '{ v[NR] = $1 } END { if (NR) printf "%.2f", (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
 
+# The figures of a run: of frames, of the first one, of those that are read back.
+keep() {
+    echo "$2" | field median_ms >>"$work/$workload.$1"
+    echo "$2" | field cold_ms >>"$work/$workload.$1.cold"
+    echo "$2" | field read_ms >>"$work/$workload.$1.read"
+}
+
+# The shortest time, in milliseconds, in which this machine can do a workload's work: its counts, its row of work.md and
+# the limits of all threads.
+limit() {
+    row=$(awk -F '|' -v name="$1" '{ gsub(/ /, "", $2) } $2 == name { print $3, $4, $5, $6, $7 }' bench/peers/work.md)
+    echo "$row $(tr '\n' ' ' <"$work/$1.counts") ${size%x*} ${size#*x}" | awk -v arithmetic="$(of_limits arithmetic)" \
+        -v look_up="$(of_limits look-up-near)" -v write="$(of_limits write-picture)" 'NF == 10 && arithmetic > 0 {
+            t[1] = ($1 * $6 + $2 * $7 + $3 * $8) / arithmetic; t[2] = $4 * $8 / look_up; t[3] = $5 * $9 * $10 / write
+            most = 0
+            for (i = 1; i <= 3; i++) if (t[i] > most) most = t[i]
+            printf "%.3f", most / 1e6 }'
+}
+of_limits() { awk -v name="$1" '$1 == name { print $3 }' "$work/limits"; }
+
+folder=$(bench/peers/build.sh "${BUILD:-build}" 2>"$work/log") || folder=''
+if [ -n "$folder" ]; then "$folder/limits" >"$work/limits"; else
+    echo "SKIP limits: $(head -n 1 "$work/log")"
+    : >"$work/limits"
+fi
 peers=''
 for peer in llvmpipe mesa25 swiftshader; do
     if found=$(bench/peers/run $peer clear 64x64 1 2>"$work/log") && [ -n "$found" ]; then
@@ -45,12 +71,13 @@ repeat=1
 while [ "$repeat" -le "$repeats" ]; do
     for workload in $workloads; do
         line=$("$lom" bench "$workload" --size "$size" --frames "$frames" --json -o "$work/lom.png") || exit 2
-        echo "$line" | field median_ms >>"$work/$workload.lom"
+        keep lom "$line"
+        for count in vertices triangles_binned fragments; do echo "$line" | field $count; done >"$work/$workload.counts"
         echo "$line" | field hash >"$work/$workload.hash"
         echo "$line" | sed -n 's/.*"threads":\([0-9]*\),"lanes":\([0-9]*\).*/\1 threads, \2 lanes/p' >"$work/device"
         printf '%s %s: lom %s ms' "$repeat" "$workload" "$(tail -n 1 "$work/$workload.lom")"
         for peer in $peers; do
-            run_peer "$peer" "$workload" | field median_ms >>"$work/$workload.$peer"
+            keep "$peer" "$(run_peer "$peer" "$workload")"
             printf ', %s %s ms' "$peer" "$(tail -n 1 "$work/$workload.$peer")"
             "$lom" compare "$work/lom.png" "$work/$peer.ppm" --json >"$work/compared" 2>/dev/null
             psnr=$(field psnr <"$work/compared")
@@ -62,23 +89,42 @@ while [ "$repeat" -le "$repeats" ]; do
     repeat=$((repeat + 1))
 done
 
-# One row a workload: lom, then for each peer its time, the ratio, and the agreement of the pictures in dB.
+ratio_of() { echo "$1 $2" | awk '{ if (NF == 2 && $2 > 0) printf "%.1f", $1 / $2; else printf "-" }'; }
+
+# table SUFFIX: one row a workload: lom, then for each peer its time and the ratio. Of whole frames also the share of the
+# machine's limit and the agreement of the pictures in dB.
 table() {
     printf '| workload | lom |'
-    for peer in $peers; do printf ' %s | ratio | PSNR |' "$peer"; done
+    [ -n "$1" ] || printf ' limit | share |'
+    for peer in $peers; do printf ' %s | ratio |' "$peer"; [ -n "$1" ] || printf ' PSNR |'; done
     printf '\n|---|---|'
-    for peer in $peers; do printf -- '---|---|---|'; done
+    [ -n "$1" ] || printf -- '---|---|'
+    for peer in $peers; do printf -- '---|---|'; [ -n "$1" ] || printf -- '---|'; done
     echo
     for workload in $workloads; do
-        ours=$(median "$work/$workload.lom")
+        ours=$(median "$work/$workload.lom$1")
         printf '| %s | %s |' "$workload" "$ours"
+        if [ -z "$1" ]; then
+            least=$(limit "$workload")
+            share=$(echo "$least $ours" | awk '{ if (NF == 2 && $2 > 0) printf "%.0f %%", 100 * $1 / $2; else printf "-" }')
+            printf ' %s | %s |' "${least:--}" "$share"
+        fi
         for peer in $peers; do
-            theirs=$(median "$work/$workload.$peer")
-            ratio=$(echo "$theirs $ours" | awk '{ if (NF == 2 && $2 > 0) printf "%.1f", $1 / $2; else printf "-" }')
-            printf ' %s | **%s×** | %s |' "${theirs:--}" "$ratio" "$(cat "$work/$workload.$peer.psnr")"
+            theirs=$(median "$work/$workload.$peer$1")
+            printf ' %s | **%s×** |' "${theirs:--}" "$(ratio_of "$theirs" "$ours")"
+            [ -n "$1" ] || printf ' %s |' "$(cat "$work/$workload.$peer.psnr")"
         done
         echo
     done
+}
+
+# The geometric mean of the ratios of some workloads to a peer.
+mean() {
+    peer=$1
+    shift
+    for workload in "$@"; do
+        [ -f "$work/$workload.lom" ] && echo "$(median "$work/$workload.$peer") $(median "$work/$workload.lom")"
+    done | awk 'NF == 2 && $1 > 0 && $2 > 0 { sum += log($1 / $2); n++ } END { if (n) printf "%.1f", exp(sum / n); else printf "-" }'
 }
 
 mkdir -p "$(dirname "$output")"
@@ -87,6 +133,7 @@ mkdir -p "$(dirname "$output")"
     echo
     echo "Milliseconds a frame (median of $repeats repeats, each the median of $frames frames, all in turn in one run);"
     echo "ratio: the peer's time over lom's; PSNR of the two pictures in dB. Definitions: \`bench/peers/README.md\`;"
+    echo "limit: the shortest time in which this machine can do the work (\`bench/peers/work.md\`); share: limit over lom;"
     echo "\`cloud\` walks every step, as the peers do; \`cloud-skip\` draws the same bytes with less work."
     echo
     echo "- machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) CPUs"
@@ -94,7 +141,25 @@ mkdir -p "$(dirname "$output")"
     for peer in llvmpipe mesa25 swiftshader; do echo "- $peer: $(cat "$work/$peer.name")"; done
     echo "- command: \`make bench-peers\` (\`bench/peers.sh --size $size --frames $frames --repeats $repeats\`)"
     echo
-    table
+    table ''
+    echo
+    for peer in $peers; do
+        printf 'Geometric mean of fill, blend, depth, mesh, terrain, water and cloud against %s: **%s×**; ' "$peer" \
+            "$(mean "$peer" fill blend depth mesh terrain water cloud)"
+        echo "of sprites, foliage, gradients, draws and textured: **$(mean "$peer" sprites foliage gradients draws textured)×**."
+    done
+    echo
+    echo "## The first frame"
+    echo
+    table .cold
+    echo
+    echo "## With the picture read back"
+    echo
+    table .read
+    echo
+    echo "## The machine's limits (\`bench/limits.c\`: one thread, all threads)"
+    echo
+    sed 's/^/    /' "$work/limits"
 } >"$work/table.md"
 cat "$work/table.md"
 mv "$work/table.md" "$output"

@@ -21,7 +21,7 @@ static const lom_option options[] = {
       "pixels of the picture (1280x720)" },
     { "frames", 0, LOM_OPTION_INTEGER, offsetof(bench_options, frames), "N", 1, 10000, "frames to time (20)" },
     { "warm-up", 0, LOM_OPTION_INTEGER, offsetof(bench_options, warm_up), "N", 0, 10000,
-      "frames drawn before, untimed (2)" },
+      "frames drawn before (2); the first frame of all is `cold`" },
     { "threads", 0, LOM_OPTION_INTEGER, offsetof(bench_options, threads), "N", 1, 256,
       "worker threads (as many as the machine has for us)" },
     { "lanes", 0, LOM_OPTION_CHOICE, offsetof(bench_options, lanes), "auto|4|8|16", 0, 0,
@@ -51,23 +51,40 @@ static int64_t given_or(const lom_option_integers *option, int64_t otherwise)
     return option->given ? option->value[0] : otherwise;
 }
 
+/* Three decimals: finer is noise. */
+static const char *milliseconds(char text[32], double ms)
+{
+    lom_print_double(text, lom_double_floor(ms * 1000 + 0.5) / 1000);
+    return text;
+}
+
+static void report_json(const char *name, const lom_image *picture, const lom_timing *timing, lom_device_desc device)
+{
+    char median[32], least[32], cold[32], read[32];
+    printf("{\"workload\":\"%s\",\"width\":%d,\"height\":%d,\"threads\":%d,\"lanes\":%d,\"frames\":%d,"
+           "\"median_ms\":%s,\"min_ms\":%s,\"cold_ms\":%s,\"read_ms\":%s,\"vertices\":%" PRIu64
+           ",\"triangles\":%" PRIu64 ",\"triangles_binned\":%" PRIu64 ",\"fragments\":%" PRIu64
+           ",\"hash\":\"%016" PRIx64 "\"}\n",
+           name, picture->width, picture->height, device.threads, device.lanes, timing->frames,
+           milliseconds(median, timing->median_ms), milliseconds(least, timing->min_ms),
+           milliseconds(cold, timing->cold_ms), milliseconds(read, timing->read_ms), timing->counters.vertices,
+           timing->counters.triangles, timing->counters.triangles_binned, timing->counters.fragments,
+           lom_hash_image(picture));
+}
+
 static void report(const bench_options *o, const char *name, const lom_image *picture, const lom_timing *timing,
                    const lom_device *device)
 {
-    lom_device_desc device_desc = lom_describe_device(device);
-    char median[32], least[32];
-    /* three decimals: finer is noise */
-    lom_print_double(median, lom_double_floor(timing->median_ms * 1000 + 0.5) / 1000);
-    lom_print_double(least, lom_double_floor(timing->min_ms * 1000 + 0.5) / 1000);
+    lom_device_desc desc = lom_describe_device(device);
+    char median[32], least[32], cold[32], read[32];
     if (o->json)
-        printf("{\"workload\":\"%s\",\"width\":%d,\"height\":%d,\"threads\":%d,\"lanes\":%d,\"frames\":%d,"
-               "\"median_ms\":%s,\"min_ms\":%s,\"hash\":\"%016" PRIx64 "\"}\n",
-               name, picture->width, picture->height, device_desc.threads, device_desc.lanes, timing->frames, median,
-               least, lom_hash_image(picture));
+        report_json(name, picture, timing, desc);
     else
-        printf("%-10s  %dx%d  %d threads  %2d lanes  %d frames  median %8s ms  min %8s ms  %016" PRIx64 "\n", name,
-               picture->width, picture->height, device_desc.threads, device_desc.lanes, timing->frames, median, least,
-               lom_hash_image(picture));
+        printf("%-10s  %dx%d  %d threads  %2d lanes  %d frames  median %8s ms  min %8s ms  cold %8s ms  "
+               "read back %8s ms  %016" PRIx64 "\n",
+               name, picture->width, picture->height, desc.threads, desc.lanes, timing->frames,
+               milliseconds(median, timing->median_ms), milliseconds(least, timing->min_ms),
+               milliseconds(cold, timing->cold_ms), milliseconds(read, timing->read_ms), lom_hash_image(picture));
     fflush(stdout);
 }
 

@@ -18,7 +18,7 @@ typedef struct lom_workload lom_workload;
 
 int lom_workload_count(void);
 /* "clear", "fill", "blend", "depth", "mesh", "terrain", "water", "cloud", and "cloud-skip", which draws the bytes of
- * "cloud" with less work: empty space is skipped; "fft256", "fft512", "fft1024", complex Fourier transforms of squares
+ * "cloud" with less work: empty space is skipped; "sprites", "foliage", "gradients", "draws" and "textured"; "fft256", "fft512", "fft1024", complex Fourier transforms of squares
  * of that size, and "light-grid", the light of 128^3 voxels, whatever size is asked for. NULL outside 0 .. count - 1.
  */
 const char *lom_workload_name(int index);
@@ -41,9 +41,13 @@ lom_image *lom_workload_picture(lom_workload *workload, lom_device *device, lom_
 typedef struct lom_timing {
     int frames;
     double median_ms, min_ms; /* of a frame */
+    double cold_ms;           /* of the first frame, warm-up or not: memory is touched for the first time */
+    double read_ms;           /* median of a frame and reading its picture back, a quarter as many and one */
+    lom_counters counters;    /* what one frame does; no counter depends on threads or tiles but `packets` */
 } lom_timing;
 
-/* Draws `warm_up` frames untimed (0 or more), then `frames` (1..10000), each timed by the monotonic clock. */
+/* Draws `warm_up` frames (0 or more), then `frames` (1..10000), each timed by the monotonic clock, then those that are
+ * read back. */
 bool lom_time_workload(lom_workload *workload, lom_device *device, int warm_up, int frames, lom_timing *timing,
                        lom_error *error);
 

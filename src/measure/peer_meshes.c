@@ -10,7 +10,7 @@ void lom_peer_free_mesh(lom_peer_mesh *mesh)
     *mesh = (lom_peer_mesh){ 0 };
 }
 
-static bool allocate(lom_peer_mesh *mesh, size_t vertices, size_t indices, lom_error *error)
+bool lom_peer_allocate_mesh(lom_peer_mesh *mesh, size_t vertices, size_t indices, lom_error *error)
 {
     *mesh = (lom_peer_mesh){ .vertex_count = vertices, .index_count = indices };
     mesh->vertices = lom_allocate(vertices, sizeof *mesh->vertices, error);
@@ -21,7 +21,7 @@ static bool allocate(lom_peer_mesh *mesh, size_t vertices, size_t indices, lom_e
 /* A grid of columns x rows vertices, each quad cut into a c b and b c d. */
 static bool allocate_grid(lom_peer_mesh *mesh, uint32_t columns, uint32_t rows, lom_error *error)
 {
-    if (!allocate(mesh, (size_t)columns * rows, (size_t)6 * (columns - 1) * (rows - 1), error))
+    if (!lom_peer_allocate_mesh(mesh, (size_t)columns * rows, (size_t)6 * (columns - 1) * (rows - 1), error))
         return false;
     uint32_t *next = mesh->indices;
     for (uint32_t j = 0; j + 1 < rows; j++)
@@ -63,7 +63,7 @@ bool lom_peer_torus(lom_peer_mesh *mesh, lom_error *error)
     return true;
 }
 
-static float terrain_height(float x, float z)
+float lom_peer_terrain_height(float x, float z)
 {
     return 5.0f * sine(0.06f * x + 0.5f) * cosine(0.05f * z) + 2.5f * sine(0.17f * x + 0.11f * z) +
            1.2f * sine(0.31f * z - 0.23f * x + 1.0f) + 0.3f * sine(0.9f * x) * sine(0.8f * z) - 1.5f;
@@ -78,11 +78,11 @@ bool lom_peer_terrain(lom_peer_mesh *mesh, lom_error *error)
     for (int j = 0; j < N; j++)
         for (int i = 0; i < N; i++) {
             float x = -50 + 100.0f * (float)i / (N - 1), z = -50 + 100.0f * (float)j / (N - 1);
-            float dx = (terrain_height(x + e, z) - terrain_height(x - e, z)) / (2 * e);
-            float dz = (terrain_height(x, z + e) - terrain_height(x, z - e)) / (2 * e);
+            float dx = (lom_peer_terrain_height(x + e, z) - lom_peer_terrain_height(x - e, z)) / (2 * e);
+            float dz = (lom_peer_terrain_height(x, z + e) - lom_peer_terrain_height(x, z - e)) / (2 * e);
             float inverse = 1 / __builtin_sqrtf(dx * dx + dz * dz + 1);
             mesh->vertices[j * N + i] = (lom_peer_vertex){
-                .position = { x, terrain_height(x, z), z },
+                .position = { x, lom_peer_terrain_height(x, z), z },
                 .normal = { -dx * inverse, inverse, -dz * inverse },
                 .uv = { (float)i / (N - 1), (float)j / (N - 1) },
             };
@@ -94,7 +94,7 @@ bool lom_peer_cube(lom_peer_mesh *mesh, lom_error *error)
 {
     static const uint8_t indices[36] = { 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                                          2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6 };
-    if (!allocate(mesh, 8, 36, error))
+    if (!lom_peer_allocate_mesh(mesh, 8, 36, error))
         return false;
     for (int i = 0; i < 8; i++)
         for (int k = 0; k < 3; k++)

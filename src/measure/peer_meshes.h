@@ -20,6 +20,10 @@ bool lom_peer_terrain(lom_peer_mesh *mesh, lom_error *error); /* 522 242 triangl
 bool lom_peer_cube(lom_peer_mesh *mesh, lom_error *error);    /* corners +-1 */
 bool lom_peer_water(lom_peer_mesh *mesh, lom_error *error);   /* two triangles, 100 m x 100 m, y = 0 */
 void lom_peer_free_mesh(lom_peer_mesh *mesh);
+/* Of zeros, for the makers of meshes. */
+bool lom_peer_allocate_mesh(lom_peer_mesh *mesh, size_t vertices, size_t indices, lom_error *error);
+/* Metres above the lake, the terrain's. */
+float lom_peer_terrain_height(float x, float z);
 
 typedef struct lom_peer_matrix {
     float m[16]; /* m[column * 4 + row] */

@@ -29,7 +29,7 @@ uint8_t lom_peer_byte(float x)
     return (uint8_t)lom_count_of(lom_peer_clamp01(x) * 255.0f + 0.5f, 255);
 }
 
-static float lattice(uint32_t x, uint32_t y, uint32_t z)
+float lom_peer_lattice(uint32_t x, uint32_t y, uint32_t z)
 {
     uint32_t h = (x * 0x8da6b343u) ^ (y * 0xd8163841u) ^ (z * 0xcb1ab31fu);
     h ^= h >> 15;
@@ -58,8 +58,8 @@ static float noise2(float x, float y, int period, uint32_t seed)
     cell cx = find_cell(x, period), cy = find_cell(y, period);
     float row[2];
     for (int j = 0; j < 2; j++)
-        row[j] =
-            lom_peer_mix(lattice(cx.point[0], cy.point[j], seed), lattice(cx.point[1], cy.point[j], seed), cx.weight);
+        row[j] = lom_peer_mix(lom_peer_lattice(cx.point[0], cy.point[j], seed),
+                              lom_peer_lattice(cx.point[1], cy.point[j], seed), cx.weight);
     return lom_peer_mix(row[0], row[1], cy.weight);
 }
 
@@ -70,8 +70,8 @@ static float noise3(float x, float y, float z, int period)
     for (int k = 0; k < 2; k++) {
         float row[2];
         for (int j = 0; j < 2; j++)
-            row[j] = lom_peer_mix(lattice(cx.point[0], cy.point[j], cz.point[k]),
-                                  lattice(cx.point[1], cy.point[j], cz.point[k]), cx.weight);
+            row[j] = lom_peer_mix(lom_peer_lattice(cx.point[0], cy.point[j], cz.point[k]),
+                                  lom_peer_lattice(cx.point[1], cy.point[j], cz.point[k]), cx.weight);
         slice[k] = lom_peer_mix(row[0], row[1], cy.weight);
     }
     return lom_peer_mix(slice[0], slice[1], cz.weight);

@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+/* A number in [0, 1) from three integers. */
+float lom_peer_lattice(uint32_t x, uint32_t y, uint32_t z);
 /* 5 octaves over the unit square (u, v >= 0), periodic; base frequency `period`; in [0, 1]. */
 float lom_peer_fbm2(float u, float v, int period, int seed);
 /* 4 octaves over the unit cube, periodic; in [0, 1]. */

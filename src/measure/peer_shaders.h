@@ -51,9 +51,27 @@ typedef struct lom_peer_puff { /* attributes: position */
     lom_march_desc march;
 } lom_peer_puff;
 
+typedef struct lom_peer_card { /* attributes: position, colour, uv; sprites: the position is in clip coordinates */
+    float to_clip[16];
+    const lom_texture *texture;
+} lom_peer_card;
+
+typedef struct lom_peer_colored_box { /* attributes: position, a corner of the cube of +-1 */
+    float to_clip[16];
+    float centre[3], size, color[3];
+} lom_peer_colored_box;
+
+typedef struct lom_peer_layer { /* the window's strip; uv = scale * (cos, -sin; sin, cos) (aspect * x, y) */
+    float z, aspect;
+    float along[2]; /* scale * cos, scale * sin */
+    const lom_texture *texture;
+} lom_peer_layer;
+
 extern const lom_shader lom_peer_flat_shader, lom_peer_show_shader, lom_peer_lit_shader, lom_peer_depth_shader;
 extern const lom_shader lom_peer_ground_shader, lom_peer_clipped_ground_shader, lom_peer_dome_shader;
 extern const lom_shader lom_peer_lake_shader, lom_peer_puff_shader;
+extern const lom_shader lom_peer_gradient_shader, lom_peer_sprite_shader, lom_peer_card_shader;
+extern const lom_shader lom_peer_box_shader, lom_peer_layer_shader;
 
 /* M (p, w) with w 0 or 1 */
 LOM_INLINE lom_float4 lom_peer_transform(const float m[16], lom_float4 p, float w)

@@ -16,6 +16,9 @@ static const lom_workload_view lake_view = { .eye = { -30, 7, 35 },
                                              .light = { 0.35f, 0.5f, -0.6f },
                                              .near_plane = 0.5f,
                                              .far_plane = 200 };
+static const lom_workload_view boxes_view = {
+    .eye = { 0, 0, 50 }, .light = { 0, 1, 0 }, .near_plane = 0.5f, .far_plane = 200
+};
 static const lom_workload_view cloud_view = { .eye = { 0.25f, 0.15f, 1.05f },
                                               .target = { 0, 0.02f, 0 },
                                               .light = { 0.5f, 0.7f, 0.3f },
@@ -23,27 +26,85 @@ static const lom_workload_view cloud_view = { .eye = { 0.25f, 0.15f, 1.05f },
                                               .far_plane = 10 };
 
 static const lom_workload_kind kinds[] = {
-    { "clear", "one colour and one depth", lom_draw_clear, NULL, 0, false, false, NULL, 0 },
-    { "fill", "8 opaque layers over the whole window", lom_draw_fill, NULL, 0, false, false, NULL, 0 },
-    { "blend", "8 translucent layers over the whole window", lom_draw_blend, NULL, 0, false, false, NULL, 0 },
-    { "depth", "a torus of 200 000 triangles, depth only", lom_draw_depth, &torus_view, LOM_NEEDS_TORUS, true, false,
-      NULL, 0 },
-    { "mesh", "a torus of 200 000 triangles, lit at each pixel", lom_draw_mesh, &torus_view, LOM_NEEDS_TORUS, false,
-      false, NULL, 0 },
-    { "terrain", "522 242 triangles with colour and normal textures, and a sky", lom_draw_terrain, &lake_view,
-      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE, false, false, NULL, 0 },
-    { "water", "the terrain three times, and a lake that reflects and refracts it", lom_draw_water, &lake_view,
-      LOM_NEEDS_GROUND | LOM_NEEDS_CUBE | LOM_NEEDS_LAKE, false, false, NULL, 0 },
-    { "cloud", "100 steps through a volume, every one taken", lom_draw_cloud, &cloud_view,
-      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, false, NULL, 0 },
-    { "cloud-skip", "the same picture with empty space skipped", lom_draw_cloud, &cloud_view,
-      LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD, false, true, NULL, 0 },
-    { "fft256", "a complex Fourier transform of 256 x 256", lom_draw_fft, NULL, 0, false, false, &lom_fft_task, 256 },
-    { "fft512", "a complex Fourier transform of 512 x 512", lom_draw_fft, NULL, 0, false, false, &lom_fft_task, 512 },
-    { "fft1024", "a complex Fourier transform of 1024 x 1024", lom_draw_fft, NULL, 0, false, false, &lom_fft_task,
-      1024 },
-    { "light-grid", "a grid of light of 128^3 swept from a sun in the east, on one thread", lom_draw_light, NULL, 0,
-      false, false, &lom_light_task, 128 },
+    { .name = "clear", .summary = "one colour and one depth", .draw = lom_draw_clear },
+    { .name = "fill", .summary = "8 opaque layers over the whole window", .draw = lom_draw_fill },
+    { .name = "blend", .summary = "8 translucent layers over the whole window", .draw = lom_draw_blend },
+    { .name = "depth",
+      .summary = "a torus of 200 000 triangles, depth only",
+      .draw = lom_draw_depth,
+      .view = &torus_view,
+      .needs = LOM_NEEDS_TORUS,
+      .show_depth = true },
+    { .name = "mesh",
+      .summary = "a torus of 200 000 triangles, lit at each pixel",
+      .draw = lom_draw_mesh,
+      .view = &torus_view,
+      .needs = LOM_NEEDS_TORUS },
+    { .name = "terrain",
+      .summary = "522 242 triangles with colour and normal textures, and a sky",
+      .draw = lom_draw_terrain,
+      .view = &lake_view,
+      .needs = LOM_NEEDS_GROUND | LOM_NEEDS_CUBE },
+    { .name = "water",
+      .summary = "the terrain three times, and a lake that reflects and refracts it",
+      .draw = lom_draw_water,
+      .view = &lake_view,
+      .needs = LOM_NEEDS_GROUND | LOM_NEEDS_CUBE | LOM_NEEDS_LAKE },
+    { .name = "cloud",
+      .summary = "100 steps through a volume, every one taken",
+      .draw = lom_draw_cloud,
+      .view = &cloud_view,
+      .needs = LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD },
+    { .name = "cloud-skip",
+      .summary = "the same picture with empty space skipped",
+      .draw = lom_draw_cloud,
+      .view = &cloud_view,
+      .needs = LOM_NEEDS_CUBE | LOM_NEEDS_CLOUD,
+      .skip = true },
+    { .name = "sprites",
+      .summary = "2000 textured, blended quads of 64 pixels a side, in random order",
+      .draw = lom_draw_sprites,
+      .scatter = lom_peer_sprites,
+      .card = lom_peer_blob },
+    { .name = "foliage",
+      .summary = "20 000 textured cards with holes, tested by depth",
+      .draw = lom_draw_foliage,
+      .view = &lake_view,
+      .scatter = lom_peer_cards,
+      .card = lom_peer_leaf },
+    { .name = "gradients",
+      .summary = "three layers of triangles of some 200 pixels, colours and depths at random",
+      .draw = lom_draw_gradients,
+      .scatter = lom_peer_gradients },
+    { .name = "draws",
+      .summary = "5000 draws of 12 triangles",
+      .draw = lom_draw_boxes,
+      .view = &boxes_view,
+      .needs = LOM_NEEDS_CUBE | LOM_NEEDS_BOXES },
+    { .name = "textured",
+      .summary = "8 translucent textured layers over the whole window, at eight scales",
+      .draw = lom_draw_textured,
+      .needs = LOM_NEEDS_ALBEDO },
+    { .name = "fft256",
+      .summary = "a complex Fourier transform of 256 x 256",
+      .draw = lom_draw_fft,
+      .task = &lom_fft_task,
+      .size = 256 },
+    { .name = "fft512",
+      .summary = "a complex Fourier transform of 512 x 512",
+      .draw = lom_draw_fft,
+      .task = &lom_fft_task,
+      .size = 512 },
+    { .name = "fft1024",
+      .summary = "a complex Fourier transform of 1024 x 1024",
+      .draw = lom_draw_fft,
+      .task = &lom_fft_task,
+      .size = 1024 },
+    { .name = "light-grid",
+      .summary = "a grid of light of 128^3 swept from a sun in the east, on one thread",
+      .draw = lom_draw_light,
+      .task = &lom_light_task,
+      .size = 128 },
 };
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0], MAX_SIZE = 16384 };
 
@@ -101,12 +162,19 @@ static lom_texture *sky_texture(lom_error *error)
     return texture;
 }
 
-static bool make_ground(lom_workload *w, lom_error *error)
+static bool make_albedo(lom_workload *w, lom_error *error)
 {
     w->albedo = tile_texture(lom_peer_albedo(error), error);
+    return w->albedo != NULL;
+}
+
+static bool make_ground(lom_workload *w, lom_error *error)
+{
+    if (!make_albedo(w, error))
+        return false;
     w->normals = tile_texture(lom_peer_normals(512, 16, 21, 12, error), error);
     w->sky = sky_texture(error);
-    return w->albedo != NULL && w->normals != NULL && w->sky != NULL && lom_peer_terrain(&w->terrain, error);
+    return w->normals != NULL && w->sky != NULL && lom_peer_terrain(&w->terrain, error);
 }
 
 static bool make_lake(lom_workload *w, lom_error *error)
@@ -124,6 +192,24 @@ static bool make_cloud(lom_workload *w, lom_error *error)
     return w->cloud != NULL;
 }
 
+static bool make_scattered(lom_workload *w, lom_error *error)
+{
+    if (w->kind->scatter != NULL && !w->kind->scatter(&w->scattered, w->width, w->height, error))
+        return false;
+    if (w->kind->card == NULL)
+        return true;
+    w->card = tile_texture(w->kind->card(error), error);
+    return w->card != NULL;
+}
+
+static bool make_boxes(lom_workload *w, lom_error *error)
+{
+    w->boxes = lom_allocate(LOM_PEER_BOXES, sizeof *w->boxes, error);
+    for (int i = 0; w->boxes != NULL && i < LOM_PEER_BOXES; i++)
+        w->boxes[i] = lom_peer_box_at(i);
+    return w->boxes != NULL;
+}
+
 static bool make_target(lom_workload *w, int target, lom_error *error)
 {
     lom_texture_desc color = { .width = w->width,
@@ -139,6 +225,16 @@ static bool make_target(lom_workload *w, int target, lom_error *error)
     return w->depth[target] != NULL;
 }
 
+static bool make_torus(lom_workload *w, lom_error *error)
+{
+    return lom_peer_torus(&w->torus, error);
+}
+
+static bool make_cube(lom_workload *w, lom_error *error)
+{
+    return lom_peer_cube(&w->cube, error);
+}
+
 static bool make_all(lom_workload *w, lom_error *error)
 {
     if (w->kind->task != NULL)
@@ -148,10 +244,16 @@ static bool make_all(lom_workload *w, lom_error *error)
     for (int i = 0; i < targets; i++)
         if (!make_target(w, i, error))
             return false;
-    return (!(needs & LOM_NEEDS_TORUS) || lom_peer_torus(&w->torus, error)) &&
-           (!(needs & LOM_NEEDS_CUBE) || lom_peer_cube(&w->cube, error)) &&
-           (!(needs & LOM_NEEDS_GROUND) || make_ground(w, error)) &&
-           (!(needs & LOM_NEEDS_LAKE) || make_lake(w, error)) && (!(needs & LOM_NEEDS_CLOUD) || make_cloud(w, error));
+    static const struct {
+        unsigned need;
+        bool (*make)(lom_workload *workload, lom_error *error);
+    } makers[] = { { LOM_NEEDS_TORUS, make_torus },  { LOM_NEEDS_CUBE, make_cube },   { LOM_NEEDS_GROUND, make_ground },
+                   { LOM_NEEDS_LAKE, make_lake },    { LOM_NEEDS_CLOUD, make_cloud }, { LOM_NEEDS_BOXES, make_boxes },
+                   { LOM_NEEDS_ALBEDO, make_albedo } };
+    for (size_t i = 0; i < sizeof makers / sizeof makers[0]; i++)
+        if ((needs & makers[i].need) != 0 && !makers[i].make(w, error))
+            return false;
+    return make_scattered(w, error);
 }
 
 static void set_view(lom_workload *w)
@@ -196,7 +298,7 @@ void lom_free_workload(lom_workload *w)
 {
     if (w == NULL)
         return;
-    lom_texture *const textures[] = { w->albedo, w->normals, w->sky, w->dudv, w->ripples };
+    lom_texture *const textures[] = { w->albedo, w->normals, w->sky, w->dudv, w->ripples, w->card };
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
         lom_free_texture(textures[i]);
     for (int i = 0; i < LOM_TARGETS; i++) {
@@ -207,6 +309,8 @@ void lom_free_workload(lom_workload *w)
     lom_peer_free_mesh(&w->cube);
     lom_peer_free_mesh(&w->terrain);
     lom_peer_free_mesh(&w->water);
+    lom_peer_free_mesh(&w->scattered);
+    lom_release(w->boxes);
     lom_free_volume(w->cloud);
     lom_free_fft(w->fft);
     lom_free_light_grid(w->grid);

@@ -6,44 +6,35 @@
 
 #include <string.h>
 
-static lom_attribute attribute(const lom_peer_mesh *mesh, size_t offset, lom_attribute_kind kind)
+static lom_attribute attribute(const lom_peer_mesh *mesh, int index)
 {
-    return (lom_attribute){ .data = (const char *)mesh->vertices + offset,
-                            .size = mesh->vertex_count * sizeof(lom_peer_vertex) - offset,
+    static const struct {
+        size_t offset;
+        lom_attribute_kind kind;
+    } members[] = { { offsetof(lom_peer_vertex, position), LOM_ATTRIBUTE_FLOAT3 },
+                    { offsetof(lom_peer_vertex, normal), LOM_ATTRIBUTE_FLOAT3 },
+                    { offsetof(lom_peer_vertex, uv), LOM_ATTRIBUTE_FLOAT2 } };
+    return (lom_attribute){ .data = (const char *)mesh->vertices + members[index].offset,
+                            .size = mesh->vertex_count * sizeof(lom_peer_vertex) - members[index].offset,
                             .stride = sizeof(lom_peer_vertex),
-                            .kind = kind };
+                            .kind = members[index].kind };
 }
 
-static lom_attribute positions(const lom_peer_mesh *mesh)
+lom_draw_desc lom_workload_mesh_draw(const lom_shader *shader, const lom_peer_mesh *mesh, int attributes,
+                                     const void *uniforms)
 {
-    return attribute(mesh, offsetof(lom_peer_vertex, position), LOM_ATTRIBUTE_FLOAT3);
+    lom_draw_desc draw = { .shader = shader,
+                           .uniforms = uniforms,
+                           .indices = mesh->indices,
+                           .index_bits = 32,
+                           .count = mesh->index_count,
+                           .cull = LOM_CULL_BACK };
+    for (int i = 0; i < attributes; i++)
+        draw.attribute[i] = attribute(mesh, i);
+    return draw;
 }
 
-static lom_attribute normals(const lom_peer_mesh *mesh)
-{
-    return attribute(mesh, offsetof(lom_peer_vertex, normal), LOM_ATTRIBUTE_FLOAT3);
-}
-
-static lom_attribute coordinates(const lom_peer_mesh *mesh)
-{
-    return attribute(mesh, offsetof(lom_peer_vertex, uv), LOM_ATTRIBUTE_FLOAT2);
-}
-
-/* All triangles of a mesh, back faces left out. */
-static lom_draw_desc mesh_draw(const lom_shader *shader, const lom_peer_mesh *mesh, const void *uniforms,
-                               lom_compare compare)
-{
-    return (lom_draw_desc){ .shader = shader,
-                            .uniforms = uniforms,
-                            .attribute = { positions(mesh) },
-                            .indices = mesh->indices,
-                            .index_bits = 32,
-                            .count = mesh->index_count,
-                            .cull = LOM_CULL_BACK,
-                            .depth_compare = compare };
-}
-
-static void begin(lom_workload *w, lom_device *device, int target, float r, float g, float b)
+void lom_begin_workload_pass(lom_workload *w, lom_device *device, int target, float r, float g, float b)
 {
     lom_begin_pass(device, &(lom_pass_desc){ .color = { w->color[target] },
                                              .depth = w->depth[target],
@@ -54,15 +45,15 @@ static void begin(lom_workload *w, lom_device *device, int target, float r, floa
 
 void lom_draw_clear(lom_workload *w, lom_device *device)
 {
-    begin(w, device, LOM_MAIN, 0.1f, 0.2f, 0.3f);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0.1f, 0.2f, 0.3f);
     lom_end_pass(device);
 }
 
-static const lom_blend straight_alpha = { .enabled = true,
-                                          .source_color = LOM_FACTOR_SOURCE_ALPHA,
-                                          .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
-                                          .source_alpha = LOM_FACTOR_SOURCE_ALPHA,
-                                          .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA };
+const lom_blend lom_straight_alpha = { .enabled = true,
+                                       .source_color = LOM_FACTOR_SOURCE_ALPHA,
+                                       .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
+                                       .source_alpha = LOM_FACTOR_SOURCE_ALPHA,
+                                       .target_alpha = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA };
 static const lom_blend multiplied_alpha = { .enabled = true,
                                             .source_color = LOM_FACTOR_ONE,
                                             .target_color = LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA,
@@ -71,7 +62,7 @@ static const lom_blend multiplied_alpha = { .enabled = true,
 
 static void draw_layers(lom_workload *w, lom_device *device, lom_blend blend, float alpha)
 {
-    begin(w, device, LOM_MAIN, 0.1f, 0.2f, 0.3f);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0.1f, 0.2f, 0.3f);
     for (int i = 0; i < 8; i++) {
         lom_peer_flat flat = { .z = -0.9f + 0.2f * (float)i,
                                .color = { (float)(i + 1) / 8.0f, 1 - (float)i / 8.0f, 0.5f, alpha } };
@@ -93,7 +84,7 @@ void lom_draw_fill(lom_workload *w, lom_device *device)
 
 void lom_draw_blend(lom_workload *w, lom_device *device)
 {
-    draw_layers(w, device, straight_alpha, 0.25f);
+    draw_layers(w, device, lom_straight_alpha, 0.25f);
 }
 
 void lom_draw_depth(lom_workload *w, lom_device *device)
@@ -102,7 +93,8 @@ void lom_draw_depth(lom_workload *w, lom_device *device)
     memcpy(uniforms.to_clip, w->to_clip.m, sizeof uniforms.to_clip);
     lom_begin_pass(
         device, &(lom_pass_desc){ .depth = w->depth[LOM_MAIN], .clip_range = LOM_CLIP_MINUS_W_TO_W, .clear_depth = 1 });
-    lom_draw_desc draw = mesh_draw(&lom_peer_depth_shader, &w->torus, &uniforms, LOM_COMPARE_LESS);
+    lom_draw_desc draw = lom_workload_mesh_draw(&lom_peer_depth_shader, &w->torus, 1, &uniforms);
+    draw.depth_compare = LOM_COMPARE_LESS;
     lom_draw(device, &draw);
     lom_end_pass(device);
 }
@@ -126,9 +118,9 @@ void lom_draw_mesh(lom_workload *w, lom_device *device)
     memcpy(lit.to_clip, w->to_clip.m, sizeof lit.to_clip);
     memcpy(lit.eye, w->kind->view->eye, sizeof lit.eye);
     memcpy(lit.light, w->light, sizeof lit.light);
-    begin(w, device, LOM_MAIN, 0.1f, 0.1f, 0.15f);
-    lom_draw_desc draw = mesh_draw(&lom_peer_lit_shader, &w->torus, &lit, LOM_COMPARE_LESS);
-    draw.attribute[1] = normals(&w->torus);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0.1f, 0.1f, 0.15f);
+    lom_draw_desc draw = lom_workload_mesh_draw(&lom_peer_lit_shader, &w->torus, 2, &lit);
+    draw.depth_compare = LOM_COMPARE_LESS;
     lom_draw(device, &draw);
     lom_end_pass(device);
 }
@@ -142,9 +134,8 @@ static void draw_ground(lom_workload *w, lom_device *device, bool mirrored, floa
     memcpy(ground.eye, (float[3]){ eye[0], mirrored ? -eye[1] : eye[1], eye[2] }, sizeof ground.eye);
     memcpy(ground.light, w->light, sizeof ground.light);
     const lom_shader *shader = up != 0 ? &lom_peer_clipped_ground_shader : &lom_peer_ground_shader;
-    lom_draw_desc draw = mesh_draw(shader, &w->terrain, &ground, LOM_COMPARE_LESS_EQUAL);
-    draw.attribute[1] = normals(&w->terrain);
-    draw.attribute[2] = coordinates(&w->terrain);
+    lom_draw_desc draw = lom_workload_mesh_draw(shader, &w->terrain, 3, &ground);
+    draw.depth_compare = LOM_COMPARE_LESS_EQUAL;
     draw.front_clockwise = mirrored;
     lom_draw(device, &draw);
 }
@@ -154,7 +145,8 @@ static void draw_sky(lom_workload *w, lom_device *device, bool mirrored)
 {
     lom_peer_dome dome = { .cube = w->sky };
     memcpy(dome.to_clip, mirrored ? w->mirrored_to_clip.m : w->to_clip.m, sizeof dome.to_clip);
-    lom_draw_desc draw = mesh_draw(&lom_peer_dome_shader, &w->cube, &dome, LOM_COMPARE_LESS_EQUAL);
+    lom_draw_desc draw = lom_workload_mesh_draw(&lom_peer_dome_shader, &w->cube, 1, &dome);
+    draw.depth_compare = LOM_COMPARE_LESS_EQUAL;
     draw.cull = LOM_CULL_NONE;
     draw.depth_write_off = true;
     lom_draw(device, &draw);
@@ -162,7 +154,7 @@ static void draw_sky(lom_workload *w, lom_device *device, bool mirrored)
 
 void lom_draw_terrain(lom_workload *w, lom_device *device)
 {
-    begin(w, device, LOM_MAIN, 0, 0, 0);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0, 0, 0);
     draw_ground(w, device, false, 0, 0);
     draw_sky(w, device, false);
     lom_end_pass(device);
@@ -183,22 +175,23 @@ static void draw_lake(lom_workload *w, lom_device *device)
     memcpy(lake.to_clip, w->to_clip.m, sizeof lake.to_clip);
     memcpy(lake.eye, w->kind->view->eye, sizeof lake.eye);
     memcpy(lake.light, w->light, sizeof lake.light);
-    lom_draw_desc draw = mesh_draw(&lom_peer_lake_shader, &w->water, &lake, LOM_COMPARE_LESS_EQUAL);
-    draw.attribute[1] = coordinates(&w->water);
-    draw.blend[0] = straight_alpha;
+    lom_draw_desc draw = lom_workload_mesh_draw(&lom_peer_lake_shader, &w->water, 1, &lake);
+    draw.attribute[1] = attribute(&w->water, 2);
+    draw.depth_compare = LOM_COMPARE_LESS_EQUAL;
+    draw.blend[0] = lom_straight_alpha;
     lom_draw(device, &draw);
 }
 
 void lom_draw_water(lom_workload *w, lom_device *device)
 {
-    begin(w, device, LOM_REFLECTION, 0, 0, 0);
+    lom_begin_workload_pass(w, device, LOM_REFLECTION, 0, 0, 0);
     draw_ground(w, device, true, 1, 0.05f);
     draw_sky(w, device, true);
     lom_end_pass(device);
-    begin(w, device, LOM_REFRACTION, 0.02f, 0.10f, 0.18f);
+    lom_begin_workload_pass(w, device, LOM_REFRACTION, 0.02f, 0.10f, 0.18f);
     draw_ground(w, device, false, -1, 0.2f);
     lom_end_pass(device);
-    begin(w, device, LOM_MAIN, 0, 0, 0);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0, 0, 0);
     draw_ground(w, device, false, 0, 0);
     draw_sky(w, device, false);
     draw_lake(w, device);
@@ -218,8 +211,9 @@ void lom_draw_cloud(lom_workload *w, lom_device *device)
         puff.eye[k] = w->kind->view->eye[k] + 0.5f;
         puff.march.light_offset[k] = w->light[k] * 0.08f;
     }
-    begin(w, device, LOM_MAIN, 0.25f, 0.45f, 0.75f);
-    lom_draw_desc draw = mesh_draw(&lom_peer_puff_shader, &w->cube, &puff, LOM_COMPARE_LESS);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0.25f, 0.45f, 0.75f);
+    lom_draw_desc draw = lom_workload_mesh_draw(&lom_peer_puff_shader, &w->cube, 1, &puff);
+    draw.depth_compare = LOM_COMPARE_LESS;
     draw.blend[0] = multiplied_alpha;
     lom_draw(device, &draw);
     lom_end_pass(device);
