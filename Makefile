@@ -108,6 +108,11 @@ lib_objects     := $(call objects_of,$(lib_sources) $(wide_sources))
 measure_objects := $(call objects_of,$(measure_sources))
 cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
+# A lesson is docs/lessons/NAME/NAME.c: a program, and contained in lom under another name than main.
+lesson_sources := $(foreach folder,$(wildcard docs/lessons/*/),$(wildcard $(folder)$(notdir $(folder:/=)).c))
+lessons        := $(lesson_sources:%.c=$(BUILD)/%)
+lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o)
+
 # How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
 # speed"; what runs briefly or seldom for size, the rest in between. (The program stays under 3 MB: tests/cli/test_limits.sh.)
 FOR_SPEED = base march pipeline reference
@@ -125,10 +130,6 @@ tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
 wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
 programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
-# A lesson is docs/lessons/NAME/NAME.c: a program, and contained in lom under another name than main.
-lesson_sources := $(foreach folder,$(wildcard docs/lessons/*/),$(wildcard $(folder)$(notdir $(folder:/=)).c))
-lessons        := $(lesson_sources:%.c=$(BUILD)/%)
-lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o)
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
 .PHONY: all demo check check-long coverage wasm matrix fuzz lint format install uninstall clean help

@@ -21,7 +21,20 @@ static const struct lesson lessons[] = {
     { "transforms", "moving, turning and scaling, and their order", lom_lesson_transforms },
     { "clip_space", "how far things become small: x, y, z and w", lom_lesson_clip_space },
     { "rasterization", "which pixels are a triangle's: every one exactly once", lom_lesson_rasterization },
+    { "interpolation", "what a pixel gets from three vertices", lom_lesson_interpolation },
+    { "depth", "which is nearer, and how exactly one knows", lom_lesson_depth },
+    { "textures", "pictures on surfaces, and their levels", lom_lesson_textures },
+    { "normals", "which way a surface faces, and why its matrix is another one", lom_lesson_normals },
+    { "lights", "ambient, diffuse, specular: what a material looks like", lom_lesson_lights },
     { "pipeline", "the whole pipeline in one plain file: the map", lom_lesson_pipeline },
+    { "targets", "drawing into a texture; mirrors and clip planes", lom_lesson_targets },
+    { "water", "a lake in nine steps", lom_lesson_water },
+    { "waves", "from a wind's spectrum to a sea with foam", lom_lesson_waves },
+    { "clouds", "density, transmittance, scattering, impostors", lom_lesson_clouds },
+    { "lanes", "many pixels at once: lanes, packets, tiles", lom_lesson_lanes },
+    { "determinism", "the same bytes everywhere, and what breaks them", lom_lesson_determinism },
+    { "trade", "how much error a millisecond buys", lom_lesson_trade },
+    { "stage", "a stage of your own", lom_lesson_stage },
 };
 enum { LESSONS = sizeof lessons / sizeof lessons[0], IS_PICTURE = -1 };
 
