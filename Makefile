@@ -61,6 +61,7 @@ ifneq ($(COVERAGE),)
 CFLAGS += --coverage -fprofile-update=atomic
 LDFLAGS += --coverage
 COUNTING = $(BUILD)/tests/house/coverage.o
+$(BUILD)/lom: private LDFLAGS += -Wl,--wrap=raise
 endif
 
 AVX512 = -mavx2 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd
@@ -213,6 +214,9 @@ $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 $(BUILD)/tests/faults/test_frame_allocations: private LDFLAGS += -Wl,--wrap=lom_reserve
+
+# Another system's answers.
+$(BUILD)/tests/base/test_cpu: private LDFLAGS += -Wl,--wrap=sysconf -Wl,--wrap=sched_getaffinity
 
 # tests/world counts which files are opened.
 $(BUILD)/tests/world/%: private LDFLAGS += -Wl,--wrap=openat

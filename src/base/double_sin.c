@@ -49,18 +49,12 @@ static void shift_left(uint64_t *word, int count, int shift)
         word[i] = word[i] << shift | (i + 1 < count ? word[i + 1] >> (64 - shift) : 0);
 }
 
-/* f = word / 2^256 * 4 as a pair, where the top two bits are 0; from its first 106 bits. */
+/* f = word / 2^256 * 4 as a pair, where the top two bits are 0; from its first 106 bits. No double is
+ * nearer to a multiple of pi/2 than f = 2^-61.6 (Muller, "Elementary functions", 10.2), so word[0] is not 0. */
 static lom_pair fraction_pair(uint64_t word[4])
 {
-    int exponent = 2;
-    while (word[0] == 0 && exponent > -190) { /* f > 2^-62 - 2^-137, so this ends within two turns */
-        for (int i = 0; i < 4; i++)
-            word[i] = i < 3 ? word[i + 1] : 0;
-        exponent -= 64;
-    }
-    int zeros = word[0] == 0 ? 0 : __builtin_clzll(word[0]);
+    int zeros = __builtin_clzll(word[0]), exponent = 2 - zeros;
     shift_left(word, 4, zeros);
-    exponent -= zeros;
     double hi = (double)(word[0] >> 11);
     double lo = (double)((word[0] & 0x7ff) << 42 | word[1] >> 22);
     return fast_two_sum(hi * power_of_two(exponent - 53), lo * power_of_two(exponent - 106));

@@ -83,11 +83,9 @@ static bool enter_folder(int *folder, char **path)
 static char *read_link(int folder, const char *name, lom_error *error)
 {
     char *text = lom_allocate(LONGEST_LINK, 1, error);
-    ssize_t length = text != NULL ? readlinkat(folder, name, text, LONGEST_LINK - 1) : 0;
-    if (text != NULL && length > 0)
+    errno = ENOENT; /* of a link without text */
+    if (text != NULL && readlinkat(folder, name, text, LONGEST_LINK - 1) > 0)
         return text;
-    if (text != NULL && length == 0)
-        errno = ENOENT;
     lom_release(text);
     return NULL;
 }

@@ -172,21 +172,6 @@ double lom_ridged2(const lom_noise *noise, double x, double y, lom_octaves octav
     return r.sum / r.total;
 }
 
-double lom_ridged3(const lom_noise *noise, double x, double y, double z, lom_octaves octaves)
-{
-    ridges r = { .amplitude = 1, .weight = 1 };
-    double frequency = 1;
-    int period = octaves.period;
-    for (int i = 0; i < octaves.count; i++) {
-        double value = lom_noise3(noise, x * frequency + i * octave_offset[0], y * frequency + i * octave_offset[1],
-                                  z * frequency, period);
-        add_ridge(&r, value, octaves.gain);
-        frequency *= 2;
-        period = next_period(period);
-    }
-    return r.sum / r.total;
-}
-
 /* The point of a cell lies 0.1 .. 0.9 within it, so that the 3x3 cells around (x, y) hold the two nearest. */
 lom_cell lom_cellular2(const lom_noise *noise, double x, double y, int columns, int rows)
 {

@@ -32,7 +32,6 @@ double lom_fractal3(const lom_noise *noise, double x, double y, double z, lom_oc
 /* Ridged multifractal (Musgrave, in Ebert et al.: Texturing and Modeling, 2003, ch. 16), within [0, 1]: (1 - |n|)^2,
  * each octave weighted by the one before, so that valleys stay smooth and crests get rough. */
 double lom_ridged2(const lom_noise *noise, double x, double y, lom_octaves octaves);
-double lom_ridged3(const lom_noise *noise, double x, double y, double z, lom_octaves octaves);
 
 /* Cellular noise (Worley 1996): one point a cell. */
 typedef struct lom_cell {

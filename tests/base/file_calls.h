@@ -18,10 +18,12 @@
 #include <unistd.h>
 
 static struct {
-    bool write, fsync, close; /* fail with ENOSPC, EIO, EIO */
-    int rename, create;       /* fail with this error */
-    bool named;               /* there are no files without names */
-    bool shorten;             /* at most 7 bytes a call, every third one interrupted */
+    bool write, fsync, close, chmod; /* fail with ENOSPC, EIO, EIO, EPERM */
+    bool takes_nothing;              /* what is written: 0 bytes a call */
+    int rename, create;              /* fail with this error */
+    bool named;                      /* there are no files without names */
+    bool unnameable;                 /* there are, but no /proc that would give them one */
+    bool shorten;                    /* at most 7 bytes a call, every third one interrupted */
     atomic_int calls, fsyncs;
 } inject;
 
@@ -41,6 +43,8 @@ ssize_t write(int descriptor, const void *data, size_t size)
 {
     if (inject.write || interrupts())
         return give_up(inject.write ? ENOSPC : EINTR);
+    if (inject.takes_nothing)
+        return 0;
     return syscall(SYS_write, descriptor, data, inject.shorten && size > 7 ? 7 : size);
 }
 
@@ -73,6 +77,18 @@ int fsync(int descriptor)
     if (inject.fsync || interrupts())
         return give_up(inject.fsync ? EIO : EINTR);
     return (int)syscall(SYS_fsync, descriptor);
+}
+
+int fchmod(int descriptor, mode_t mode)
+{
+    return inject.chmod ? give_up(EPERM) : (int)syscall(SYS_fchmod, descriptor, mode);
+}
+
+int stat(const char *path, struct stat *status)
+{
+    if (inject.unnameable && strncmp(path, "/proc/", 6) == 0)
+        return give_up(ENOENT);
+    return fstatat(AT_FDCWD, path, status, 0);
 }
 
 int close(int descriptor)

@@ -1,10 +1,11 @@
 /* Proves what is read from control groups: both versions, the least of all levels, of CPUs and of memory, fractions,
- * "max", and nonsense; and that the machine this runs on gets an answer. */
+ * "max", and nonsense; that the machine this runs on gets an answer, and so does one that tells less. */
 #include "check.h"
 
 #include "base/cpu.h"
 
 #include <limits.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -117,6 +118,57 @@ static void this_machine(void)
     CHECK(!cpu.avx512 || cpu.avx2);
 }
 
+/* ---- another system: what it answers ---- */
+
+static struct {
+    bool other;
+    long online, level2, level3;
+} answer;
+
+long __real_sysconf(int name);
+long __wrap_sysconf(int name);
+int __real_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set);
+int __wrap_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set);
+
+long __wrap_sysconf(int name)
+{
+    if (!answer.other)
+        return __real_sysconf(name);
+    return name == _SC_NPROCESSORS_ONLN    ? answer.online
+           : name == _SC_LEVEL2_CACHE_SIZE ? answer.level2
+           : name == _SC_LEVEL3_CACHE_SIZE ? answer.level3
+                                           : -1;
+}
+
+int __wrap_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set)
+{
+    return answer.other ? -1 : __real_sched_getaffinity(process, size, set);
+}
+
+/* Where the scheduler does not say which CPUs it gives, all that are online count, and one where nothing does. (A
+ * control group of this machine can make them fewer.) */
+static void what_the_system_does_not_tell(void)
+{
+    static const struct {
+        long online, level2, level3;
+        int threads;
+        size_t cache;
+    } cases[] = { { 1, 512, 4096, 1, 4096 }, { 6, 512, 0, 6, 512 },      { -1, 512, -1, 1, 512 },
+                  { 0, 0, 0, 1, 0 },         { 1L << 30, -1, -1, 1, 0 }, { 3, -1, 7, 3, 7 } };
+    int quota = lom_default_threads();
+    answer.other = true;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        answer.online = cases[i].online;
+        answer.level2 = cases[i].level2;
+        answer.level3 = cases[i].level3;
+        int threads = lom_default_threads();
+        CHECK(threads == cases[i].threads || (threads < cases[i].threads && threads <= quota), "case %zu: %d threads",
+              i, threads);
+        CHECK(lom_cache_bytes() == cases[i].cache, "case %zu: %zu bytes", i, lom_cache_bytes());
+    }
+    answer.other = false;
+}
+
 static void nearest_names(void)
 {
     static const char *const names[] = { "water", "cloud", "camera", "sky", "min-psnr", "max-flip" };
@@ -151,6 +203,7 @@ int main(int argc, char **argv)
     RUN(version_1);
     RUN(memory);
     RUN(this_machine);
+    RUN(what_the_system_does_not_tell);
     RUN(nearest_names);
     return check_result();
 }

@@ -2,12 +2,13 @@
  * links are followed as open(O_CREAT) does; whatever the system takes as a path is one; several writers are each whole;
  * special files and open descriptors are written where they stand, also when they do not block or their reader goes
  * away; files whose folder is closed, or that are mounted upon, are written in place; nothing that was left behind
- * blocks, and what a signal ends leaves nothing. */
+ * blocks, what a signal ends leaves nothing, and an output too many harms no other. */
 #include "check.h"
 #include "file_calls.h"
 
 #include <pthread.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 static bool put(const char *path, const char *text, lom_error *error)
@@ -23,7 +24,7 @@ static void pieces_appear_at_once(void)
     lom_writer *w = lom_open_writer(path_of("p"), &error);
     CHECK(w != NULL && lom_append(w, "one ", 4, &error) && lom_append(w, NULL, 0, &error), "%s", error.text);
     CHECK(holds(path_of("p"), "old", 3), "changed before it was closed");
-    CHECK(count_files() == 1 + inject.named, "%d files", count_files());
+    CHECK(count_files() == 1 + (inject.named || inject.unnameable), "%d files", count_files());
     CHECK(lom_append(w, "two", 3, &error) && lom_close_writer(w, &error), "%s", error.text);
     CHECK(holds(path_of("p"), "one two", 7), "not what was appended");
     w = lom_open_writer(path_of("p"), &error);
@@ -35,6 +36,10 @@ static void pieces_appear_at_once(void)
     CHECK(!lom_append(w, "x", 1, &error) && strstr(error.text, strerror(ENOSPC)) != NULL, "%s", error.text);
     inject.write = false;
     CHECK(!lom_append(w, "y", 1, NULL) && !lom_close_writer(w, NULL), "a failed output went on");
+    error = (lom_error){ 0 };
+    inject.takes_nothing = true;
+    CHECK(!put(path_of("p"), "z", &error) && strstr(error.text, strerror(EIO)) != NULL, "%s", error.text);
+    inject.takes_nothing = false;
     CHECK(holds(path_of("p"), "one two", 7) && count_files() == 1, "a failed output left something");
     lom_abandon_writer(NULL);
     unlink(path_of("p"));
@@ -199,6 +204,9 @@ static void special_files_stay(void)
     CHECK(syscall(SYS_read, reader, text, 7) == 4 && strcmp(text, "fifo") == 0, "%s", text);
     CHECK(lstat(path_of("fifo"), &status) == 0 && S_ISFIFO(status.st_mode), "the FIFO was replaced");
     CHECK(count_files() == 2, "%d files", count_files());
+    inject.fsync = true;
+    CHECK(!put(path_of("fifo"), "lost", &error) && strstr(error.text, "flush") != NULL, "%s", error.text);
+    inject.fsync = false;
     close(reader);
     unlink(path_of("fifo"));
     unlink(path_of("link"));
@@ -211,6 +219,13 @@ static void what_cannot_be_replaced_is_written_in_place(void)
     CHECK(put(path_of("f"), "a longer old text", &error) && stat(path_of("f"), &before) == 0, "%s", error.text);
     inject.rename = EBUSY;
     CHECK(put(path_of("f"), "mounted", &error) && holds(path_of("f"), "mounted", 7), "%s", error.text);
+    lom_writer *w = lom_open_writer(path_of("f"), &error);
+    CHECK(w != NULL && lom_append(w, "too much", 8, &error), "%s", error.text);
+    inject.write = true;
+    CHECK(!lom_close_writer(w, &error) && strstr(error.text, "copy the finished file") != NULL &&
+              strstr(error.text, strerror(ENOSPC)) != NULL,
+          "%s", error.text);
+    inject.write = false;
     inject.rename = 0;
     inject.create = EACCES;
     CHECK(put(path_of("f"), "closed", &error) && holds(path_of("f"), "closed", 6), "%s", error.text);
@@ -241,7 +256,58 @@ static void modes_and_owners(void)
     CHECK(put(path_of("f"), "newer", &error), "%s", error.text);
     CHECK(stat(path_of("f"), &status) == 0 && (status.st_mode & 07777) == 0604, "mode %o", status.st_mode);
     CHECK(!root || (status.st_uid == 65534 && status.st_gid == 65534), "owner %d", (int)status.st_uid);
+    inject.chmod = true;
+    CHECK(!put(path_of("f"), "lost", &error) && strstr(error.text, "keep its permissions") != NULL, "%s", error.text);
+    inject.chmod = false;
+    CHECK(holds(path_of("f"), "newer", 5) && count_files() == 1, "a mode that cannot be kept lost the file");
     unlink(path_of("f"));
+}
+
+/* Who may write to another user's program, but not own it, does not make one that runs as himself for everybody. */
+static void rights_of_another_user_go(void)
+{
+    lom_error error = { 0 };
+    struct stat status;
+    if (geteuid() != 0)
+        return;
+    CHECK(put(path_of("f"), "old", &error) && chmod(path_of("f"), 06777) == 0 && chmod(folder, 0777) == 0, "no file");
+    if (setegid(65534) != 0 || seteuid(65534) != 0)
+        return;
+    CHECK(put(path_of("f"), "new", &error) && holds(path_of("f"), "new", 3), "%s", error.text);
+    CHECK(seteuid(0) == 0 && setegid(0) == 0, "not root again");
+    CHECK(stat(path_of("f"), &status) == 0 && status.st_uid == 65534 && (status.st_mode & 07777) == 0777,
+          "mode %o of %d", status.st_mode, (int)status.st_uid);
+    unlink(path_of("f"));
+}
+
+/* As many outputs as can be open, and one more: it fails, and the others do not notice. */
+static void one_output_too_many(void)
+{
+    enum { MANY = 600 };
+    static lom_writer *writers[MANY];
+    lom_error error = { 0 };
+    struct rlimit before, more;
+    char name[16];
+    int count = 0;
+    CHECK(getrlimit(RLIMIT_NOFILE, &before) == 0, "no limit");
+    more = before;
+    more.rlim_cur = before.rlim_max < 4 * MANY ? before.rlim_max : 4 * MANY;
+    CHECK(setrlimit(RLIMIT_NOFILE, &more) == 0, "the limit stays");
+    for (; count < MANY; count++) {
+        snprintf(name, sizeof name, "many%d", count);
+        writers[count] = lom_open_writer(path_of(name), &error);
+        if (writers[count] == NULL)
+            break;
+    }
+    CHECK(count < MANY && count > 100 && strstr(error.text, strerror(EMFILE)) != NULL, "%d, %s", count, error.text);
+    CHECK(count_files() == count, "%d files of %d", count_files(), count);
+    error = (lom_error){ 0 };
+    CHECK(lom_append(writers[0], "first", 5, &error) && lom_close_writer(writers[0], &error), "%s", error.text);
+    for (int i = 1; i < count; i++)
+        lom_abandon_writer(writers[i]);
+    CHECK(holds(path_of("many0"), "first", 5) && count_files() == 1, "%d files", count_files());
+    unlink(path_of("many0"));
+    CHECK(setrlimit(RLIMIT_NOFILE, &before) == 0, "the limit stays");
 }
 
 static void end_by_signal(int number)
@@ -332,9 +398,15 @@ int main(int argc, char **argv)
             RUN(special_files_stay);
             RUN(what_cannot_be_replaced_is_written_in_place);
             RUN(modes_and_owners);
+            RUN(rights_of_another_user_go);
             RUN(nothing_left_behind_blocks);
         }
     inject.shorten = false;
+    RUN(one_output_too_many);
+    inject.named = false;
+    inject.unnameable = true;
+    RUN(pieces_appear_at_once);
+    inject.unnameable = false;
     for (int named = 0; named < 2; named++) {
         inject.named = named == 1;
         RUN(a_signal_leaves_nothing);
