@@ -243,9 +243,7 @@ static bool read_lengths(reader *in, const code *c, uint8_t *lengths, int total)
         int symbol = decode(in, c);
         if (in->count < 0)
             return fail_end(in);
-        if (symbol < 0)
-            return fail(in, "there is no such code for a code length");
-        if (symbol < 16) {
+        if (symbol < 16) { /* and not below 0: the code is complete */
             lengths[i++] = (uint8_t)symbol;
             continue;
         }

@@ -148,6 +148,24 @@ static void meets_in_the_wider_format(void)
     c = compare(gray, half);
     CHECK(c.pixels == 3 && c.max_delta == 2 && c.max_at[0] == 1, "%zu %g", c.pixels, c.max_delta);
     CHECK(fabs(c.rmse - sqrt((1 + 4 + 0x1p-48) / 256)) < 1e-15, "%.17g", c.rmse);
+    lom_image *depth24 = create(16, 16, LOM_FORMAT_DEPTH24), *depth16 = create(16, 16, LOM_FORMAT_DEPTH16);
+    memset(depth24->pixels, 255, lom_image_size(depth24));
+    memset(depth16->pixels, 255, lom_image_size(depth16));
+    c = compare(depth24, depth16);
+    CHECK(c.identical && c.is_float, "24 and 16 bits: %g", c.max_delta);
+    depth16->pixels[0] = 254;
+    c = compare(depth24, depth16);
+    CHECK(c.pixels == 1 && fabs(c.max_delta - (depth16->pixels[1] == 255 ? 1 : 256) / 65535.0) < 0x1p-22, "%g",
+          c.max_delta);
+    lom_image *none = create(16, 16, LOM_FORMAT_DEPTH16);
+    lom_error error = { 0 };
+    none->format = LOM_FORMAT_NONE;
+    CHECK(!lom_compare_images(none, depth16, &c, &error) && error.code == LOM_ERROR_USAGE, "%s", error.text);
+    CHECK(lom_convert_image(none, LOM_FORMAT_R8, &error) == NULL && lom_compare_picture(gray, none, NULL) == NULL,
+          "no format");
+    none->format = LOM_FORMAT_DEPTH16;
+    free_both(depth24, depth16);
+    lom_free_image(none);
     lom_free_image(single);
     lom_free_image(half);
     free_both(gray, rgba16);

@@ -162,6 +162,9 @@ static void half_rounds_at_midpoints_to_even(void)
         CHECK(lom_half_of(nextafter(middle, 1e9)) == h + 1 && lom_half_of(nextafterf((float)middle, 1e9f)) == h + 1,
               "above %04x", h);
     }
+    for (double large = 65536; large < 1e300; large *= 1e7)
+        CHECK(lom_half_of(large) == 0x7c00 && lom_half_of(-large) == 0xfc00, "%g is not infinite", large);
+    CHECK(lom_half_of(INFINITY) == 0x7c00 && lom_half_of(-INFINITY) == 0xfc00, "infinity");
 }
 
 /* ---- pictures ---- */

@@ -6,6 +6,8 @@
 
 #include <lom/image.h>
 
+#include <unistd.h>
+
 static lom_image *decode(const char *header, const void *data, size_t size, lom_error *error)
 {
     static uint8_t file[4096];
@@ -267,6 +269,7 @@ static void test_unknown_kinds(void)
         { "dimension: 3\nsizes: 4 5 3\nspace dimension: 2\nspace directions: (1,0) (0,1) none", 0, 0, 0, 0 },
         { "dimension: 3\nsizes: 3 4 5\nspace dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1)", 3, 4, 5, 1 },
         { "dimension: 3\nsizes: 3 4 5\nspace directions: (1,0,0) (0,1,0)", 0, 0, 0, 0 },
+        { "dimension: 3\nsizes: 3 4 5\nspace directions: (1,0,0) 1 (0,0,1)", 0, 0, 0, 0 },
         { "dimension: 4\nsizes: 3 4 5 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: ??? domain domain "
           "domain",
           4, 5, 2, 3 },
@@ -372,6 +375,109 @@ static void test_lines_and_bytes_to_skip(void)
     file[sizeof zipped - 1 + 4] = 5;
     expect_samples("NRRD0004\ntype: uint8\ndimension: 2\nsizes: 2 1\nencoding: GZ\nline skip: 1\nbyte skip: 3\n\n",
                    file, sizeof file, "ab");
+    static const struct {
+        const char *fields, *says;
+    } bad_zipped[] = { { "sizes: 2 1\nline skip: 1\nbyte skip: -1", "for raw samples, not for gzip" },
+                       { "sizes: 2 3\nline skip: 1", "has 5 bytes of samples instead of 6" },
+                       { "sizes: 2 1\nline skip: 1\nbyte skip: 4", "has 5 bytes of samples instead of 6" } };
+    for (size_t i = 0; i < sizeof bad_zipped / sizeof *bad_zipped; i++) {
+        char header[200];
+        lom_error error = { 0 };
+        snprintf(header, sizeof header, "NRRD0004\ntype: uint8\ndimension: 2\nencoding: gzip\n%s\n\n",
+                 bad_zipped[i].fields);
+        lom_image *image = decode(header, file, sizeof file, &error);
+        CHECK(image == NULL && strstr(error.text, bad_zipped[i].says) != NULL, "case %zu: %s", i, error.text);
+        lom_free_image(image);
+    }
+}
+
+/* Written to a file of this kind and read back as a volume of density: NULL with the reason in error. */
+static lom_image *volume_of(lom_image *image, const char *name, const int size[3], lom_error *error)
+{
+    char path[120];
+    const char *base = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%.60s/lom-volume-%ld-%s", base != NULL ? base : "/tmp", (long)getpid(), name);
+    lom_image *volume = lom_write_image(path, NULL, image, error) ? lom_read_volume(path, size, error) : NULL;
+    unlink(path);
+    return volume;
+}
+
+/* Of every format with a density, that alone is read: one channel, or the last of two and four. */
+static void test_volumes_are_densities(void)
+{
+    static const struct {
+        lom_format format, density;
+        int channel; /* -1: refused */
+    } cases[] = { { LOM_FORMAT_R8, LOM_FORMAT_R8, 0 },        { LOM_FORMAT_RG8, LOM_FORMAT_R8, 1 },
+                  { LOM_FORMAT_RGBA8, LOM_FORMAT_R8, 3 },     { LOM_FORMAT_R16, LOM_FORMAT_R16, 0 },
+                  { LOM_FORMAT_RG16, LOM_FORMAT_R16, 1 },     { LOM_FORMAT_RGBA16, LOM_FORMAT_R16, 3 },
+                  { LOM_FORMAT_R32F, LOM_FORMAT_R32F, 0 },    { LOM_FORMAT_RG32F, LOM_FORMAT_R32F, 1 },
+                  { LOM_FORMAT_RGBA32F, LOM_FORMAT_R32F, 3 }, { LOM_FORMAT_RGB8, LOM_FORMAT_NONE, -1 },
+                  { LOM_FORMAT_RGB32F, LOM_FORMAT_NONE, -1 } };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        lom_error error = { 0 };
+        lom_image *image = lom_create_image(3, 4, 5, cases[i].format, NULL);
+        for (size_t k = 0; k < lom_image_size(image); k++) /* no exponent of all ones, so no NaN */
+            image->pixels[k] = (uint8_t)(lom_random_bits(i, k) & 0x3f);
+        lom_image *volume = volume_of(image, "v.nrrd", NULL, &error);
+        CHECK((volume != NULL) == (cases[i].channel >= 0), "case %zu: %s", i, error.text);
+        CHECK(volume != NULL || strstr(error.text, "no density among them") != NULL, "case %zu: %s", i, error.text);
+        size_t pixel = lom_format_size(cases[i].format), sample = lom_format_size(cases[i].density), same = 0;
+        for (size_t k = 0; volume != NULL && k < 60; k++)
+            same += memcmp(volume->pixels + k * sample, image->pixels + k * pixel + (size_t)cases[i].channel * sample,
+                           sample) == 0;
+        CHECK(volume == NULL || (volume->format == cases[i].density && volume->depth == 5 && same == 60),
+              "case %zu: %zu of 60 voxels", i, same);
+        lom_free_image(volume);
+        lom_free_image(image);
+    }
+}
+
+/* Raw voxels are read by the size that is given, and by none other; what is no volume is named. */
+static void test_volumes_of_other_files(void)
+{
+    static const int size[3] = { 2, 2, 3 }, other[3] = { 2, 2, 2 }, empty[3] = { 2, 0, 2 };
+    static const struct {
+        const char *name, *begin, *says;
+    } foreign[] = { { "x.nii.gz", "\x1f\x8b", "NIfTI" },
+                    { "X.NII.GZ", "\x1f\x8b", "NIfTI" },
+                    { "x.gz", "\x1f\x8b", "compressed by gzip" },
+                    { "gz", "\x1f\x8b", "compressed by gzip" },
+                    { "x.raw", "xy", "raw voxels need their size" } };
+    char path[120];
+    const char *base = getenv("TMPDIR");
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
+        lom_error error = { 0 };
+        snprintf(path, sizeof path, "%.60s/lom-%ld-%s", base != NULL ? base : "/tmp", (long)getpid(), foreign[i].name);
+        CHECK(lom_write_file(path, foreign[i].begin, 2, &error), "%s", error.text);
+        CHECK(lom_read_volume(path, NULL, &error) == NULL && error.code == LOM_ERROR_INPUT &&
+                  strstr(error.text, foreign[i].says) != NULL,
+              "%s: %s", foreign[i].name, error.text);
+        unlink(path);
+    }
+    lom_error error = { 0 };
+    CHECK(lom_write_file(path, "abcdefghijkl", 12, &error), "%s", error.text);
+    lom_image *volume = lom_read_volume(path, size, &error);
+    CHECK(volume != NULL && volume->depth == 3 && memcmp(volume->pixels, "abcdefghijkl", 12) == 0, "%s", error.text);
+    lom_free_image(volume);
+    CHECK(lom_read_volume(path, other, &error) == NULL && strstr(error.text, "the file has 12") != NULL, "%s",
+          error.text);
+    error = (lom_error){ 0 };
+    CHECK(lom_read_volume(path, empty, &error) == NULL && error.code == LOM_ERROR_USAGE, "%s", error.text);
+    unlink(path);
+    error = (lom_error){ 0 };
+    CHECK(lom_read_volume(path, size, &error) == NULL && error.code == LOM_ERROR_FILE, "%s", error.text);
+}
+
+static void test_what_is_not_written(void)
+{
+    static const lom_format others[] = { LOM_FORMAT_R16F, LOM_FORMAT_DEPTH16, LOM_FORMAT_DEPTH32F };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        lom_error error = { 0 };
+        lom_image *image = lom_create_image(2, 2, 2, others[i], NULL);
+        CHECK(lom_encode_image("nrrd", image, &error).data == NULL && error.code == LOM_ERROR_USAGE, "%s", error.text);
+        lom_free_image(image);
+    }
 }
 
 int main(int argc, char **argv)
@@ -385,5 +491,8 @@ int main(int argc, char **argv)
     RUN(test_unknown_kinds);
     RUN(test_fields_in_every_case);
     RUN(test_lines_and_bytes_to_skip);
+    RUN(test_volumes_are_densities);
+    RUN(test_volumes_of_other_files);
+    RUN(test_what_is_not_written);
     return check_result();
 }

@@ -480,6 +480,32 @@ static void bombs(void)
 }
 
 /* Chunks out of order, repeated, missing. */
+/* Filters are 0 to 4, in whichever row. */
+static void unknown_filters(void)
+{
+    static const uint8_t size[] = { 0, 0, 0, 3, 0, 0, 0, 2, 8, 0, 0, 0, 0 };
+    for (int row = 0; row < 2; row++)
+        for (int filter = 0; filter < 256; filter++) {
+            uint8_t rows[8] = { 0, 1, 2, 3, 0, 4, 5, 6 };
+            rows[4 * row] = (uint8_t)filter;
+            lom_bytes zlib = lom_deflate_zlib(rows, sizeof rows, 8, NULL);
+            file f = { 0 };
+            put(&f, "\x89PNG\r\n\x1a\n", 8);
+            put_chunk(&f, "IHDR", size, 13);
+            put_chunk(&f, "IDAT", zlib.data, zlib.size);
+            put_chunk(&f, "IEND", NULL, 0);
+            lom_error error = { 0 };
+            char says[40];
+            snprintf(says, sizeof says, "t: row %d has an unknown filter.", row);
+            lom_image *image = lom_decode_image(f.data, f.size, "t", &error);
+            CHECK((image != NULL) == (filter < 5) && (image != NULL || strcmp(error.text, says) == 0), "filter %d: %s",
+                  filter, error.text);
+            lom_free_image(image);
+            lom_release(zlib.data);
+            free(f.data);
+        }
+}
+
 static void bad_structure(void)
 {
     static const uint8_t gray[] = { 0, 0, 0, 1, 0, 0, 0, 1, 8, 0, 0, 0, 0 },
@@ -552,6 +578,7 @@ int main(int argc, char **argv)
     RUN(damage_behind_crc);
     RUN(huge_declarations);
     RUN(bombs);
+    RUN(unknown_filters);
     RUN(bad_structure);
     return check_result();
 }

@@ -294,6 +294,8 @@ static void malformed(void)
         "P1 2 1\n1",
         "P3 1 1 255\n1 2",
         "P4 9 1\n1",
+        "P4 8 2\n1",
+        "P4 17 3\n12345678",
         "P6 1 1 255\n12",
         "P5 #",
         "P5 # comment without end",
@@ -359,6 +361,24 @@ static void huge_declarations(void)
     CHECK(after.ru_maxrss - before.ru_maxrss < 10000, "%ld KiB were used", after.ru_maxrss - before.ru_maxrss);
 }
 
+/* Each kind holds 8 or 16 bits a sample and no floats, PGM no colours; what it does not hold is an error. */
+static void what_does_not_fit_is_refused(void)
+{
+    static const char *const kinds[] = { "ppm", "pgm", "pam" };
+    for (int i = 0; i < 3; i++)
+        for (lom_format f = LOM_FORMAT_R8; f < LOM_FORMAT_COUNT; f++) {
+            const lom_format_info *info = lom_describe_format(f);
+            bool fits = !info->is_float && f != LOM_FORMAT_DEPTH24 && (i != 1 || info->channels < 3);
+            lom_error error = { 0 };
+            lom_image *image = lom_create_image(3, 2, 1, f, NULL);
+            lom_bytes file = lom_encode_image(kinds[i], image, &error);
+            CHECK((file.data != NULL) == fits, "%s of %s: %s", kinds[i], info->name, error.text);
+            CHECK(fits || error.code == LOM_ERROR_USAGE, "%s of %s: code %d", kinds[i], info->name, error.code);
+            lom_release(file.data);
+            lom_free_image(image);
+        }
+}
+
 static void y4m(void)
 {
     lom_error error = { 0 };
@@ -407,6 +427,7 @@ int main(int argc, char **argv)
     RUN(malformed);
     RUN(damaged_anywhere);
     RUN(huge_declarations);
+    RUN(what_does_not_fit_is_refused);
     RUN(y4m);
     return check_result();
 }

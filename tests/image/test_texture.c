@@ -321,6 +321,9 @@ static void bad_descriptors_are_refused(void)
         { .width = 1, .height = 1, .sampler = { .wrap_s = LOM_WRAP_COUNT } },
         { .width = 32768, .height = 32768, .depth = 32768, .kind = LOM_TEXTURE_3D },
         { .width = 32768, .height = 32768, .kind = LOM_TEXTURE_CUBE },
+        { .width = 1, .height = 1, .sampler = { .lod_bias = NAN } },
+        { .width = 1, .height = 1, .sampler = { .lod_min = NAN } },
+        { .width = 1, .height = 1, .sampler = { .lod_max = NAN } },
     };
     for (int i = 0; i < (int)(sizeof bad / sizeof *bad); i++) {
         lom_error why = { 0 };

@@ -285,6 +285,10 @@ static void bad_streams(void)
         CHECK(error.code == LOM_ERROR_INPUT, "%s: code %d", cases[i].why, error.code);
         lom_release(out.data);
     }
+    lom_error large = { 0 };
+    CHECK(lom_deflate_zlib((const uint8_t *)"", UINT32_MAX, EFFORT, &large).data == NULL &&
+              large.code == LOM_ERROR_LIMIT,
+          "%s", large.text);
     static const uint8_t bad_headers[][2] = { { 0x79, 0x9c }, { 0x88, 0x1c }, { 0x78, 0x9d }, { 0x78, 0xbb } };
     for (size_t i = 0; i < 4; i++) {
         uint8_t stream[] = { bad_headers[i][0], bad_headers[i][1], 3, 0, 0, 0, 0, 1 }, out[1];
