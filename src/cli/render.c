@@ -56,9 +56,19 @@ static const lom_command_line line = {
     .print_more = lom_print_picture_kinds,
 };
 
+/* The files of a scene, itself the first, and what they were before they were read. */
+enum { MAX_WATCHED = 4096 };
+
+struct watched {
+    size_t count;
+    char *path[MAX_WATCHED];
+    uint64_t facts[MAX_WATCHED];
+};
+
 /* What is open while frames are drawn. */
 struct run {
     const struct values *values;
+    struct watched *watched; /* NULL: draws once */
     lom_scene *scene;
     lom_renderer *renderer;
     struct lom_frame_output output;
@@ -194,74 +204,44 @@ static void hint_at_frames(const struct run *run)
                 frames);
 }
 
-/* Draws once; the scene stays open for --watch to see which files it names. */
-static bool render_once(struct run *run, const char *path, lom_error *error)
-{
-    const struct values *v = run->values;
-    lom_device_desc device = lom_device_of_options(&v->scene);
-    run->scene = lom_open_scene(path, &v->scene, error);
-    if (run->scene == NULL)
-        return false;
-    run->output = (struct lom_frame_output){ v->output, v->format, run->scene->output.fps, NULL };
-    if (!check_run(run, error))
-        return false;
-    run->renderer = lom_create_renderer(run->scene, &device, error);
-    if (run->renderer == NULL)
-        return false;
-    if (!v->quiet)
-        lom_tell_warnings(lom_renderer_warning(run->renderer), lom_renderer_warning_count(run->renderer));
-    hint_at_frames(run);
-    bool done = open_stats(run, error) && draw_frames(run, error);
-    return close_stats(run, done, error) && done;
-}
-
-static void close_run(struct run *run)
-{
-    lom_free_renderer(run->renderer);
-    lom_free_scene(run->scene);
-    *run = (struct run){ .values = run->values };
-}
-
 /* ---- watching ---- */
 
-enum { MAX_WATCHED = 4096 };
+/* A number that changes when the file is written, replaced, removed or comes back. */
+static uint64_t facts_of(const char *path)
+{
+    struct stat s;
+    int64_t facts[4] = { -1, -1, -1, -1 };
+    if (stat(path, &s) == 0) {
+        facts[0] = (int64_t)s.st_mtim.tv_sec;
+        facts[1] = (int64_t)s.st_mtim.tv_nsec;
+        facts[2] = (int64_t)s.st_size;
+        facts[3] = (int64_t)s.st_ino;
+    }
+    return lom_hash_bytes(LOM_HASH_START, facts, sizeof facts);
+}
 
-struct watched {
-    size_t count;
-    char *path[MAX_WATCHED];
-};
+static void look(struct watched *w)
+{
+    for (size_t i = 0; i < w->count; i++)
+        w->facts[i] = facts_of(w->path[i]);
+}
+
+static bool has_changed(const struct watched *w)
+{
+    size_t i = 0;
+    while (i < w->count && facts_of(w->path[i]) == w->facts[i])
+        i++;
+    return i < w->count;
+}
 
 static void watch_file(struct watched *w, const char *path)
 {
     size_t size = strlen(path) + 1;
     char *copy = w->count < MAX_WATCHED ? lom_allocate(size, 1, NULL) : NULL;
-    if (copy != NULL)
-        w->path[w->count++] = memcpy(copy, path, size);
-}
-
-static void forget(struct watched *w)
-{
-    for (size_t i = 0; i < w->count; i++)
-        lom_release(w->path[i]);
-    w->count = 0;
-}
-
-/* A number that changes when one of the files is written, replaced, removed or comes back. */
-static uint64_t fingerprint(const struct watched *w)
-{
-    uint64_t hash = LOM_HASH_START;
-    for (size_t i = 0; i < w->count; i++) {
-        struct stat s;
-        int64_t facts[4] = { -1, -1, -1, -1 };
-        if (stat(w->path[i], &s) == 0) {
-            facts[0] = (int64_t)s.st_mtim.tv_sec;
-            facts[1] = (int64_t)s.st_mtim.tv_nsec;
-            facts[2] = (int64_t)s.st_size;
-            facts[3] = (int64_t)s.st_ino;
-        }
-        hash = lom_hash_bytes(hash, facts, sizeof facts);
-    }
-    return hash;
+    if (copy == NULL)
+        return;
+    w->facts[w->count] = facts_of(path);
+    w->path[w->count++] = memcpy(copy, path, size);
 }
 
 /* The files that an OBJ names: its materials and their pictures. */
@@ -281,41 +261,71 @@ static bool is_mesh(const lom_scene *scene, const char *path)
     return false;
 }
 
-/* After an error the files of the last good scene are watched as well, since the new ones are not known. */
-static void watch_scene(struct watched *w, const struct run *run, const char *path)
+/* Of a scene that has been read and whose files have not: their facts are taken now and the scene's own, the first, have
+ * been before, so that a change while they are read or drawn is seen. */
+static void watch_scene(struct watched *w, const lom_scene *scene)
 {
     size_t count = 0;
-    const char *const *files = run->scene == NULL ? NULL : lom_scene_files(run->scene, &count);
-    if (files == NULL) {
-        if (w->count == 0)
-            watch_file(w, path);
-        return;
-    }
-    forget(w);
+    const char *const *files = lom_scene_files(scene, &count);
+    uint64_t facts = w->facts[0];
+    for (size_t i = 0; i < w->count; i++)
+        lom_release(w->path[i]);
+    w->count = 0;
     for (size_t i = 0; i < count; i++) {
         watch_file(w, files[i]);
-        if (is_mesh(run->scene, files[i]))
+        if (is_mesh(scene, files[i]))
             watch_mesh(w, files[i]);
     }
+    w->facts[0] = facts;
 }
 
-static void watch(struct run *run, const char *path)
+/* ---- drawing ---- */
+
+static bool render_once(struct run *run, const char *path, lom_error *error)
+{
+    const struct values *v = run->values;
+    lom_device_desc device = lom_device_of_options(&v->scene);
+    run->scene = lom_open_scene(path, &v->scene, error);
+    if (run->scene == NULL)
+        return false;
+    if (run->watched != NULL)
+        watch_scene(run->watched, run->scene);
+    run->output = (struct lom_frame_output){ v->output, v->format, run->scene->output.fps, NULL };
+    if (!check_run(run, error))
+        return false;
+    run->renderer = lom_create_renderer(run->scene, &device, error);
+    if (run->renderer == NULL)
+        return false;
+    if (!v->quiet)
+        lom_tell_warnings(lom_renderer_warning(run->renderer), lom_renderer_warning_count(run->renderer));
+    hint_at_frames(run);
+    bool done = open_stats(run, error) && draw_frames(run, error);
+    return close_stats(run, done, error) && done;
+}
+
+static void close_run(struct run *run)
+{
+    lom_free_renderer(run->renderer);
+    lom_free_scene(run->scene);
+    *run = (struct run){ .values = run->values, .watched = run->watched };
+}
+
+/* After an error in the scene the files of the last good one are watched, since the new ones are not known. */
+static void render_again_and_again(struct run *run, const char *path)
 {
     struct watched watched = { .count = 0 };
+    watch_file(&watched, path);
+    run->watched = &watched;
     for (;;) {
         lom_error error = { .code = LOM_OK };
-        uint64_t before = fingerprint(&watched);
+        look(&watched);
         if (!render_once(run, path, &error))
             lom_complain_error(&error);
         else
             fprintf(stderr, "lom: drawn; waiting for a change (ctrl-C ends)\n");
         fflush(stdout);
-        size_t had = watched.count;
-        watch_scene(&watched, run, path);
-        if (had == 0 || run->scene != NULL)
-            before = fingerprint(&watched);
         close_run(run);
-        while (fingerprint(&watched) == before)
+        while (!has_changed(&watched))
             nanosleep(&(struct timespec){ .tv_nsec = 50000000 }, NULL);
     }
 }
@@ -350,7 +360,7 @@ int lom_command_render(int argc, char **argv)
         return lom_complain("--frame and --frames exclude one another.");
     struct run run = { .values = &values };
     if (values.watch)
-        watch(&run, arguments.items[0]);
+        render_again_and_again(&run, arguments.items[0]);
     lom_error error = { .code = LOM_OK };
     bool done = render_once(&run, arguments.items[0], &error);
     bool rejected = run.rejected;

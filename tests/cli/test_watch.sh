@@ -1,6 +1,7 @@
 #!/bin/sh
-# Proves that `lom render --watch` draws again when the scene, a mesh, its material file or its picture changes, goes on after
-# an error in each of them, and does without a picture of a mesh that cannot be read.
+# Proves that `lom render --watch` draws again when the scene, a mesh, its material file or its picture changes, also while
+# it draws, goes on after an error in each of them, waits for a scene that is not there, and does without a picture of a
+# mesh that cannot be read.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/cli/cli.sh
 . tests/cli/scene.sh
@@ -8,7 +9,8 @@ cd "$folder/scene" || exit 1
 : >"$folder/err"
 "$lom" render scene.toml -o out.ppm --watch --quiet >"$folder/watch" 2>>"$folder/err" &
 watcher=$!
-trap 'kill $watcher 2>/dev/null; rm -rf "$folder"' EXIT
+other=
+trap 'kill $watcher $other 2>/dev/null; rm -rf "$folder"' EXIT
 
 drawn=0 # how many times so far
 errors=0
@@ -60,9 +62,46 @@ changes_and_is_left_out() {
     draws_after change "$1" "$2" && draws_after put "$1" "$3" && draws_after cp good "$1"
 }
 
+# Changes that come faster than pictures: the last one is drawn, whether it fell into a drawing or not.
+changes_while_it_draws() {
+    cp scene.toml other.toml
+    : >"$folder/err"
+    "$lom" render other.toml -o large.ppm --size 960x540 --threads 1 --watch --quiet >"$folder/watch" 2>>"$folder/err" &
+    other=$!
+    waits 'lom: drawn' 1
+    last=0
+    for round in 1 2 3; do
+        for change in 1 2 3 4 5 6 7; do
+            put box.mtl "newmtl skin\nKd 0.$round$change 0.5 1\n"
+            sleep 0.04
+        done
+        "$lom" render other.toml -o "$folder/right.ppm" --size 960x540 --quiet
+        tries=0
+        until cmp -s large.ppm "$folder/right.ppm"; do
+            tries=$((tries + 1))
+            [ $tries -lt 200 ] || { echo "round $round: the last change is not drawn"; last=1; break; }
+            sleep 0.05
+        done
+    done
+    kill $other
+    return $last
+}
+
+waits_for_the_scene() {
+    : >"$folder/err"
+    "$lom" render later.toml -o later.ppm --watch --quiet >"$folder/watch" 2>>"$folder/err" &
+    other=$!
+    waits 'later.toml' 1 && cp scene.toml later.toml && waits 'lom: drawn' 1 && cmp -s later.ppm out.ppm
+    same=$?
+    kill $other
+    return $same
+}
+
 check first_picture first_picture
 check the_scene_and_its_mistakes changes_and_mistakes scene.toml 's/0, 2, 5/1, 2, 5/' '[camera\n'
 check the_mesh_and_its_mistakes changes_and_mistakes box.obj 's/v 0 2 0/v 0 3 0/' 'mtllib box.mtl\nf 1 2 3\n'
 check the_materials_and_their_mistakes changes_and_mistakes box.mtl 's/Kd 1 1 1/Kd 0.2 1 0.2/' 'newmtl skin\nKd x\n'
 check a_picture_that_cannot_be_read_is_left_out changes_and_is_left_out skin.ppm 's/^P6 2 2/P6 1 4/' 'P6 1 1\n'
+check changes_while_it_draws changes_while_it_draws
+check waits_for_a_scene_that_is_not_there waits_for_the_scene
 exit $failures
