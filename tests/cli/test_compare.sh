@@ -145,6 +145,14 @@ else
     echo "SKIP compare_json: there is no python3"
 fi
 check compare_picture_of_differences picture
+volumes_of_sizes() {
+    for depth in 1 2; do
+        printf 'NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 %d\nencoding: raw\n\nabcd' $depth | head -c $((63 + 2 * depth)) >$depth.nrrd
+    done
+    exits 0 "$lom" compare 2.nrrd 2.nrrd && exits 1 "$lom" compare 1.nrrd 2.nrrd &&
+        complains "1.nrrd is 2 x 1 x 1 and 2.nrrd is 2 x 1 x 2: pictures of different sizes always differ."
+}
+check compare_volumes_of_different_sizes volumes_of_sizes
 check compare_picture_of_different_sizes picture_of_sizes
 check compare_reads_standard_input standard_input
 exit $failures

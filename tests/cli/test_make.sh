@@ -26,6 +26,16 @@ parameters() {
         ! cmp -s "$folder/a.png" "$folder/b.png" && exits 0 "$lom" info "$folder/a.png" && says "128 x 128"
 }
 
+# What `make list` names can be made: of each kind, its first.
+listed() {
+    exits 0 "$lom" make list && cp "$folder/out" "$folder/list" && [ "$(wc -l <"$folder/list")" -ge 30 ] || return 1
+    grep -q '^cloud  *cumulus_humilis  *[A-Z]' "$folder/list" && grep -q 'terrain/height.png' "$folder/list" || return 1
+    sed 's/ .*//' "$folder/list" | sort -u >"$folder/kinds"
+    while read -r kind; do
+        "$lom" make --help | grep -q "$kind" || { echo "make --help lacks $kind"; return 1; }
+    done <"$folder/kinds"
+}
+
 standard_output() {
     "$lom" make flow-map --size 128 -o - >"$folder/piped.png" && exits 0 "$lom" make flow-map --size 128 -o "$folder/f.png" &&
         cmp "$folder/piped.png" "$folder/f.png"
@@ -42,6 +52,8 @@ refused() {
         exits 2 "$lom" make sky-box --size 16 -o '%s%s.png' && complains "one %s" &&
         exits 2 "$lom" make entity boat -o boat.png && complains ".obj" &&
         exits 2 "$lom" make flow-map --size 128 -o missing/a.png && complains "missing" || return 1
+    echo >"$folder/file"
+    exits 2 "$lom" make all -o "$folder/file" && complains "Not a directory" || return 1
     cd "$root" || return 1
     [ -z "$(ls -A "$folder/empty")" ] || { ls "$folder/empty"; return 1; }
 }
@@ -49,6 +61,7 @@ refused() {
 check remade remade
 check single single
 check parameters parameters
+check kinds_are_listed listed
 check standard_output standard_output
 check refused refused
 exit $failures

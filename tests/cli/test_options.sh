@@ -116,5 +116,14 @@ check wrong_values_are_refused wrong_values
 check options_anywhere_before_dashes order_of_words
 check lost_output_is_an_error lost_output
 check broken_pipe_is_an_error broken_pipe
+# More --set than there is room for.
+too_many_values() {
+    values=
+    for i in $(seq 1 257); do values="$values --set water.level=$i"; done
+    # shellcheck disable=SC2086
+    exits 2 "$lom" render a.toml --hash $values && complains "more than 256 times --set"
+}
+
 check version_and_float_rules version
+check lists_of_values_are_bounded too_many_values
 exit $failures

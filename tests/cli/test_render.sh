@@ -92,6 +92,7 @@ wrong_arguments() {
         refuses "$text" $arguments || return 1
     done <<LINES
 render needs -o OUT|render scene.toml
+--frames 5:2 ends before it begins|render scene.toml -o out-%d.png --frames 5:2
 exclude one another|render scene.toml -o out.png --frame 1 --frames 1:2
 --size 0x5: whole numbers must be from 1 to 32768|render scene.toml -o out.png --size 0x5
 --size 99999x5: whole numbers must be|render scene.toml -o out.png --size 99999x5
@@ -119,7 +120,33 @@ LINES
 checks() {
     printf '[sky]\ncolor = [0.5, 0.5, 0.5]\n' >flat.toml
     exits 1 "$lom" render flat.toml --size 8x8 --check -o out.png && complains "one single colour" || return 1
-    exits 0 "$lom" render scene.toml --check -o out.png
+    exits 0 "$lom" render scene.toml --check -o out.png &&
+        exits 0 "$lom" render scene.toml --set output.format=rgb32f --check -o out.pfm
+}
+
+# Frame N at F frames a second is the moment of frame 2 N at 2 F.
+frames_a_second() {
+    printf '[[entity.key]]\ntime = 0\nposition = [0, 0, 0]\n[[entity.key]]\ntime = 1\nposition = [1, 2, 0]\n' | cat scene.toml - >moving.toml
+    for rate in 10 20; do
+        exits 0 "$lom" render moving.toml --hash --fps $rate --frame $((rate / 5)) && cut -d' ' -f1 "$folder/out" >$rate || return 1
+    done
+    exits 0 "$lom" render moving.toml --hash --fps 10 --frame 4 && ! cut -d' ' -f1 "$folder/out" | cmp -s - 10 && cmp 10 20
+}
+
+# On a terminal a bar shows the frames and is wiped away; with --quiet there is none, and none in a file.
+bar() {
+    if ! script -qec true /dev/null >/dev/null 2>&1; then
+        echo "script makes no terminal here"
+        return 0
+    fi
+    script -qec "'$lom' render scene.toml -o out-%d.png --frames 0:2 --check" /dev/null >"$folder/terminal" </dev/null || return 1
+    script -qec "'$lom' render scene.toml -o out-%d.png --frames 0:2 --hash --quiet" /dev/null >"$folder/quiet" </dev/null || return 1
+    exits 0 "$lom" render scene.toml --frames 0:2 --hash && [ ! -s "$folder/err" ] || return 1
+    tr '\r' '\n' <"$folder/terminal" | sed 's/.\[K//g' | grep '^lom render' >"$folder/bars"
+    [ "$(tail -c 4 "$folder/terminal")" = "$(printf '\r\033[K')" ] || return 1
+    grep -q '^lom render \[\.*\] 0/3 $' "$folder/bars" && grep -q '^lom render \[##########[#.]*\] 1/3 scene$' "$folder/bars" &&
+        ! grep -vE '^lom render \[#*\.*\] [0-3]/3 ' "$folder/bars" && ! grep -q 'lom render' "$folder/quiet" &&
+        awk '{ gsub(/[^#.]/, "", $3); if (length($3) != 30) { print; bad = 1 } } END { exit bad }' "$folder/bars"
 }
 
 check good_scene good_scene
@@ -128,4 +155,6 @@ check damaged_scenes damaged_scenes
 check wrong_files wrong_files
 check wrong_arguments wrong_arguments
 check check_refuses_one_colour checks
+check frames_a_second_are_moments frames_a_second
+check a_bar_on_a_terminal bar
 exit $failures
