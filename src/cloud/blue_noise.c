@@ -3,13 +3,14 @@
  * all pixels that are set, wrapped around the borders, so that the table repeats without a seam. */
 #include "cloud/cloud_draw.h"
 
-enum { REACH = 7 };              /* pixels; exp(-49 / (2 * 1.9^2)) is 1e-3 */
+enum { REACH = 7, STALE = -2 };  /* pixels; exp(-49 / (2 * 1.9^2)) is 1e-3 */
 static const double width = 1.9; /* of the Gaussian, Ulichney's 1.5 to 1.9 */
 
 struct pattern {
     int size;
     bool *set;
     double *energy;
+    int *extreme[2]; /* find_in_row of each row, for pixels that are not and that are set; or STALE */
     double weight[2 * REACH + 1][2 * REACH + 1];
 };
 
@@ -18,20 +19,41 @@ static void change(struct pattern *p, int pixel, bool set)
     int x = pixel % p->size, y = pixel / p->size;
     double sign = set ? 1 : -1;
     p->set[pixel] = set;
-    for (int j = -REACH; j <= REACH; j++)
-        for (int i = -REACH; i <= REACH; i++) {
-            int at_x = (x + i + p->size) % p->size, at_y = (y + j + p->size) % p->size;
-            p->energy[at_y * p->size + at_x] += sign * p->weight[j + REACH][i + REACH];
-        }
+    for (int j = -REACH; j <= REACH; j++) {
+        int at_y = (y + j + p->size) % p->size;
+        for (int i = -REACH; i <= REACH; i++)
+            p->energy[at_y * p->size + (x + i + p->size) % p->size] += sign * p->weight[j + REACH][i + REACH];
+        p->extreme[0][at_y] = p->extreme[1][at_y] = STALE;
+    }
 }
 
-/* The tightest cluster among pixels that are set, or the largest void among those that are not; the first of equals. */
-static int find_extreme(const struct pattern *p, bool set)
+/* The tightest cluster among a row's pixels that are set, or the largest void among those that are not; the first of
+ * equals, -1 where there is none. */
+static int find_in_row(const struct pattern *p, bool set, int y)
 {
+    double sign = set ? 1 : -1, most = 0;
     int best = -1;
-    for (int i = 0; i < p->size * p->size; i++)
-        if (p->set[i] == set && (best < 0 || (set ? p->energy[i] > p->energy[best] : p->energy[i] < p->energy[best])))
+    for (int i = y * p->size; i < (y + 1) * p->size; i++) {
+        double energy = sign * p->energy[i];
+        if (p->set[i] == set && (best < 0 || energy > most)) {
+            most = energy;
             best = i;
+        }
+    }
+    return best;
+}
+
+/* The same of all rows. Rows that no change has reached keep theirs. */
+static int find_extreme(struct pattern *p, bool set)
+{
+    double sign = set ? 1 : -1;
+    int best = -1, *row = p->extreme[set];
+    for (int y = 0; y < p->size; y++) {
+        if (row[y] == STALE)
+            row[y] = find_in_row(p, set, y);
+        if (row[y] >= 0 && (best < 0 || sign * p->energy[row[y]] > sign * p->energy[best]))
+            best = row[y];
+    }
     return best;
 }
 
@@ -80,8 +102,12 @@ float *lom_make_blue_noise(int size, uint64_t seed, lom_error *error)
     int *order = lom_allocate(pixels, sizeof *order, error);
     p.set = lom_allocate(pixels, sizeof *p.set, error);
     p.energy = lom_allocate(pixels, sizeof *p.energy, error);
-    bool done = rank != NULL && order != NULL && p.set != NULL && p.energy != NULL;
+    p.extreme[0] = lom_allocate((size_t)size, 2 * sizeof **p.extreme, error);
+    p.extreme[1] = p.extreme[0] + (p.extreme[0] != NULL ? size : 0);
+    bool done = rank != NULL && order != NULL && p.set != NULL && p.energy != NULL && p.extreme[0] != NULL;
     if (done) {
+        for (int i = 0; i < 2 * size; i++)
+            p.extreme[0][i] = STALE;
         for (int j = -REACH; j <= REACH; j++)
             for (int i = -REACH; i <= REACH; i++)
                 p.weight[j + REACH][i + REACH] = lom_double_exp(-(i * i + j * j) / (2 * width * width));
@@ -94,5 +120,6 @@ float *lom_make_blue_noise(int size, uint64_t seed, lom_error *error)
     lom_release(order);
     lom_release(p.set);
     lom_release(p.energy);
+    lom_release(p.extreme[0]);
     return done ? rank : NULL;
 }

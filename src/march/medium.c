@@ -161,16 +161,16 @@ lom_detail *lom_create_detail(const lom_image *noise, lom_error *error)
         return NULL;
     }
     uint64_t sum = 0;
+    size_t side = (size_t)n, last = side - 1; /* a power of two: places wrap by its bits */
     for (size_t i = 0; i < voxels; i++) {
-        int x = (int)(i % (size_t)n), y = (int)(i / (size_t)n % (size_t)n), z = (int)(i / ((size_t)n * (size_t)n));
+        size_t x = i & last, y = i / side & last, z = i / (side * side);
         sum += noise->pixels[i];
-        for (int k = 0; k < 2; k++) {
-            uint32_t word = 0;
-            for (int c = 0; c < 4; c++)
-                word |=
-                    (uint32_t) * (uint8_t *)lom_image_pixel(noise, (x + (c & 1)) % n, (y + (c >> 1)) % n, (z + k) % n)
-                    << 8 * c;
-            memcpy(&detail->corners[2 * i + (size_t)k], &word, sizeof word);
+        for (size_t k = 0; k < 2; k++) {
+            const uint8_t *slice = noise->pixels + ((z + k) & last) * side * side;
+            const uint8_t *row = slice + y * side, *next = slice + ((y + 1) & last) * side;
+            size_t right = (x + 1) & last;
+            detail->corners[2 * i + k] =
+                (uint32_t)row[x] | (uint32_t)row[right] << 8 | (uint32_t)next[x] << 16 | (uint32_t)next[right] << 24;
         }
     }
     detail->mean = (float)((double)sum / (255.0 * (double)voxels));
