@@ -38,7 +38,7 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static lom_texture *make_texture(const bench_case *c)
+static lom_texture *make_texture(const bench_case *c, lom_filtering filtering)
 {
     lom_error error = { 0 };
     int depth = c->kind == LOM_TEXTURE_3D ? c->size : 1, layers = c->kind == LOM_TEXTURE_CUBE ? 6 : depth;
@@ -48,15 +48,16 @@ static lom_texture *make_texture(const bench_case *c)
         pixels[i] = (uint8_t)lom_random_bits(1, i) & 0x3f; /* floats of any such bytes are small */
     lom_texture *texture = NULL;
     if (pixels != NULL)
-        texture = lom_create_texture(&(lom_texture_desc){ .kind = c->kind,
-                                                          .width = c->size,
-                                                          .height = c->size,
-                                                          .depth = depth,
-                                                          .format = c->format,
-                                                          .pixels = pixels,
-                                                          .mips = c->mips,
-                                                          .sampler = { .minify = c->filter, .magnify = c->filter } },
-                                     &error);
+        texture = lom_create_texture(
+            &(lom_texture_desc){ .kind = c->kind,
+                                 .width = c->size,
+                                 .height = c->size,
+                                 .depth = depth,
+                                 .format = c->format,
+                                 .pixels = pixels,
+                                 .mips = c->mips,
+                                 .sampler = { .minify = c->filter, .magnify = c->filter, .filtering = filtering } },
+            &error);
     lom_release(pixels);
     if (texture == NULL)
         fprintf(stderr, "%s\n", error.text);
@@ -93,22 +94,32 @@ static double walk(const bench_case *c, const lom_texture *texture, lom_float4 *
     return (seconds() - start) * 1e9 / (COLUMNS * ROWS);
 }
 
+/* The best time; below 0 when there is no texture. */
+static double time_case(const bench_case *c, lom_filtering filtering)
+{
+    lom_texture *texture = make_texture(c, filtering);
+    if (texture == NULL)
+        return -1;
+    double best = 1e9;
+    lom_float4 sum = { 0 };
+    for (int pass = 0; pass < PASSES; pass++) {
+        double time = walk(c, texture, &sum);
+        best = time < best ? time : best;
+    }
+    volatile float keep = sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
+    (void)keep;
+    lom_free_texture(texture);
+    return best;
+}
+
 int main(void)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lom_texture *texture = make_texture(&cases[i]);
-        if (texture == NULL)
+        const bench_case *c = &cases[i];
+        double in_float = time_case(c, LOM_FILTERING_FLOAT), fixed = time_case(c, LOM_FILTERING_FIXED);
+        if (in_float < 0 || fixed < 0)
             return 2;
-        double best = 1e9;
-        lom_float4 sum = { 0 };
-        for (int pass = 0; pass < PASSES; pass++) {
-            double time = walk(&cases[i], texture, &sum);
-            best = time < best ? time : best;
-        }
-        volatile float keep = sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
-        (void)keep;
-        printf("%2d lanes  %-40s %6.2f ns\n", LOM_LANES, cases[i].name, best);
-        lom_free_texture(texture);
+        printf("%2d lanes  %-40s float %6.2f ns  fixed %6.2f ns\n", LOM_LANES, c->name, in_float, fixed);
     }
     return 0;
 }

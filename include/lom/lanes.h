@@ -62,6 +62,7 @@ typedef int32_t lom_int __attribute__((vector_size(LOM_LANES * 4)));
 typedef uint32_t lom_uint __attribute__((vector_size(LOM_LANES * 4)));
 typedef double lom_double __attribute__((vector_size(LOM_LANES * 8)));
 typedef lom_int lom_mask;
+typedef int16_t lom_pairs __attribute__((vector_size(LOM_LANES * 4))); /* two numbers a lane, the halves of its word */
 
 typedef struct lom_float2 {
     lom_float x, y;
@@ -237,6 +238,15 @@ LOM_INLINE uint32_t lom_defined_bits(lom_mask mask)
     return bits;
 }
 
+/* (x y + 2^14) >> 15 of each number: the product of two numbers of 15 bits after the point, to nearest, halves up; -1
+ * times -1 gives -1. */
+LOM_INLINE lom_pairs lom_defined_multiply_pairs(lom_pairs x, lom_pairs y)
+{
+    lom_int a = (lom_int)x, b = (lom_int)y;
+    lom_int low = ((a << 16 >> 16) * (b << 16 >> 16) + 0x4000) >> 15, high = ((a >> 16) * (b >> 16) + 0x4000) >> 15;
+    return (lom_pairs)((low & 0xffff) | high << 16);
+}
+
 /* from[index[i]] in lane i. Every lane is read: indices must be inside. */
 LOM_INLINE lom_float lom_defined_gather(const float *from, lom_int index)
 {
@@ -396,6 +406,10 @@ LOM_INLINE lom_int lom_to_int(lom_float x)
 LOM_INLINE uint32_t lom_bits(lom_mask mask)
 {
     return lom_defined_bits(mask);
+}
+LOM_INLINE lom_pairs lom_multiply_pairs(lom_pairs x, lom_pairs y)
+{
+    return lom_defined_multiply_pairs(x, y);
 }
 LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t offset)
 {

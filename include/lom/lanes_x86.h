@@ -109,6 +109,11 @@ LOM_INLINE uint32_t lom_bits(lom_mask mask)
     return _mm512_movepi32_mask((__m512i)mask);
 }
 
+LOM_INLINE lom_pairs lom_multiply_pairs(lom_pairs x, lom_pairs y)
+{
+    return (lom_pairs)_mm512_mulhrs_epi16((__m512i)x, (__m512i)y);
+}
+
 LOM_INLINE lom_float lom_floor(lom_float x)
 {
     return (lom_float)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -326,6 +331,11 @@ LOM_INLINE uint32_t lom_bits(lom_mask mask)
     return (uint32_t)_mm256_movemask_ps((__m256)mask);
 }
 
+LOM_INLINE lom_pairs lom_multiply_pairs(lom_pairs x, lom_pairs y)
+{
+    return (lom_pairs)_mm256_mulhrs_epi16((__m256i)x, (__m256i)y);
+}
+
 LOM_INLINE lom_float lom_floor(lom_float x)
 {
     return (lom_float)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -458,6 +468,14 @@ LOM_INLINE lom_int lom_to_int(lom_float x)
 LOM_INLINE uint32_t lom_bits(lom_mask mask)
 {
     return (uint32_t)_mm_movemask_ps((__m128)mask);
+}
+
+/* With p = x y = 2^16 h + l: (p + 2^14) >> 15 is 2 h + ((l >> 14) + 1 >> 1), l unsigned (SSSE3 has it in one). */
+LOM_INLINE lom_pairs lom_multiply_pairs(lom_pairs x, lom_pairs y)
+{
+    __m128i high = _mm_mulhi_epi16((__m128i)x, (__m128i)y), low = _mm_mullo_epi16((__m128i)x, (__m128i)y);
+    __m128i rest = _mm_avg_epu16(_mm_srli_epi16(low, 14), _mm_setzero_si128());
+    return (lom_pairs)_mm_add_epi16(_mm_add_epi16(high, high), rest);
 }
 
 LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)

@@ -14,6 +14,7 @@
 #include <lom/base.h>
 #include <lom/lanes.h>
 #include <lom/lanes_mathematics.h>
+#include <lom/fixed.h>
 #include <lom/image.h>
 #include <lom/texture.h>
 #include <lom/geometry.h>

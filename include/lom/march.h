@@ -7,6 +7,7 @@
 #ifndef LOM_MARCH_H
 #define LOM_MARCH_H
 
+#include <lom/fixed.h>
 #include <lom/image.h>
 #include <lom/lanes.h>
 
@@ -133,12 +134,13 @@ LOM_INLINE lom_float3 lom_sample_volume_color(const lom_volume *volume, lom_volu
 
 typedef struct lom_march_desc {
     const lom_volume *volume;
-    int steps;             /* samples a ray, 1..65536 */
-    float absorption;      /* a sample's opacity is density * absorption */
-    float light_offset[3]; /* from a sample to the place whose density shades it, in volume units */
-    float shade;           /* how much: the colour is multiplied by 1 - shade * density there */
-    float opaque;          /* a ray stops when its opacity is above this */
-    bool walk;             /* evaluate every step; skipping empty space gives the same bytes */
+    int steps;               /* samples a ray, 1..65536 */
+    float absorption;        /* a sample's opacity is density * absorption */
+    float light_offset[3];   /* from a sample to the place whose density shades it, in volume units */
+    float shade;             /* how much: the colour is multiplied by 1 - shade * density there */
+    float opaque;            /* a ray stops when its opacity is above this */
+    bool walk;               /* evaluate every step; skipping empty space gives the same bytes */
+    lom_filtering filtering; /* of densities and colours; places and sums are float */
 } lom_march_desc;
 
 typedef struct lom_march_rays {
@@ -205,8 +207,8 @@ typedef struct lom_detail {
 lom_detail *lom_create_detail(const lom_image *noise, lom_error *error);
 void lom_free_detail(lom_detail *detail);
 
-/* The noise at a place in repetitions of the tile, within +-2^20 of 0. */
-LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
+/* The cell of a place in repetitions of the tile, within +-2^20 of 0. */
+LOM_INLINE lom_volume_place lom_find_in_detail(const lom_detail *detail, lom_float3 at)
 {
     lom_float size = lom_splat((float)detail->size);
     int mask = detail->size - 1;
@@ -215,8 +217,15 @@ LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
     lom_int index = ((lom_to_int(below.z) & mask) * detail->size + (lom_to_int(below.y) & mask)) * detail->size +
                     (lom_to_int(below.x) & mask);
     lom_volume_place place = { index, p.x - below.x, p.y - below.y, p.z - below.z };
+    return place;
+}
+
+/* The noise there. */
+LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
+{
+    lom_volume_place place = lom_find_in_detail(detail, at);
     lom_int low, high;
-    lom_gather_pairs(detail->corners, index + index, &low, &high);
+    lom_gather_pairs(detail->corners, place.index + place.index, &low, &high);
     return lom_mix_corners(low, high, place);
 }
 
@@ -295,7 +304,8 @@ typedef struct lom_medium_desc {
     int most_steps;                /* a ray longer than this many steps takes longer ones; 1..65536 */
     int octaves;                   /* 1..LOM_MAX_OCTAVES */
     float weight[LOM_MAX_OCTAVES];
-    bool walk; /* evaluate every step; skipping empty space gives the same bytes */
+    bool walk;               /* evaluate every step; skipping empty space gives the same bytes */
+    lom_filtering filtering; /* of densities, noise and light; places and sums are float */
 } lom_medium_desc;
 
 typedef struct lom_medium_rays {

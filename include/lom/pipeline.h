@@ -29,12 +29,13 @@ LOM_API_BEGIN
 typedef struct lom_device lom_device;
 
 typedef struct lom_device_desc {
-    int threads; /* workers, 1..256; 0: as many as affinity and the cgroup quota allow */
-    int lanes;   /* 4, 8 or 16; 0: the widest this processor has instructions for */
-    bool plain;  /* lanes lowered to the baseline instructions even where the processor has wider ones */
-    int tile;    /* tile edge in pixels: 16, 32 or 64; 0: 64 */
-    int chunk;   /* triangles a unit of set-up work, 16..65536; 0: 8192 */
-    int batch;   /* chunks between two sweeps over the tiles, 1..1024; 0: 32 */
+    int threads;             /* workers, 1..256; 0: as many as affinity and the cgroup quota allow */
+    int lanes;               /* 4, 8 or 16; 0: the widest this processor has instructions for */
+    bool plain;              /* lanes lowered to the baseline instructions even where the processor has wider ones */
+    int tile;                /* tile edge in pixels: 16, 32 or 64; 0: 64 */
+    int chunk;               /* triangles a unit of set-up work, 16..65536; 0: 8192 */
+    int batch;               /* chunks between two sweeps over the tiles, 1..1024; 0: 32 */
+    lom_filtering filtering; /* FIXED: of all textures made with the device, whatever their samplers say */
 } lom_device_desc;
 
 /* Opens a device; the zero descriptor is a good one. Never NULL except when memory runs out: on another failure the
@@ -44,7 +45,7 @@ lom_device *lom_open_device(const lom_device_desc *desc);
 void lom_close_device(lom_device *device);
 /* The first error since the device was opened; code LOM_OK when there was none. */
 const lom_error *lom_device_error(const lom_device *device);
-/* What the device runs with: threads, lanes, plain, tile, chunk, batch, all resolved. */
+/* What the device runs with: threads, lanes, plain, tile, chunk, batch, filtering, all resolved. */
 lom_device_desc lom_describe_device(const lom_device *device);
 
 /* lom_create_texture, owned by the device and freed with it; NULL (error on the device) on failure. */

@@ -8,6 +8,7 @@
 #define LOM_SCENE_H
 
 #include <lom/cloud.h>
+#include <lom/fixed.h>
 #include <lom/geometry.h>
 #include <lom/particles.h>
 #include <lom/sky.h>
@@ -199,6 +200,8 @@ typedef struct lom_quality {
     lom_impostor_dials impostor;
     lom_shading shading;
     lom_texture_filter texture_filter;
+    lom_filtering filtering; /* of 8-bit textures, targets too */
+    lom_filtering march;     /* of the volumes and media of clouds */
     bool mipmaps;            /* false: the finest level alone */
     double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale; /* the same of the refraction picture */

@@ -2,7 +2,7 @@
  *
  * Coordinates: s runs right, t down, r back, each 0..1 over the texture; texel i of n has its centre at (i + 0.5) / n,
  * and (0, 0) is the outer corner of the first texel of the first row. Filtering is done in linear light (sRGB texels
- * are decoded first), in float. The result
+ * are decoded first), in float, or 8-bit texels in fixed point where the sampler says so. The result
  * - lies within the range of the texels that contribute, and is the texel itself at its centre (where s * n is exact);
  * - is the same at every width, and defined for every coordinate: NaN samples as 0, and so does an infinite coordinate
  *   of a repeated or mirrored axis; on clamped axes infinities clamp.
@@ -12,10 +12,17 @@
  *   with weights 1 - f and f, as mix(a, b, f) = a + (b - a) f; first along s, then t, then r, then between levels.
  *   nearest: texel min(floor(c * n), n - 1).
  * 8-bit texels are filtered as the numbers 0..255; what comes out is divided by 255 at the very end.
+ *
+ * In fixed point (lom/fixed.h) X, k and the order of mixing are the same, and f is X - k. A byte counts as 128 times
+ * itself and the light l of an sRGB code as round(32767 l) of 32767; what comes out is divided by 255 * 128 or 32767 at
+ * the very end, so a texel at its centre is the same as in float, except for light, which is within 2^-16 of it. With n
+ * mixes (one an axis, one between levels) the result is within n 2^-15 + 2^-16 + 2^-20 of the one in float, n 2^-15 +
+ * 2^-20 where nothing is sRGB; the last covers the roundings of the float filter.
  */
 #ifndef LOM_TEXTURE_H
 #define LOM_TEXTURE_H
 
+#include <lom/fixed.h>
 #include <lom/image.h>
 #include <lom/lanes.h>
 
@@ -65,6 +72,7 @@ typedef struct lom_sampler_desc {
     float border[4];                 /* linear light; rounded to the texture's format */
     float lod_bias;                  /* added to every level of detail */
     float lod_min, lod_max;          /* bounds of the sum; both 0: every level */
+    lom_filtering filtering;         /* of 8-bit formats where a filter is linear; all else is filtered in float */
 } lom_sampler_desc;
 
 /* The zero descriptor with a width and height is an RGBA8 texture of zeros, repeated, linearly filtered. */

@@ -96,7 +96,8 @@ static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, c
                                 .step = step_of(set, placed),
                                 .stop = (float)set->quality.stop,
                                 .most_steps = most_steps,
-                                .octaves = set->quality.model == LOM_CLOUDS_OCTAVES ? set->quality.octaves : 1 };
+                                .octaves = set->quality.model == LOM_CLOUDS_OCTAVES ? set->quality.octaves : 1,
+                                .filtering = set->quality.march };
     for (int i = 0; i < 3; i++)
         march->detail_scale[i] = (float)(cloud->size[i] / cloud->detail_size);
     double weight = set->params->albedo;
@@ -168,6 +169,7 @@ static void set_original(struct lom_cloud_uniforms *u, const struct lom_cloud_se
     double longest = size[0] > size[1] ? size[0] : size[1];
     longest = size[2] > longest ? size[2] : longest;
     u->original = placed->original;
+    u->is_fixed = set->quality.march == LOM_FILTERING_FIXED;
     u->unit = (float)(100 / longest); /* the reference's clouds are about 100 of its units across */
     u->is_real_time =
         set->params->original_light == LOM_ORIGINAL_COMBINED || set->params->original_light == LOM_ORIGINAL_REAL_TIME;

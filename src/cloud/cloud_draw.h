@@ -15,6 +15,7 @@ struct lom_cloud_quality {
     double error, stop, light_scale;
     int octaves;
     bool jitter;
+    lom_filtering filtering, march; /* of the flat model's picture; of densities and light */
 };
 
 /* A density that several clouds of a scene may share. */

@@ -95,10 +95,12 @@ static bool place_cloud(struct lom_cloud_set *set, const lom_cloud *cloud, lom_e
 static bool load_picture(struct lom_cloud_set *set, lom_error *error)
 {
     lom_image *made = lom_make_cloud_picture(256, 1, error);
-    lom_texture_desc desc = { .width = 256,
-                              .height = 256,
-                              .mips = LOM_MIPS_ALL,
-                              .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+    lom_texture_desc desc = {
+        .width = 256,
+        .height = 256,
+        .mips = LOM_MIPS_ALL,
+        .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP, .filtering = set->quality.filtering }
+    };
     if (made != NULL) {
         desc.pixels = made->pixels;
         set->picture = lom_create_texture(&desc, error);

@@ -1,6 +1,7 @@
 /* The shaders of the earlier models: the reference work's fixed steps (docs/clouds.md, Marching), and a flat picture.
  * In: the box's back faces, or a square that faces the eye. Out: colour times opacity, and opacity. */
 #include "cloud/cloud_rays.h"
+#include "march/fixed_cells.h"
 
 enum { STEPS = 100 };
 static const float step_length = 0.0154f, most_cloud = 70; /* of the unit cube; of the reference's units */
@@ -34,6 +35,15 @@ static lom_mask is_inside(lom_float x)
     return (x >= 0.02f) & (x <= 0.98f);
 }
 
+static lom_float sample_gray(const struct lom_cloud_uniforms *cloud, lom_float3 p, lom_float *density)
+{
+    lom_volume_place place = lom_find_in_volume(cloud->original, p);
+    if (!cloud->is_fixed)
+        return lom_sample_volume_all(cloud->original, place, density).x;
+    struct fixed_place at = fix_place(place);
+    return fixed_volume_all(cloud->original, &at, density).x;
+}
+
 static void original_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
@@ -51,8 +61,7 @@ static void original_fragment(lom_fragment *out, const lom_varyings *in, const v
         lom_mask counts = alive & is_inside(p.x) & is_inside(p.y) & is_inside(p.z);
         if (!lom_any(counts))
             continue;
-        lom_volume_place place = lom_find_in_volume(cloud->original, p);
-        lom_float density, gray = lom_sample_volume_all(cloud->original, place, &density).x;
+        lom_float density, gray = sample_gray(cloud, p, &density);
         if (cloud->is_real_time)
             gray = dynamic_light(cloud, p, gray, before);
         alpha += lom_as_float(lom_as_int(density * (5 / 100.0f)) & counts);

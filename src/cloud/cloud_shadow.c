@@ -63,7 +63,8 @@ void lom_draw_cloud_shadow(lom_device *device, const struct lom_cloud_set *set, 
                                  .detail = cloud->cloud->detail > 0 ? set->detail : NULL,
                                  .detail_strength = (float)cloud->cloud->detail,
                                  .detail_far = 1,
-                                 .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density) };
+                                 .extinction = (float)(cloud->cloud->extinction * cloud->cloud->density),
+                                 .filtering = set->quality.march };
     static const lom_blend product = { .enabled = true,
                                        .source_color = LOM_FACTOR_ZERO,
                                        .target_color = LOM_FACTOR_SOURCE_COLOR,

@@ -26,6 +26,7 @@ struct lom_cloud_uniforms {
     float haze_color[3], haze_rate; /* 1/m; 0: none */
     /* the earlier models */
     const lom_volume *original; /* lit in advance, or white */
+    bool is_fixed;              /* filtered in fixed point */
     float light_in_box[3];      /* parts of the box a metre towards the light */
     float unit;                 /* the reference's units a metre */
     bool is_real_time;

@@ -1,14 +1,14 @@
 /* Samplers of 2D textures and the level of detail. In: coordinates over lanes; out: filtered texels. One function a
  * storage, so that nothing is decided per texel. */
-#include "sample_lanes.h"
+#include "sample_fixed.h"
 
-LOM_INLINE lom_float4 sample_as(lom_storage storage, bool srgb, const lom_texture *texture, const lom_float2 *at,
-                                lom_float lod)
+LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, const lom_texture *texture,
+                                const lom_float2 *at, lom_float lod)
 {
     sample_point point;
     point.s = sample_wrap(at->x, texture->sampler.wrap_s);
     point.t = sample_wrap(at->y, texture->sampler.wrap_t);
-    return sample_texture(texture, LOM_TEXTURE_2D, storage, srgb, &point, lod);
+    return sample_by(fixed, texture, LOM_TEXTURE_2D, storage, srgb, &point, lod);
 }
 
 SAMPLE_EVERY_STORAGE(lom_sample_lanes, lom_float2, sample_as)

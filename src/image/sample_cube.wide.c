@@ -1,6 +1,6 @@
 /* Samplers of cube textures: a direction chooses a face and a place on it (OpenGL 4.6, table 8.19); the faces' aprons
  * hold their neighbours' texels (apron.c), so filtering goes on across edges and corners. */
-#include "sample_lanes.h"
+#include "sample_fixed.h"
 
 /*        face  s = (sc / ma + 1) / 2   sc   tc   ma
  *        0  1  +X  -X                  -z +z  -y   |x|
@@ -28,12 +28,12 @@ LOM_INLINE void choose_face(const lom_float3 *direction, sample_point *point)
     point->face = axis - negative;
 }
 
-LOM_INLINE lom_float4 sample_as(lom_storage storage, bool srgb, const lom_texture *texture, const lom_float3 *at,
-                                lom_float lod)
+LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, const lom_texture *texture,
+                                const lom_float3 *at, lom_float lod)
 {
     sample_point point;
     choose_face(at, &point);
-    return sample_texture(texture, LOM_TEXTURE_CUBE, storage, srgb, &point, lod);
+    return sample_by(fixed, texture, LOM_TEXTURE_CUBE, storage, srgb, &point, lod);
 }
 
 SAMPLE_EVERY_STORAGE(lom_sample_cube_lanes, lom_float3, sample_as)

@@ -234,44 +234,4 @@ LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kin
     return sample_finish(storage, srgb, value);
 }
 
-/* The sampler `name` of one kind of texture: `sample`(storage, srgb, texture, at, lod), inline, as one straight function
- * for each way that texels are held, and the choice between them, once a call. */
-#define SAMPLE_EVERY_STORAGE(name, coordinates, sample)                                                                \
-    static void sample_rgba8(const lom_texture *texture, const coordinates *at, lom_float lod, lom_float4 *out)        \
-    {                                                                                                                  \
-        *out = sample(LOM_STORAGE_RGBA8, false, texture, at, lod);                                                     \
-    }                                                                                                                  \
-    static void sample_srgb8(const lom_texture *texture, const coordinates *at, lom_float lod, lom_float4 *out)        \
-    {                                                                                                                  \
-        *out = sample(LOM_STORAGE_RGBA8, true, texture, at, lod);                                                      \
-    }                                                                                                                  \
-    static void sample_decoded(const lom_texture *texture, const coordinates *at, lom_float lod, lom_float4 *out)      \
-    {                                                                                                                  \
-        *out = sample(LOM_STORAGE_RGBA32F, true, texture, at, lod);                                                    \
-    }                                                                                                                  \
-    static void sample_r32f(const lom_texture *texture, const coordinates *at, lom_float lod, lom_float4 *out)         \
-    {                                                                                                                  \
-        *out = sample(LOM_STORAGE_R32F, false, texture, at, lod);                                                      \
-    }                                                                                                                  \
-    static void sample_rgba32f(const lom_texture *texture, const coordinates *at, lom_float lod, lom_float4 *out)      \
-    {                                                                                                                  \
-        *out = sample(LOM_STORAGE_RGBA32F, false, texture, at, lod);                                                   \
-    }                                                                                                                  \
-    void LOM_WIDE(name)(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)      \
-    {                                                                                                                  \
-        switch (texture->storage) {                                                                                    \
-        case LOM_STORAGE_RGBA8:                                                                                        \
-            (texture->decoded != NULL ? sample_decoded                                                                 \
-             : texture->srgb          ? sample_srgb8                                                                   \
-                                      : sample_rgba8)(texture, at, *lod, out);                                                  \
-            break;                                                                                                     \
-        case LOM_STORAGE_R32F:                                                                                         \
-            sample_r32f(texture, at, *lod, out);                                                                       \
-            break;                                                                                                     \
-        case LOM_STORAGE_RGBA32F:                                                                                      \
-            sample_rgba32f(texture, at, *lod, out);                                                                    \
-            break;                                                                                                     \
-        }                                                                                                              \
-    }
-
 #endif

@@ -43,6 +43,8 @@ static bool check_desc(const lom_texture_desc *desc, lom_error *error)
                         (int)desc->mips);
     if (desc->format != LOM_FORMAT_NONE && lom_describe_format(desc->format) == NULL)
         return lom_fail(error, LOM_ERROR_USAGE, "There is no texture of format %d.", (int)desc->format);
+    if ((unsigned)s->filtering >= LOM_FILTERING_COUNT)
+        return lom_fail(error, LOM_ERROR_USAGE, "A sampler has no filtering %d.", (int)s->filtering);
     if ((unsigned)s->minify >= LOM_FILTER_COUNT || (unsigned)s->magnify > LOM_FILTER_LINEAR)
         return lom_fail(error, LOM_ERROR_USAGE, "A sampler cannot minify by filter %d and magnify by filter %d.",
                         (int)s->minify, (int)s->magnify);
@@ -78,6 +80,8 @@ static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
     texture->nearest_within[0] = s->magnify == LOM_FILTER_NEAREST;
     texture->nearest_within[1] = s->minify == LOM_FILTER_NEAREST || s->minify == LOM_FILTER_NEAREST_MIPMAP_NEAREST ||
                                  s->minify == LOM_FILTER_NEAREST_MIPMAP_LINEAR;
+    texture->fixed = s->filtering == LOM_FILTERING_FIXED && texture->storage == LOM_STORAGE_RGBA8 &&
+                     !(texture->nearest_within[0] && texture->nearest_within[1]);
     texture->nearest_between =
         s->minify == LOM_FILTER_NEAREST_MIPMAP_NEAREST || s->minify == LOM_FILTER_LINEAR_MIPMAP_NEAREST;
     texture->linear_between =
@@ -163,7 +167,8 @@ static void prepare_decoded(lom_texture *texture, const lom_texture_desc *desc)
 {
     static const size_t most_decoded = (size_t)1 << 23; /* texels: 128 MiB */
     if (texture->srgb && desc->pixels != NULL && texture->texel_count <= most_decoded)
-        texture->decoded = lom_allocate(texture->texel_count, 4 * sizeof(float), NULL);
+        texture->decoded =
+            lom_allocate(texture->texel_count, texture->fixed ? 2 * sizeof(uint32_t) : 4 * sizeof(float), NULL);
 }
 
 /* ---- public ---- */

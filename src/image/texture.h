@@ -39,9 +39,12 @@ struct lom_texture {
     lom_sampler_desc sampler; /* no DEFAULT filters any more */
     bool srgb;                /* RGBA8 storage holds sRGB codes in r, g, b */
     bool builds_mips;         /* lom_finish_texture makes levels 1.. from level 0 */
-    /* The texels of an sRGB texture once more, decoded: 4 floats each, linear light and alpha 0..255, at the same
-     * indices; NULL where the samplers decode as they go. The results are the same bits. */
-    float *decoded;
+    /* Filtered in fixed point: 8-bit texels that are not all taken as the nearest. */
+    bool fixed;
+    /* The texels of an sRGB texture once more, decoded, at the same indices: 4 floats each, linear light and alpha
+     * 0..255; in fixed point two words each, red and blue, green and alpha in 15 bits (sample_fixed.h). NULL where the
+     * samplers decode as they go. The results are the same bits. */
+    void *decoded;
     size_t texel_count; /* in texels[] */
     const void *owner;  /* the device that it was made with; NULL: none, it belongs to the caller */
     /* For the samplers: */

@@ -131,6 +131,23 @@ lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lo
 
 /* ---- the whole ---- */
 
+static uint32_t linear15(uint32_t code)
+{
+    return (uint32_t)lom_int_of(lom_srgb_linear[code] * LOM_FIXED_LINEAR + 0.5f);
+}
+
+static void fill_decoded_pairs(lom_texture *texture)
+{
+    const uint32_t *texel = texture->texels;
+    uint32_t *to = texture->decoded, linear[256];
+    for (uint32_t code = 0; code < 256; code++)
+        linear[code] = linear15(code);
+    for (size_t i = 0; i < texture->texel_count; i++, to += 2) {
+        to[0] = linear[texel[i] & 255] | linear[texel[i] >> 16 & 255] << 16;
+        to[1] = linear[texel[i] >> 8 & 255] | (texel[i] >> 24) << 23;
+    }
+}
+
 static void fill_decoded(lom_texture *texture)
 {
     const uint32_t *texel = texture->texels;
@@ -150,7 +167,7 @@ void lom_finish_texture(lom_texture *texture)
         lom_fill_apron(texture, i);
     }
     if (texture->decoded != NULL)
-        fill_decoded(texture);
+        (texture->fixed ? fill_decoded_pairs : fill_decoded)(texture);
 }
 
 /* Bytes of the pixels of level 0. */

@@ -1,8 +1,9 @@
 /* Rays through a medium, LOM_LANES at a time. In: rays between two distances, a density, a grid of light. Out: how much
  * of each light they bring, and what comes through from behind. Invariant: a step at which the density is 0 for a ray
  * changes no bit of its result, so that leaving such steps out changes none either. */
+#include "fixed_cells.h"
+
 #include <lom/lanes_mathematics.h>
-#include <lom/march.h>
 
 void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
 {
@@ -25,19 +26,28 @@ void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
     rays->active &= (*enter < *leave) & ~still;
 }
 
+LOM_INLINE lom_float sample_density(const lom_medium *m, bool fixed, lom_float3 p)
+{
+    lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
+    if (!fixed)
+        return lom_sample_medium(m, place);
+    struct fixed_place at = fix_place(place);
+    return fixed_medium(m, &at);
+}
+
 /* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below
  * 0 (Schneider and Vos 2015). Far away the noise is its mean. */
 static lom_float find_density(const lom_medium_desc *desc, lom_float3 p, lom_float distance)
 {
-    lom_float density = lom_sample_medium(
-        desc->medium, lom_find_in_cells(desc->medium->width, desc->medium->height, desc->medium->depth, p));
+    bool fixed = desc->filtering == LOM_FILTERING_FIXED;
+    lom_float density = sample_density(desc->medium, fixed, p);
     if (desc->detail == NULL || !lom_any((density > 0.0f) & (density < 1.0f)))
         return density;
     lom_float noise = lom_splat(desc->detail->mean);
     lom_float fading = 1.0f - lom_smoothstep(lom_splat(desc->detail_near), lom_splat(desc->detail_far), distance);
     if (lom_any(fading > 0.0f)) {
         lom_float3 q = { p.x * desc->detail_scale[0], p.y * desc->detail_scale[1], p.z * desc->detail_scale[2] };
-        noise = lom_mix(noise, lom_sample_detail(desc->detail, q), fading);
+        noise = lom_mix(noise, fixed ? fixed_detail(desc->detail, q) : lom_sample_detail(desc->detail, q), fading);
     }
     lom_float eaten = noise * desc->detail_strength;
     return lom_saturate((density - eaten) / (1.0f - eaten));
@@ -131,7 +141,8 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
         lom_float share = lom_as_float(lom_as_int(opacity * sum.transmittance) & alive);
         lom_light_sample light = { lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
         if (desc->light != NULL)
-            light = lom_sample_light(desc->light, p);
+            light =
+                desc->filtering == LOM_FILTERING_FIXED ? fixed_light(desc->light, p) : lom_sample_light(desc->light, p);
         sum.sun += share * sun_share(desc, rays, light.sun);
         sum.sky += share * light.sky;
         sum.ground += share * light.ground;

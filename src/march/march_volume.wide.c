@@ -1,12 +1,12 @@
 /* Rays through a volume, LOM_LANES at a time. In: rays and what a sample means; out: their opacity and colour.
  * Invariant: skipping leaves out only steps at which every ray's density is exactly 0; such a step adds 0 to both. */
-#include <lom/march.h>
+#include "fixed_cells.h"
 
 /* The bundle as one ray with a width, in cells: every ray stays within `spread` of the centre, which moves by at most
  * `speed` a step (both as the largest of the three axes). */
 typedef struct bundle {
     float start[3], step[3];
-    float spread, speed;
+    float spread, speed, per_speed;
 } bundle;
 
 /* The least and the greatest value of the lanes that are set: halves against halves, which order does not matter to. */
@@ -50,6 +50,7 @@ static bundle make_bundle(const lom_march_rays *rays, const lom_march_desc *desc
     bound_axis(&b, 0, rays->start.x, rays->step.x, desc->volume->width, desc->steps, lanes);
     bound_axis(&b, 1, rays->start.y, rays->step.y, desc->volume->height, desc->steps, lanes);
     bound_axis(&b, 2, rays->start.z, rays->step.z, desc->volume->depth, desc->steps, lanes);
+    b.per_speed = 0.99999f / b.speed; /* below 1 / speed, whatever is rounded: fewer steps are as safe */
     return b;
 }
 
@@ -67,7 +68,7 @@ static int empty_steps(const bundle *b, const lom_volume *volume, int i)
     }
     int index = (cell[2] * (size[1] + 1) + cell[1]) * (size[0] + 1) + cell[0];
     float room = (float)volume->distance[index] - 1.01f - b->spread;
-    return room >= 0 ? 1 + lom_int_of(room / b->speed) : 0;
+    return room >= 0 ? 1 + lom_int_of(room * b->per_speed) : 0;
 }
 
 /* Whether every position is within 8192 cells, where float rounding is far below the margin above; false for NaN. */
@@ -96,9 +97,48 @@ static int last_step(const lom_march_rays *rays, const lom_march_desc *desc, lom
     return high > 0 ? (high < (float)desc->steps ? lom_int_of(high) + 2 : desc->steps) : 1;
 }
 
-void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
-                                lom_march_count *count)
+/* What a volume holds at a place, by both arithmetics. */
+typedef struct sampler {
+    const lom_volume *volume;
+    bool fixed;
+} sampler;
+
+LOM_INLINE lom_float sample_density(sampler s, lom_volume_place place)
 {
+    if (!s.fixed)
+        return lom_sample_density(s.volume, place);
+    struct fixed_place at = fix_place(place);
+    return fixed_density(s.volume, &at);
+}
+
+LOM_INLINE lom_float3 sample_color(sampler s, lom_volume_place place)
+{
+    if (!s.fixed)
+        return lom_sample_volume_color(s.volume, place);
+    lom_float density;
+    struct fixed_place at = fix_place(place);
+    return fixed_volume_all(s.volume, &at, &density);
+}
+
+LOM_INLINE lom_float3 sample_all(sampler s, lom_volume_place place, lom_float *density)
+{
+    if (!s.fixed)
+        return lom_sample_volume_all(s.volume, place, density);
+    struct fixed_place at = fix_place(place);
+    return fixed_volume_all(s.volume, &at, density);
+}
+
+/* The steps that can matter: all, or with skips those before every ray has left an empty border. */
+static int steps_to_look_at(const lom_march_rays *rays, const lom_march_desc *desc, bool skips)
+{
+    int last = skips && desc->volume->empty_border ? last_step(rays, desc, rays->active) : desc->steps;
+    return last < desc->steps ? last : desc->steps;
+}
+
+LOM_INLINE void march(bool fixed, lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
+                      lom_march_count *count)
+{
+    const sampler from = { desc->volume, fixed };
     lom_float3 offset = lom_splat3(desc->light_offset[0], desc->light_offset[1], desc->light_offset[2]);
     lom_float4 sum = { 0 };
     lom_mask alive = rays->active;
@@ -108,11 +148,9 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
         b = make_bundle(rays, desc, alive);
         skips = is_near(&b, desc->steps);
     }
-    int last = skips && desc->volume->empty_border ? last_step(rays, desc, alive) : desc->steps;
-    last = last < desc->steps ? last : desc->steps;
+    int last = steps_to_look_at(rays, desc, skips), i = 0;
     uint64_t sampled = 0;
     bool was_empty = true;
-    int i = 0;
     for (; i < last && lom_any(alive); i++) {
         if (skips && was_empty) {
             int empty = empty_steps(&b, desc->volume, i);
@@ -127,15 +165,15 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
         lom_float density;
         lom_float3 color;
         if (skips) {
-            density = lom_sample_density(desc->volume, at);
+            density = sample_density(from, at);
             was_empty = !lom_any((density > 0.0f) & alive);
             if (was_empty)
                 continue;
-            color = lom_sample_volume_color(desc->volume, at);
+            color = sample_color(from, at);
         } else {
-            color = lom_sample_volume_all(desc->volume, at, &density);
+            color = sample_all(from, at, &density);
         }
-        lom_float above = lom_sample_density(desc->volume, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
+        lom_float above = sample_density(from, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
         lom_float seen = (1.0f - sum.w) * (density * desc->absorption);
         seen = lom_as_float(lom_as_int(seen) & alive);
         lom_float lit = 1.0f - desc->shade * above;
@@ -150,4 +188,21 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
         count->walked += (uint64_t)(last < desc->steps && i >= last ? desc->steps : i);
         count->sampled += sampled;
     }
+}
+
+static void march_in_float(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
+                           lom_march_count *count)
+{
+    march(false, out, rays, desc, count);
+}
+
+static void march_fixed(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc, lom_march_count *count)
+{
+    march(true, out, rays, desc, count);
+}
+
+void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, const lom_march_desc *desc,
+                                lom_march_count *count)
+{
+    (desc->filtering == LOM_FILTERING_FIXED ? march_fixed : march_in_float)(out, rays, desc, count);
 }

@@ -18,6 +18,8 @@ static bool check_desc(const lom_device_desc *desc, lom_error *error)
         return lom_fail(error, LOM_ERROR_USAGE, "A chunk has 16 to 65536 triangles, not %d.", desc->chunk);
     if (desc->batch < 0 || desc->batch > 1024)
         return lom_fail(error, LOM_ERROR_USAGE, "A batch has 1 to 1024 chunks, not %d.", desc->batch);
+    if ((unsigned)desc->filtering >= LOM_FILTERING_COUNT)
+        return lom_fail(error, LOM_ERROR_USAGE, "A device has no filtering %d.", (int)desc->filtering);
     return true;
 }
 
@@ -34,6 +36,7 @@ static bool resolve_desc(lom_device *device, const lom_device_desc *desc)
     device->desc.tile = desc->tile != 0 ? desc->tile : 64;
     device->desc.chunk = desc->chunk != 0 ? desc->chunk : 8192;
     device->desc.batch = desc->batch != 0 ? desc->batch : 32;
+    device->desc.filtering = desc->filtering;
     return true;
 }
 
@@ -122,7 +125,11 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
         lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another texture.");
         return NULL;
     }
-    lom_texture *texture = lom_create_texture(desc, &device->error);
+    static const lom_texture_desc none = { .width = 0 };
+    lom_texture_desc made = desc != NULL ? *desc : none;
+    if (device->desc.filtering == LOM_FILTERING_FIXED)
+        made.sampler.filtering = LOM_FILTERING_FIXED;
+    lom_texture *texture = lom_create_texture(&made, &device->error);
     if (texture == NULL)
         return NULL;
     texture->owner = device;

@@ -114,6 +114,11 @@ static const lom_key quality[] = {
       .text = "Light for each fragment, for each vertex, or for each face." },
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),
       .choices = { "trilinear", "bilinear", "nearest" }, .text = "How textures are sampled." },
+    { "filtering", LOM_KEY_CHOICE, AT(lom_quality, filtering), .choices = { "float", "fixed" },
+      .text = "Arithmetic in which 8-bit textures are filtered: 24 bits, or 15 (docs/filtering.md). What is compared "
+              "with a reference is drawn in float." },
+    { "march", LOM_KEY_CHOICE, AT(lom_quality, march), .choices = { "float", "fixed" },
+      .text = "The same of the densities and the light of clouds." },
     { "mipmaps", LOM_KEY_BOOL, AT(lom_quality, mipmaps), .initial = { 1 },
       .text = "Smaller versions of textures for distant surfaces. Off: the finest level alone." },
     { "reflection_scale", LOM_KEY_NUMBER, AT(lom_quality, reflection_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,

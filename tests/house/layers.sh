@@ -24,7 +24,7 @@ below() {
 public() { # the public headers of each layer
     case $1 in
     base.h) echo base ;;
-    lanes.h | lanes_mathematics.h | lanes_x86.h) echo lanes ;;
+    fixed.h | lanes.h | lanes_mathematics.h | lanes_x86.h) echo lanes ;;
     image.h | texture.h) echo image ;;
     sea.h | shallow.h) echo waves ;;
     particles.h) echo spray ;;

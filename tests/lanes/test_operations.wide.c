@@ -51,6 +51,9 @@ static void compare_all(lom_int p, lom_int q)
     lom_double wide = lom_to_double(p), defined = lom_defined_to_double(p);
     CHECK(memcmp(&wide, &defined, sizeof wide) == 0 && defined[0] == p[0], "to_double of %08x", p[0]);
     CHECK(lom_bits(m) == lom_defined_bits(m), "bits of %08x", m[0]);
+    lom_pairs x = (lom_pairs)p, y = (lom_pairs)q;
+    CHECK(same_int((lom_int)lom_multiply_pairs(x, y), (lom_int)lom_defined_multiply_pairs(x, y)),
+          "multiply_pairs of %08x, %08x", p[0], q[0]);
 }
 
 static void overrides_equal_definitions_on_specials(void)

@@ -103,6 +103,7 @@ static void skipping_changes_no_byte(void)
         lom_medium *medium = lom_create_medium(image, NULL);
         lom_medium_desc desc = plain(medium, uniform(&state, 0, 40), uniform(&state, 0.003, 0.05));
         desc.stop = 0.01f;
+        desc.filtering = round % 2 == 0 ? LOM_FILTERING_FLOAT : LOM_FILTERING_FIXED;
         for (int i = 0; i < 60; i++) {
             lom_medium_rays rays = random_rays(&state, i % 3 == 0 ? 0.3 : 0.01);
             lom_medium_result walked, skipped;

@@ -166,7 +166,8 @@ static void test_skipping_changes_no_byte(void)
                                 .absorption = random_between(&state, 0.05f, 1),
                                 .light_offset = { 0.02f, 0.07f, 0.01f },
                                 .shade = 0.6f,
-                                .opaque = random_between(&state, 0.3f, 1) };
+                                .opaque = random_between(&state, 0.3f, 1),
+                                .filtering = round % 2 == 0 ? LOM_FILTERING_FLOAT : LOM_FILTERING_FIXED };
         for (int i = 0; i < 100; i++) {
             lom_march_rays rays = random_rays(&state, i % 3 == 0 ? 0.2f : i % 3 == 1 ? 0.01f : 0);
             lom_float4 walked, skipped;

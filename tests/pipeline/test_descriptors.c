@@ -50,6 +50,28 @@ static void null_is_the_zero_descriptor(void)
     lom_free_image(map);
 }
 
+static void a_device_that_filters_in_fixed_point_makes_such_textures(void)
+{
+    lom_device *device = lom_open_device(&(lom_device_desc){ .filtering = LOM_FILTERING_FIXED });
+    CHECK(lom_describe_device(device).filtering == LOM_FILTERING_FIXED, "%s", lom_device_error(device)->text);
+    static const uint8_t pixels[8] = { 0, 0, 0, 0, 255, 200, 100, 50 };
+    lom_texture_desc desc = { .width = 2, .height = 1, .pixels = pixels };
+    lom_texture *by_device = lom_make_texture(device, &desc), *in_float = lom_create_texture(&desc, NULL);
+    desc.sampler.filtering = LOM_FILTERING_FIXED;
+    lom_texture *by_sampler = lom_create_texture(&desc, NULL);
+    lom_float at = lom_splat(0.4f), zero = { 0 };
+    lom_float4 a = lom_sample(by_device, at, at, zero), b = lom_sample(by_sampler, at, at, zero);
+    lom_float4 c = lom_sample(in_float, at, at, zero);
+    CHECK(memcmp(&a, &b, sizeof a) == 0 && memcmp(&a, &c, sizeof a) != 0, "%g, %g, in float %g", (double)a.x[0],
+          (double)b.x[0], (double)c.x[0]);
+    lom_free_texture(in_float);
+    lom_free_texture(by_sampler);
+    lom_close_device(device);
+    device = lom_open_device(&(lom_device_desc){ .filtering = LOM_FILTERING_COUNT });
+    CHECK(is_sentence(lom_device_error(device)), "an unknown filtering");
+    lom_close_device(device);
+}
+
 static void a_null_device_is_one_that_has_failed(void)
 {
     lom_error error = { 0 };
@@ -300,6 +322,7 @@ static void numbers_out_of_range_are_refused(void)
 int main(int argc, char **argv)
 {
     RUN(null_is_the_zero_descriptor);
+    RUN(a_device_that_filters_in_fixed_point_makes_such_textures);
     RUN(a_null_device_is_one_that_has_failed);
     RUN(textures_belong_to_their_device);
     RUN(textures_are_updated_by_their_device);

@@ -11,7 +11,9 @@ bool lom_load_clouds(lom_renderer *renderer, lom_error *error)
                                          .stop = q->cloud_stop,
                                          .light_scale = q->cloud_light_scale,
                                          .octaves = q->cloud_octaves,
-                                         .jitter = q->cloud_jitter };
+                                         .jitter = q->cloud_jitter,
+                                         .filtering = q->filtering,
+                                         .march = q->march };
     return lom_load_cloud_set(scene->cloud, scene->cloud_count, &scene->clouds, &quality, &renderer->clouds.set, error);
 }
 

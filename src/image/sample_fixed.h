@@ -1,0 +1,139 @@
+/* Sampling in fixed point: the footprints of sample_lanes.h, their texels mixed as lom/fixed.h says. For 8-bit storage;
+ * everything is inline and takes the kind and storage as constants. In 15 bits a byte is 128 times itself and linear
+ * light l of an sRGB code is round(32767 l). */
+#ifndef LOM_IMAGE_SAMPLE_FIXED_H
+#define LOM_IMAGE_SAMPLE_FIXED_H
+
+#include "sample_lanes.h"
+
+#include <lom/fixed.h>
+
+/* Red and blue, green and alpha. */
+typedef struct sample_pairs {
+    lom_pairs rb, ga;
+} sample_pairs;
+
+LOM_INLINE lom_int sample_linear15(lom_int code)
+{
+    return lom_bounded_to_int(lom_float_of_srgb8_lanes(code) * LOM_FIXED_LINEAR + 0.5f);
+}
+
+LOM_INLINE sample_pairs sample_unpack_pairs(bool srgb, lom_int texel)
+{
+    if (!srgb)
+        return (sample_pairs){ lom_even_bytes(texel), lom_odd_bytes(texel) };
+    lom_int red = sample_linear15(texel & 255), green = sample_linear15(texel >> 8 & 255);
+    lom_int blue = sample_linear15(texel >> 16 & 255);
+    return (sample_pairs){ (lom_pairs)(red | blue << 16), (lom_pairs)(green | (texel >> 1 & 0x7f800000)) };
+}
+
+/* Texels index and index + 1. Decoded ones are two words each: four words in a row. */
+LOM_INLINE void sample_two_pairs(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index,
+                                 sample_pairs *first, sample_pairs *second)
+{
+    if (storage == LOM_STORAGE_RGBA32F) {
+        lom_float4 words = lom_gather_rows(texture->decoded, index + index);
+        *first = (sample_pairs){ (lom_pairs)words.x, (lom_pairs)words.y };
+        *second = (sample_pairs){ (lom_pairs)words.z, (lom_pairs)words.w };
+        return;
+    }
+    lom_int a, b;
+    lom_gather_pairs(texture->texels, index, &a, &b);
+    *first = sample_unpack_pairs(srgb, a);
+    *second = sample_unpack_pairs(srgb, b);
+}
+
+LOM_INLINE sample_pairs sample_mix_pairs(sample_pairs a, sample_pairs b, lom_pairs weight)
+{
+    return (sample_pairs){ lom_mix_pairs(a.rb, b.rb, weight), lom_mix_pairs(a.ga, b.ga, weight) };
+}
+
+LOM_INLINE sample_pairs sample_square_pairs(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index,
+                                            lom_int pitch, lom_pairs s, lom_pairs t)
+{
+    sample_pairs a, b, c, d;
+    sample_two_pairs(texture, storage, srgb, index, &a, &b);
+    sample_two_pairs(texture, storage, srgb, index + pitch, &c, &d);
+    return sample_mix_pairs(sample_mix_pairs(a, b, s), sample_mix_pairs(c, d, s), t);
+}
+
+LOM_INLINE sample_pairs sample_level_pairs(const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
+                                           bool srgb, const sample_point *point, const sample_place *place)
+{
+    sample_footprint print = sample_footprint_of(texture, kind, point, place);
+    lom_pairs s = lom_weight_pairs(print.s), t = lom_weight_pairs(print.t);
+    sample_pairs front = sample_square_pairs(texture, storage, srgb, print.index, print.pitch, s, t);
+    if (kind != LOM_TEXTURE_3D)
+        return front;
+    sample_pairs back = sample_square_pairs(texture, storage, srgb, print.index + print.slice, print.pitch, s, t);
+    return sample_mix_pairs(front, back, lom_weight_pairs(print.r));
+}
+
+LOM_INLINE lom_float4 sample_finish_pairs(bool srgb, sample_pairs x)
+{
+    float color = srgb ? LOM_FIXED_LINEAR : LOM_FIXED_BYTE;
+    return (lom_float4){ lom_lower_of_pairs(x.rb) / color, lom_lower_of_pairs(x.ga) / color,
+                         lom_upper_of_pairs(x.rb) / color, lom_upper_of_pairs(x.ga) / LOM_FIXED_BYTE };
+}
+
+LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
+                                           bool srgb, sample_point *point, lom_float lod)
+{
+    lom_float chosen = sample_choose(texture, point, lod);
+    lom_int level = lom_bounded_to_int(chosen);
+    lom_float fraction = chosen - lom_to_float(level);
+    sample_place place = sample_place_of_levels(texture, level);
+    sample_pairs value = sample_level_pairs(texture, kind, storage, srgb, point, &place);
+    if (lom_any(fraction > 0.0f)) {
+        place = sample_place_of_levels(texture, lom_min_int(level + 1, lom_splat_int(texture->level_count - 1)));
+        sample_pairs next = sample_level_pairs(texture, kind, storage, srgb, point, &place);
+        value = sample_mix_pairs(value, next, lom_weight_pairs(fraction));
+    }
+    return sample_finish_pairs(srgb, value);
+}
+
+/* ---- both arithmetics, every storage ---- */
+
+LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
+                                bool srgb, sample_point *point, lom_float lod)
+{
+    return fixed ? sample_texture_fixed(texture, kind, storage, srgb, point, lod)
+                 : sample_texture(texture, kind, storage, srgb, point, lod);
+}
+
+#define SAMPLE_STORAGE(function, coordinates, sample, fixed, storage, srgb)                                            \
+    static void function(const lom_texture *texture, const coordinates *at, lom_float lod, lom_float4 *out)            \
+    {                                                                                                                  \
+        *out = sample(fixed, storage, srgb, texture, at, lod);                                                         \
+    }
+
+/* The sampler `name` of one kind of texture: `sample`(fixed, storage, srgb, texture, at, lod), inline, as one straight
+ * function for each way that texels are held and filtered, and the choice between them, once a call. */
+#define SAMPLE_EVERY_STORAGE(name, coordinates, sample)                                                                \
+    SAMPLE_STORAGE(sample_rgba8, coordinates, sample, false, LOM_STORAGE_RGBA8, false)                                 \
+    SAMPLE_STORAGE(sample_srgb8, coordinates, sample, false, LOM_STORAGE_RGBA8, true)                                  \
+    SAMPLE_STORAGE(sample_decoded, coordinates, sample, false, LOM_STORAGE_RGBA32F, true)                              \
+    SAMPLE_STORAGE(sample_r32f, coordinates, sample, false, LOM_STORAGE_R32F, false)                                   \
+    SAMPLE_STORAGE(sample_rgba32f, coordinates, sample, false, LOM_STORAGE_RGBA32F, false)                             \
+    SAMPLE_STORAGE(fixed_rgba8, coordinates, sample, true, LOM_STORAGE_RGBA8, false)                                   \
+    SAMPLE_STORAGE(fixed_srgb8, coordinates, sample, true, LOM_STORAGE_RGBA8, true)                                    \
+    SAMPLE_STORAGE(fixed_decoded, coordinates, sample, true, LOM_STORAGE_RGBA32F, true)                                \
+    void LOM_WIDE(name)(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)      \
+    {                                                                                                                  \
+        bool fixed = texture->fixed, decoded = texture->decoded != NULL;                                               \
+        switch (texture->storage) {                                                                                    \
+        case LOM_STORAGE_RGBA8:                                                                                        \
+            (decoded         ? (fixed ? fixed_decoded : sample_decoded)                                                \
+             : texture->srgb ? (fixed ? fixed_srgb8 : sample_srgb8)                                                    \
+                             : (fixed ? fixed_rgba8 : sample_rgba8))(texture, at, *lod, out);                          \
+            break;                                                                                                     \
+        case LOM_STORAGE_R32F:                                                                                         \
+            sample_r32f(texture, at, *lod, out);                                                                       \
+            break;                                                                                                     \
+        case LOM_STORAGE_RGBA32F:                                                                                      \
+            sample_rgba32f(texture, at, *lod, out);                                                                    \
+            break;                                                                                                     \
+        }                                                                                                              \
+    }
+
+#endif
