@@ -1,5 +1,6 @@
 /* Stage 4 of 7: bin. In: a chunk's triangles. Out: for each tile the list of those that may touch it, in their order (a
- * counting sort). Tiles are numbered row by row. */
+ * counting sort). Tiles are numbered row by row; a chunk has lists for the range of numbers that its triangles lie in, so
+ * that a draw of a few triangles costs nothing elsewhere. */
 #include "pipeline/stages.h"
 
 struct span { /* tiles, inclusive */
@@ -14,20 +15,41 @@ static inline struct span tiles_of(const struct lom_pass *pass, const lom_triang
                           (b.right - pass->tile_x0) >> shift, (b.bottom - pass->tile_y0) >> shift };
 }
 
+/* The least and the greatest number of a tile that a triangle may touch; false when there is none. */
+static bool find_range(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    const int32_t *tile = chunk->assembly->tile;
+    int32_t low = INT32_MAX, high = -1;
+    for (size_t i = 0; i < chunk->triangle_count; i++) {
+        int32_t first = tile[i], last = tile[i];
+        if (tile[i] == SEVERAL_TILES) {
+            struct span s = tiles_of(pass, &chunk->triangles[i]);
+            first = s.y0 * pass->tiles_x + s.x0;
+            last = s.y1 * pass->tiles_x + s.x1;
+        }
+        low = first < low ? first : low;
+        high = last > high ? last : high;
+    }
+    chunk->tile_low = low;
+    chunk->tile_count = high < 0 ? 0 : high - low + 1;
+    return high >= 0;
+}
+
 /* Counts the triangles of each tile, into first[tile + 2]; returns the sum. */
 static size_t count_triangles(const struct lom_pass *pass, const struct lom_chunk *chunk, uint32_t *first)
 {
     const int32_t *tile = chunk->assembly->tile;
+    int32_t low = chunk->tile_low;
     size_t total = chunk->triangle_count;
     for (size_t i = 0; i < chunk->triangle_count; i++) {
         if (tile[i] != SEVERAL_TILES) {
-            first[tile[i] + 2]++;
+            first[tile[i] - low + 2]++;
             continue;
         }
         struct span s = tiles_of(pass, &chunk->triangles[i]);
         for (int y = s.y0; y <= s.y1; y++)
             for (int x = s.x0; x <= s.x1; x++)
-                first[y * pass->tiles_x + x + 2]++;
+                first[y * pass->tiles_x + x - low + 2]++;
         total += (size_t)(s.x1 - s.x0 + 1) * (size_t)(s.y1 - s.y0 + 1) - 1;
     }
     return total;
@@ -37,22 +59,25 @@ static size_t count_triangles(const struct lom_pass *pass, const struct lom_chun
 static void list_triangles(const struct lom_pass *pass, const struct lom_chunk *chunk, uint32_t *first)
 {
     const int32_t *tile = chunk->assembly->tile;
+    int32_t low = chunk->tile_low;
     uint32_t *list = chunk->tile_list;
     for (size_t i = 0; i < chunk->triangle_count; i++) {
         if (tile[i] != SEVERAL_TILES) {
-            list[first[tile[i] + 1]++] = (uint32_t)i;
+            list[first[tile[i] - low + 1]++] = (uint32_t)i;
             continue;
         }
         struct span s = tiles_of(pass, &chunk->triangles[i]);
         for (int y = s.y0; y <= s.y1; y++)
             for (int x = s.x0; x <= s.x1; x++)
-                list[first[y * pass->tiles_x + x + 1]++] = (uint32_t)i;
+                list[first[y * pass->tiles_x + x - low + 1]++] = (uint32_t)i;
     }
 }
 
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
-    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    if (!find_range(pass, chunk))
+        return;
+    size_t tiles = (size_t)chunk->tile_count;
     if (!lom_reserve(&chunk->tile_first, &chunk->tile_first_capacity, tiles + 2, sizeof(uint32_t), NULL)) {
         chunk->failed = true;
         return;

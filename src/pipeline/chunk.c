@@ -276,6 +276,7 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->triangle_count = 0;
     chunk->triangles_clipped = 0;
     chunk->any_code = 0;
+    chunk->tile_count = 0;
     chunk->failed = !choose_vertices(chunk) || !lom_reserve_rows(chunk, chunk->vertex_count);
     if (chunk->failed)
         return;

@@ -43,12 +43,18 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
         tile->offset[k] = (k & 7) + (k >> 3) * 2 * pass->tile;
 }
 
+/* Whether a chunk has a list for a tile, which may be empty. */
+static bool reaches(const struct lom_chunk *chunk, int number)
+{
+    return number >= chunk->tile_low && number - chunk->tile_low < chunk->tile_count;
+}
+
 /* Brings a chunk's list of the tile near: another core may have written it. */
 static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
 {
-    if (i >= pass->chunk_count || pass->chunks[i].failed)
+    if (i >= pass->chunk_count || !reaches(&pass->chunks[i], number))
         return;
-    const uint32_t *list = pass->chunks[i].tile_list + pass->chunks[i].tile_first[number];
+    const uint32_t *list = pass->chunks[i].tile_list + pass->chunks[i].tile_first[number - pass->chunks[i].tile_low];
     __builtin_prefetch(list);
     __builtin_prefetch(list + 16);
 }
@@ -71,8 +77,11 @@ static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, u
     for (size_t i = 0; i < pass->chunk_count; i++) {
         const struct lom_chunk *chunk = &pass->chunks[i];
         prefetch_list(pass, i + 1, number);
-        uint32_t first = chunk->tile_first[number], end = chunk->tile_first[number + 1];
-        if (chunk->failed || first == end)
+        if (!reaches(chunk, number))
+            continue;
+        const uint32_t *begin = chunk->tile_first + (number - chunk->tile_low);
+        uint32_t first = begin[0], end = begin[1];
+        if (first == end)
             continue;
         if (!placed) {
             place_tile(pass, tile, number, memory);

@@ -150,8 +150,9 @@ struct lom_chunk {
 
     float *rows; /* vertex rows */
     lom_triangle *triangles;
-    uint32_t *tile_first; /* tile_count + 1: where a tile's list begins */
-    uint32_t *tile_list;  /* triangle numbers */
+    int tile_low, tile_count; /* the tiles that triangles lie in have numbers within tile_low + [0, tile_count) */
+    uint32_t *tile_first;     /* tile_count + 1: where the list of tile_low + i begins */
+    uint32_t *tile_list;      /* triangle numbers */
     size_t row_count, triangle_count;
     unsigned any_code; /* all outcodes together */
     bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
