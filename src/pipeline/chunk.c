@@ -62,6 +62,12 @@ static size_t strip_start(const lom_draw_desc *desc, size_t t)
     return desc->restart ? t : 0;
 }
 
+/* Whether triangle t would begin with a restart: in a fan its corners are the centre before it and vertices behind it. */
+static bool begins_nothing(const lom_draw_desc *desc, size_t t)
+{
+    return desc->restart && desc->topology != LOM_TRIANGLES && index_at(desc, t) == UINT32_MAX;
+}
+
 /* The vertex numbers of triangle t, or NO_VERTEX in the first where it has none (a restart index, an index out of
  * range). */
 static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start, uint32_t number[3])
@@ -88,7 +94,10 @@ static void resolve_all_corners(struct lom_chunk *chunk)
         size_t t = chunk->first + i;
         if (draw->desc.restart && t > 0 && index_at(&draw->desc, t - 1) == UINT32_MAX)
             start = t;
-        resolve_corners(draw, t, start, chunk->assembly->corners + 3 * i);
+        if (begins_nothing(&draw->desc, t))
+            chunk->assembly->corners[3 * i] = NO_VERTEX;
+        else
+            resolve_corners(draw, t, start, chunk->assembly->corners + 3 * i);
     }
 }
 

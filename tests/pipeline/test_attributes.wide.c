@@ -1,5 +1,6 @@
 /* Proves what varyings are at this width (A2..A6): constants stay constants, wild values stay inside their hull, flat
- * ones are the last vertex's in every topology, far ends of long edges keep the bound, helpers outside stay finite. */
+ * ones are the last vertex's in every topology, far ends of long edges keep the bound, helpers outside stay finite;
+ * and what every kind of attribute reads. */
 #include "stage.h"
 
 enum { SIZE = 64, UNITS = SIZE * 256 };
@@ -184,6 +185,38 @@ static void a6_helpers_outside_the_triangle_stay_finite(void)
     close_stage(&s);
 }
 
+/* Every kind of attribute, by its definition: bytes are n / 255 rounded once, and what a kind lacks is 0, 0, 0, 1. */
+static void kinds_are_their_numbers(void)
+{
+    static const float row[4] = { 0.25f, -3, 1e20f, 7 };
+    stage s = open_floats();
+    uint8_t bytes[3][4];
+    for (int kind = LOM_ATTRIBUTE_NONE; kind <= LOM_ATTRIBUTE_UNORM8X4; kind++)
+        for (int n = 0; n < (kind == LOM_ATTRIBUTE_UNORM8X4 ? 256 : 1); n++) {
+            for (int k = 0; k < 3; k++) {
+                place_at(&vertices[k], k == 1 ? 2 * UNITS : 0, k == 2 ? 2 * UNITS : 0, SIZE);
+                memcpy(vertices[k].value, row, sizeof row);
+                for (int c = 0; c < 4; c++)
+                    bytes[k][c] = (uint8_t)(n + 85 * c);
+            }
+            lom_draw_desc desc = draw_of(&values, vertices, 3);
+            desc.attribute[1].kind = (lom_attribute_kind)kind;
+            if (kind == LOM_ATTRIBUTE_UNORM8X4)
+                desc.attribute[1] = (lom_attribute){ bytes, sizeof bytes, 4, LOM_ATTRIBUTE_UNORM8X4 };
+            begin(&s, (lom_pass_desc){ .clear_color = { { -2, -2, -2, -2 } } });
+            lom_draw(s.device, &desc);
+            finish(&s);
+            for (int c = 0; c < 4; c++) {
+                float expected = kind == LOM_ATTRIBUTE_UNORM8X4  ? (float)bytes[0][c] / 255.0f
+                                 : c < kind - LOM_ATTRIBUTE_NONE ? row[c]
+                                                                 : (float)(c == 3);
+                CHECK(floats_at(&s, 9, 20)[c] == expected, "kind %d, channel %d: %g, not %g", kind, c,
+                      (double)floats_at(&s, 9, 20)[c], (double)expected);
+            }
+        }
+    close_stage(&s);
+}
+
 int main(int argc, char **argv)
 {
     RUN(a2_constants_stay_constant);
@@ -191,5 +224,6 @@ int main(int argc, char **argv)
     RUN(a4_flat_values_are_the_last_vertex_s);
     RUN(a5_far_ends_of_long_edges_keep_the_bound);
     RUN(a6_helpers_outside_the_triangle_stay_finite);
+    RUN(kinds_are_their_numbers);
     return check_result();
 }

@@ -1,5 +1,6 @@
 /* Proves blending at this width (B3, B6, B7): into 8-bit unorm every sum is the exact rational rounded once; many faint
- * layers follow the same rule layer by layer; NaN and colours above their alpha have stated results. */
+ * layers follow the same rule layer by layer; NaN and colours above their alpha have stated results; and every equation
+ * of two factors and an operation is its definition. */
 #include "stage.h"
 
 enum { SIZE = 256 };
@@ -150,11 +151,92 @@ static void b7_colours_above_their_alpha_saturate(void)
     close_stage(&s);
 }
 
+/* ---- every equation ---- */
+
+enum { SMALL = 32 };
+
+/* Whole steps of 1 / 255, 0 and 255 among them: x and y are 8 times a pixel's place. */
+static void show_steps(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    lom_float x = 8.0f * (in->x - 0.5f), y = 8.0f * (in->y - 0.5f);
+    out->color[0] = (lom_float4){ x / 255.0f, (255.0f - x) / 255.0f, y / 255.0f, (255.0f - 0.5f * (x + y)) / 255.0f };
+}
+
+LOM_SHADER(steps, place, show_steps, .attributes = 1, .reads_position = true, .colors = 1)
+
+static double factor_of(lom_factor factor, const double from[4], const double onto[4], int c)
+{
+    const double factors[] = { 0,           1,       from[c],     1 - from[c], from[3],
+                               1 - from[3], onto[c], 1 - onto[c], onto[3],     1 - onto[3] };
+    return factors[factor];
+}
+
+/* S F op D G of channel c. */
+static double equation(const lom_blend *how, const double from[4], const double onto[4], int c)
+{
+    double s = from[c], d = onto[c];
+    lom_blend_operation operation = c < 3 ? how->color_operation : how->alpha_operation;
+    double f = factor_of(c < 3 ? how->source_color : how->source_alpha, from, onto, c);
+    double g = factor_of(c < 3 ? how->target_color : how->target_alpha, from, onto, c);
+    const double results[] = { s * f + d * g, s * f - d * g, d * g - s * f, s < d ? s : d, s > d ? s : d };
+    return results[operation];
+}
+
+static void check_equation(stage *s, const lom_blend *how, const float clear[4])
+{
+    lom_draw_desc desc = draw_of(&steps, whole, 3);
+    lom_pass_desc pass = { .clear_color = { { clear[0], clear[1], clear[2], clear[3] } } };
+    bool bytes = s->color != NULL && lom_texture_format(s->color) == LOM_FORMAT_RGBA8;
+    desc.blend[0] = *how;
+    begin(s, pass);
+    lom_draw(s->device, &desc);
+    finish(s);
+    for (int p = 0; p < SMALL * SMALL; p++) {
+        double x = 8 * (p % SMALL), y = 8 * (p / SMALL);
+        const double from[4] = { x / 255, 1 - x / 255, y / 255, 1 - 0.5 * (x + y) / 255 };
+        const double onto[4] = { (double)clear[0], (double)clear[1], (double)clear[2], (double)clear[3] };
+        for (int c = 0; c < 4; c++) {
+            double exact = equation(how, from, onto, c), bounded = exact < 0 ? 0 : exact > 1 ? 1 : exact;
+            double got = bytes ? bytes_at(s, p % SMALL, p / SMALL)[c] : (double)floats_at(s, p % SMALL, p / SMALL)[c];
+            bool right = bytes ? got == (double)(int)(255 * bounded + 0.5) : got - exact < 4e-7 && exact - got < 4e-7;
+            CHECK(right, "color %d * %d op %d, alpha %d * %d op %d, pixel %d, channel %d: %g, not %g",
+                  how->source_color, how->target_color, how->color_operation, how->source_alpha, how->target_alpha,
+                  how->alpha_operation, p, c, got, bytes ? 255 * bounded : exact);
+        }
+    }
+}
+
+/* Every pair of factors with every operation, for colours and, others at the same time, for alpha: into 8 bits the exact
+ * rational rounded once (never a tie, since 255^2 is odd), limited to 0..1; into floats the same within their rounding. */
+static void every_equation_is_its_definition(void)
+{
+    static const float clears[2][4] = { { 1, 0, 77.0f / 255, 200.0f / 255 },
+                                        { 3.0f / 255, 128.0f / 255, 1, 10.0f / 255 } };
+    static const lom_format formats[2] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA32F };
+    for (int f = 0; f < 2; f++) {
+        stage s = open_stage((lom_device_desc){ .threads = 1 }, SMALL, SMALL, formats[f], LOM_FORMAT_NONE);
+        for (int n = 0; n < 10 * 10 * 5; n++) {
+            lom_blend how = { .enabled = true,
+                              .source_color = (lom_factor)(n % 10),
+                              .target_color = (lom_factor)(n / 10 % 10),
+                              .color_operation = (lom_blend_operation)(n / 100) };
+            int alpha = n % 3 == 0 ? n : 499 - n;
+            how.source_alpha = (lom_factor)(alpha % 10);
+            how.target_alpha = (lom_factor)(alpha / 10 % 10);
+            how.alpha_operation = (lom_blend_operation)(alpha / 100);
+            check_equation(&s, &how, clears[n % 2]);
+        }
+        close_stage(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     RUN(b3_source_over_is_the_rounded_rational);
     RUN(b3_faint_layers_drift_within_their_bound);
     RUN(b6_nan_is_never_stored);
     RUN(b7_colours_above_their_alpha_saturate);
+    RUN(every_equation_is_its_definition);
     return check_result();
 }

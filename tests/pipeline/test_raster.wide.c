@@ -500,6 +500,70 @@ static void a_repeated_triangle_has_equal_depths(void)
     close_stage(&s);
 }
 
+/* ---- strips and fans in one draw ---- */
+
+enum { MOST_INDICES = 400 };
+
+/* Pieces of 0 to 6 vertices out of `count`, one or two restarts between them, as words and, where they fit, as halves.
+ * Returns how many indices there are. */
+static size_t put_pieces(uint32_t *words, uint16_t *halves, int64_t count)
+{
+    size_t used = 0;
+    while (used < MOST_INDICES - 10) {
+        for (int64_t left = random_whole(0, 6); left > 0; left--)
+            words[used++] = (uint32_t)random_whole(0, count - 1);
+        for (int64_t left = random_whole(1, 2); left > 0; left--)
+            words[used++] = UINT32_MAX;
+    }
+    for (size_t i = 0; i < used; i++)
+        halves[i] = (uint16_t)words[i];
+    return used;
+}
+
+/* The largest index begins a new strip or fan: one draw of many pieces is a draw for each, whatever their lengths,
+ * where chunks end and however scattered the vertices are. */
+static void restarts_begin_new_pieces(void)
+{
+    static uint32_t words[MOST_INDICES];
+    static uint16_t halves[MOST_INDICES];
+    stage s =
+        open_stage((lom_device_desc){ .threads = 1, .chunk = 16 }, SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_NONE);
+    for (int round = 0; round < 48; round++) {
+        size_t scattered = round % 3 == 0 ? 20 : 60000, used;
+        lom_image *pieces = NULL;
+        make_scene(scattered / 3 + 1);
+        used = put_pieces(words, halves, (int64_t)scattered);
+        lom_draw_desc desc = draw_of(&values, vertices, sizeof vertices / sizeof vertices[0]);
+        desc.topology = round % 2 == 0 ? LOM_TRIANGLE_STRIP : LOM_TRIANGLE_FAN;
+        desc.restart = true;
+        desc.index_bits = round / 2 % 2 == 0 ? 16 : 32;
+        desc.indices = desc.index_bits == 16 ? (const void *)halves : words;
+        desc.base_vertex = round % 5;
+        for (int whole = 0; whole < 2; whole++) {
+            begin(&s, (lom_pass_desc){ .clear_color = { { -2, -2, -2, -2 } } });
+            for (size_t i = 0; i < used; i += desc.count + !whole) {
+                desc.first = i;
+                desc.count = whole ? used : 0;
+                while (!whole && i + desc.count < used && words[i + desc.count] != UINT32_MAX)
+                    desc.count++;
+                lom_draw(s.device, &desc);
+            }
+            finish(&s);
+            CHECK(whole == 0 || same_images(s.image, pieces), "round %d, %d bits", round, desc.index_bits);
+            int drawn = 0;
+            for (int p = 0; p < SIZE * SIZE; p++)
+                drawn += floats_at(&s, p % SIZE, p / SIZE)[0] != -2;
+            CHECK(drawn > SIZE, "round %d: %d pixels", round, drawn);
+            if (!whole) {
+                pieces = s.image;
+                s.image = NULL;
+            }
+        }
+        lom_free_image(pieces);
+    }
+    close_stage(&s);
+}
+
 int main(int argc, char **argv)
 {
     RUN(arbitrary_positions_snap_as_documented);
@@ -516,5 +580,6 @@ int main(int argc, char **argv)
     RUN(ties_snap_to_even);
     RUN(tiny_coordinates_are_zero);
     RUN(a_repeated_triangle_has_equal_depths);
+    RUN(restarts_begin_new_pieces);
     return check_result();
 }
