@@ -1,6 +1,7 @@
 /* Proves what the public functions do with descriptors and objects that are not as they should be: NULL is the zero
  * descriptor; a NULL device is one that has failed; an attachment of another device, a draw of vertices that do not
- * exist, and a number that is NaN or out of its range are errors with a sentence. */
+ * exist, a shader, draw, pass or device that cannot be, and a number that is NaN or out of its range are errors with a
+ * sentence. */
 #include "check.h"
 
 #include <lom/lom.h>
@@ -169,13 +170,16 @@ static void paint(lom_fragment *out, const lom_varyings *in, const void *uniform
 
 LOM_SHADER(plain, place, paint, .attributes = 1, .colors = 1)
 
+/* Draws one triangle with the shader of the descriptor, or else the plain one. */
 static bool draw(lom_draw_desc desc, lom_error *error)
 {
     static const float corners[3][4] = { { -1, -1, 0.5f, 1 }, { 1, -1, 0.5f, 1 }, { 0, 1, 0.5f, 1 } };
     lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
     lom_texture *target = lom_make_texture(device, &(lom_texture_desc){ .width = 8, .height = 8 });
-    desc.shader = &plain;
-    desc.attribute[0] = (lom_attribute){ corners, sizeof corners, 16, LOM_ATTRIBUTE_FLOAT4 };
+    if (desc.shader == NULL)
+        desc.shader = &plain;
+    if (desc.attribute[0].kind == LOM_ATTRIBUTE_NONE)
+        desc.attribute[0] = (lom_attribute){ corners, sizeof corners, 16, LOM_ATTRIBUTE_FLOAT4 };
     lom_begin_pass(device, &(lom_pass_desc){ .color = { target } });
     lom_draw(device, &desc);
     bool done = lom_end_pass(device);
@@ -200,6 +204,103 @@ static void vertices_that_are_drawn_exist(void)
           error.text);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         CHECK(!draw(wrong[i], &error) && is_sentence(&error), "wrong draw %zu: \"%s\"", i, error.text);
+}
+
+static void draws_are_what_a_draw_can_be(void)
+{
+    static const uint32_t indices[3] = { 0, 1, 2 };
+    const lom_draw_desc wrong[] = { { .count = 3, .indices = indices, .index_bits = 8 },
+                                    { .count = 3, .indices = indices, .index_bits = -32 },
+                                    { .count = 3, .instances = -1 },
+                                    { .count = 3, .topology = LOM_TRIANGLE_FAN + 1 },
+                                    { .count = 3, .topology = -1 },
+                                    { .count = 3, .depth_bias = __builtin_inff() },
+                                    { .count = 3, .depth_bias_slope = __builtin_nanf("") },
+                                    { .count = (size_t)1 << 32, .indices = indices },
+                                    { .count = 3, .first = (size_t)1 << 32, .indices = indices },
+                                    { .count = 3, .attribute[0] = { NULL, 0, 0, -1 } },
+                                    { .count = 3, .attribute[0] = { NULL, 0, 0, LOM_ATTRIBUTE_UNORM8X4 + 1 } } };
+    lom_error error;
+    CHECK(draw((lom_draw_desc){ .count = 3, .indices = indices, .index_bits = 32 }, &error), "%s", error.text);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        CHECK(!draw(wrong[i], &error) && is_sentence(&error), "wrong draw %zu: \"%s\"", i, error.text);
+}
+
+static void shaders_declare_what_a_shader_may_have(void)
+{
+    static const struct {
+        int attributes, varyings, clips, culls, colors;
+        uint32_t reads, differentiates;
+        size_t uniforms_size;
+    } wrong[] = { { .attributes = -1 },
+                  { .attributes = LOM_MAX_ATTRIBUTES + 1 },
+                  { .varyings = -1 },
+                  { .varyings = LOM_MAX_VARYINGS + 1 },
+                  { .clips = -1 },
+                  { .culls = -1 },
+                  { .clips = LOM_MAX_DISTANCES, .culls = 1 },
+                  { .colors = -1 },
+                  { .colors = LOM_MAX_COLORS + 1 },
+                  { .varyings = 2, .reads = 1, .differentiates = 2 },
+                  { .uniforms_size = 4 } };
+    lom_error error;
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        lom_shader shader = plain;
+        shader.attributes = wrong[i].attributes;
+        shader.varyings = wrong[i].varyings;
+        shader.clip_distances = wrong[i].clips;
+        shader.cull_distances = wrong[i].culls;
+        shader.colors = wrong[i].colors;
+        shader.reads = wrong[i].reads;
+        shader.differentiates = wrong[i].differentiates;
+        shader.uniforms_size = wrong[i].uniforms_size;
+        CHECK(!draw((lom_draw_desc){ .count = 3, .shader = &shader }, &error) && is_sentence(&error),
+              "wrong shader %zu: \"%s\"", i, error.text);
+    }
+    lom_shader nothing = plain;
+    memset(nothing.vertex, 0, sizeof nothing.vertex);
+    CHECK(!draw((lom_draw_desc){ .count = 3, .shader = &nothing }, &error) && strstr(error.text, "no width") != NULL,
+          "\"%s\"", error.text);
+}
+
+/* A pass begins outside any other and ends once; draws belong into one. */
+static void passes_do_not_nest(void)
+{
+    static const char *const says[] = { "inside another", "outside a pass", "not begun", "different sizes" };
+    for (int wrong = 0; wrong < 4; wrong++) {
+        lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+        lom_texture *target = lom_make_texture(device, &(lom_texture_desc){ .width = 8, .height = 8 });
+        lom_texture *other = lom_make_texture(device, &(lom_texture_desc){ .width = 8, .height = 9 });
+        const lom_pass_desc pass = { .color = { target } }, two = { .color = { target, other } };
+        lom_begin_pass(device, &pass);
+        CHECK(lom_end_pass(device), "%s", lom_device_error(device)->text);
+        if (wrong == 0) {
+            lom_begin_pass(device, &pass);
+            lom_begin_pass(device, &pass);
+        }
+        if (wrong == 1)
+            lom_draw(device, &(lom_draw_desc){ .shader = &plain });
+        if (wrong == 3)
+            lom_begin_pass(device, &two);
+        CHECK(!lom_end_pass(device) && is_sentence(lom_device_error(device)) &&
+                  strstr(lom_device_error(device)->text, says[wrong]) != NULL,
+              "%d: \"%s\"", wrong, lom_device_error(device)->text);
+        lom_close_device(device);
+    }
+}
+
+static void devices_out_of_range_are_refused(void)
+{
+    static const lom_device_desc wrong[] = { { .threads = -1 }, { .threads = 257 }, { .lanes = 5 },     { .lanes = -4 },
+                                             { .lanes = 32 },   { .tile = 8 },      { .tile = 128 },    { .tile = 48 },
+                                             { .chunk = 15 },   { .chunk = -1 },    { .chunk = 65537 }, { .batch = -1 },
+                                             { .batch = 1025 } };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        lom_device *device = lom_open_device(&wrong[i]);
+        CHECK(is_sentence(lom_device_error(device)), "wrong device %zu: \"%s\"", i, lom_device_error(device)->text);
+        CHECK(lom_make_texture(device, &(lom_texture_desc){ .width = 1, .height = 1 }) == NULL, "it makes textures");
+        lom_close_device(device);
+    }
 }
 
 /* ---- numbers ---- */
@@ -327,6 +428,10 @@ int main(int argc, char **argv)
     RUN(textures_belong_to_their_device);
     RUN(textures_are_updated_by_their_device);
     RUN(vertices_that_are_drawn_exist);
+    RUN(draws_are_what_a_draw_can_be);
+    RUN(shaders_declare_what_a_shader_may_have);
+    RUN(passes_do_not_nest);
+    RUN(devices_out_of_range_are_refused);
     RUN(numbers_out_of_range_are_refused);
     return check_result();
 }
