@@ -73,11 +73,6 @@ double lom_cloud_phase_at(const lom_clouds *params, double time);
 bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error);
 /* The same of one cloud; *swept is increased when it was made again. */
 bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error);
-/* Optical depth through all clouds but one (-1: none left out) from a place towards the light, by `steps` steps a
- * cloud. */
-double lom_clouds_depth(const struct lom_cloud_set *set, const double from[3], const double to_light[3], long except,
-                        int steps);
-
 /* blue_noise.c: a table of size x size numbers (i + 1/2) / size^2, each once, whose neighbours differ: void and cluster
  * (Ulichney 1993). NULL on failure; freed with lom_release. */
 float *lom_make_blue_noise(int size, uint64_t seed, lom_error *error);

@@ -51,16 +51,6 @@ static double depth_of(const struct lom_placed_cloud *cloud, const double from[3
     return sum / 65535 * step * cloud->cloud->extinction * cloud->cloud->density;
 }
 
-double lom_clouds_depth(const struct lom_cloud_set *set, const double from[3], const double to_light[3], long except,
-                        int steps)
-{
-    double sum = 0;
-    for (size_t i = 0; i < set->count; i++)
-        if ((long)i != except)
-            sum += depth_of(&set->clouds[i], from, to_light, steps);
-    return sum;
-}
-
 static double radius_of(const struct lom_placed_cloud *cloud)
 {
     const double *size = cloud->cloud->size;

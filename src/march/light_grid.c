@@ -44,13 +44,11 @@ static double erode(const float eroded[256], double density)
     return eroded[below] + ((double)eroded[below + 1] - eroded[below]) * (density * 255 - below);
 }
 
-/* The voxels of the image that voxel i of n covers: at least one. */
+/* The voxels of the image that voxel i of n covers: at least one, since n <= size. */
 static void find_span(int i, int n, int size, int *first, int *last)
 {
     *first = (int)((int64_t)i * size / n);
     *last = (int)((int64_t)(i + 1) * size / n);
-    if (*last <= *first)
-        *last = *first + 1;
 }
 
 static void average_density(lom_light_grid *grid, const lom_image *image, const float eroded[256])
