@@ -5,15 +5,20 @@
 
 #include <lom/render.h>
 
+#include <math.h>
+
 enum { WIDTH = 120, HEIGHT = 75 };
 
-#define THINGS_UNDER(light)                                                                                            \
+#define THINGS_ON(light, ground)                                                                                       \
     "[camera]\nposition = [0, 4, 17]\npitch = -12\nnear = 0.2\n"                                                       \
     "[light]\n" light "[terrain]\nheight_map = \"heights.png\"\nsize = [40, 40]\nheight = 4\n"                         \
-    "base = -1\ntexture = \"texels.png\"\ntile = 9\n[terrain.material]\nspecular = [0.4, 0.4, 0.4]\nshininess = 12\n"  \
+    "base = -1\ntexture = \"texels.png\"\ntile = 9\n" ground                                                           \
+    "[terrain.material]\nspecular = [0.4, 0.4, 0.4]\nshininess = 12\n"                                                 \
     "[[terrain.layer]]\nmap = \"texels.png\"\ntile = 30\nfrom_height = 1\nblend = 1\n"                                 \
     "[[entity]]\nmesh = \"quad.obj\"\nposition = [-4, 1.2, 4]\nrotation = [0, 30, 10]\n"                               \
     "[[entity]]\nmesh = \"quad.obj\"\nposition = [3.6, 0.3, 6]\nscale = [1, 2, 1]\non_ground = true\n"
+
+#define THINGS_UNDER(light) THINGS_ON(light, "")
 
 #define THINGS THINGS_UNDER("azimuth = 160\nelevation = 35\n")
 
@@ -72,6 +77,20 @@ static void opaque_scenes_are_the_pipelines(void)
 {
     double psnr = agreement(EXACT THINGS, 1);
     CHECK(psnr > 75, "%.1f dB", psnr);
+}
+
+/* Ground with all that it can have: small colours and normals laid over it, a layer from three sides, grains of one that
+ * show the brightness of what lies below. */
+static void ground_of_many_pictures_is_the_pipelines(void)
+{
+    double psnr = agreement(EXACT THINGS_ON("azimuth = 160\nelevation = 35\n",
+                                            "detail_map = \"texels.png\"\ndetail_tile = 2.5\nnormal_map = "
+                                            "\"texels.png\"\n") "[[terrain.layer]]\nmap = \"texels.png\"\ntile = "
+                                                                "3\nmapping = \"triplanar\"\nfrom_slope = 8\n"
+                                                                "slope_blend = 4\ngrain = 0.6\n",
+                            1);
+    CHECK(psnr > 60, "%.1f dB", psnr);
+    CHECK(fabs(psnr - agreement(EXACT THINGS, 1)) > 0.01, "the pictures show nothing");
 }
 
 /* Shadows have hard edges in the one and edges of a texel in the other; everywhere else they are the same. */
@@ -189,6 +208,7 @@ int main(int argc, char **argv)
         return 1;
     }
     RUN(opaque_scenes_are_the_pipelines);
+    RUN(ground_of_many_pictures_is_the_pipelines);
     RUN(shadows_fall_where_the_references_do);
     RUN(the_planar_reflection_is_the_mirrored_scene);
     RUN(threads_and_crops_change_no_byte);
