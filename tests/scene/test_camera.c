@@ -207,6 +207,12 @@ static void entities_follow_their_keys(void)
     CHECK(distance(place.position, (lom_vec3){ 20, 20, 30 }) < 1e-12, "x %g", place.position.x);
     CHECK(distance(place.rotation, (lom_vec3){ 10 * PI / 180, PI / 2, 20 * PI / 180 }) < 1e-12, "y %g",
           place.rotation.y);
+    for (double t = -3; t < 9; t += 4) {
+        place = lom_scene_entity_at(&scene->entities[0], t);
+        CHECK(distance(place.position, scene->entities[0].position) == 0 &&
+                  distance(place.rotation, scene->entities[0].rotation) == 0,
+              "one without keys stands still");
+    }
     place = lom_scene_entity_at(&scene->entities[1], 9);
     CHECK(distance(place.position, (lom_vec3){ 30, 20, 30 }) == 0, "after the last key");
     lom_free_scene(scene);

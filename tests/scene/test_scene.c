@@ -282,8 +282,42 @@ static void contradictions(void)
           "lake.toml:6:6: another entity has this name already." },
         { "[terrain]\nheight_map='a'\nlayer=[{map='a',from_height=2,to_height=1}]", NULL,
           "lake.toml:3:29: \"from_height\" must not be above \"to_height\"." },
+        { "[terrain]\nheight_map='a'\nlayer=[{map='a',from_slope=20,to_slope=10}]", NULL,
+          "lake.toml:3:28: \"from_slope\" must not be above \"to_slope\"." },
+        { "[terrain]\nheight_map='a'\nlayer=[{map=''}]", NULL, "lake.toml:3:13: a layer needs a map." },
+        { "[[entity]]\nmesh='a'\n[[entity.key]]\ntime=2\n[[entity.key]]\ntime=1", NULL,
+          "lake.toml:6:6: the times of keys must rise, by a millionth of a second or more." },
+        { "[[light.key]]\ntime=2\n[[light.key]]\ntime=2", NULL,
+          "lake.toml:4:6: the times of keys must rise, by a millionth of a second or more." },
+        { "[[cloud]]\nvoxels=[8,8.5,8]", NULL, "lake.toml:2:8: \"voxels\" must be made of whole numbers." },
+        { "[surf]\nheight=1", NULL, "lake.toml:2:8: waves come in to a shore: there is no terrain." },
+        { "[shallow]", NULL, "lake.toml:1:2: shallow water is the surface of [water], which there is not." },
+        { "[water]\n[shallow]\n[[shallow.body]]\nhalf=1", NULL,
+          "lake.toml:3:11: a body needs a position or an entity." },
+        { "[water]\n[shallow]\n[[shallow.body]]\nentity='boat'", NULL, "lake.toml:4:8: no entity has this name." },
+        { "[water]\n[shallow]\n[[shallow.body]]\nposition=[0,0]\nduration=2\nevery=1", NULL,
+          "lake.toml:6:7: it dips in again after its duration, which is above 0." },
+        { "[water]\n[shallow]\n[[shallow.body]]\nposition=[0,0]\nevery=1", NULL,
+          "lake.toml:5:7: it dips in again after its duration, which is above 0." },
     };
     WRONG(cases);
+    static const struct {
+        const char *element, *says;
+    } lists[] = { { "{position=[0,0],rate=1}", "lake.toml:3:8: there are at most 64 springs." },
+                  { "{position=[0,0]}", "lake.toml:3:6: there are at most 64 bodies." } };
+    for (int i = 0; i < 2; i++)
+        for (int count = 64; count <= 65; count++) {
+            char text[3000];
+            lom_error error = { 0 };
+            size_t used = (size_t)snprintf(text, sizeof text, "[water]\n[shallow]\n%s=[", i == 0 ? "spring" : "body");
+            for (int k = 0; k < count; k++)
+                used += (size_t)snprintf(text + used, sizeof text - used, "%s,", lists[i].element);
+            snprintf(text + used, sizeof text - used, "]");
+            lom_scene *scene = lom_decode_scene(text, strlen(text), "lake.toml", NULL, 0, &error);
+            CHECK((scene != NULL) == (count == 64) && (count == 64 || strcmp(error.text, lists[i].says) == 0), "%d: %s",
+                  count, error.text);
+            lom_free_scene(scene);
+        }
 }
 
 /* As many entities as there may be, each with a name, and one more. */
@@ -353,6 +387,12 @@ static void wrong_overrides(void)
           "--set camera.position=[1,2,3] 4: the line must end here; a new key or table starts on its own line." },
         { "", "title.x=1", "--set title.x=1: \"title\" must be a string, not a table." },
         { "title='x'", "title.x=1", "--set title.x=1: \"x\" cannot be a key of a string." },
+        { "title='x'", "title.x.y=1", "--set title.x.y=1: \"x\" cannot be a key of a string." },
+        { "",
+          "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
+          "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a=1",
+          "--set a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
+          "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a=1: a key has at most 64 parts." },
         { full, "entity.boot.visible=false",
           "--set entity.boot.visible=false: nothing here is named \"boot\" (did you mean \"boat\"?)" },
         { full, "entity.2.visible=false",

@@ -433,6 +433,34 @@ static void a_calm_sea_is_flat(void)
     lom_close_device(device);
 }
 
+/* Levels of Beaufort's scale: 0.836 B^(3/2) m/s, and found by their names. */
+static void wind_levels_are_beauforts(void)
+{
+    CHECK(lom_wind_level_count() == 13, "%d", lom_wind_level_count());
+    CHECK(lom_wind_level_at(-1) == NULL && lom_wind_level_at(13) == NULL, "outside");
+    for (int i = 0; i < 13; i++) {
+        const lom_wind_level *level = lom_wind_level_at(i);
+        double speed = 0.836 * lom_double_pow(i, 1.5);
+        CHECK(level->beaufort == i && absolute(level->speed - speed) < 1e-3, "%s: %g, not %g", level->name,
+              level->speed, speed);
+        CHECK(lom_find_wind_level(level->name, NULL) == level && strlen(level->effect) > 5, "%s", level->name);
+    }
+    lom_error error = { 0 };
+    CHECK(lom_find_wind_level("hurricanne", &error) == NULL && strstr(error.text, "did you mean \"hurricane\"") != NULL,
+          "%s", error.text);
+}
+
+/* Waves of length l and shorter ones are damped by exp(-(k l / (2 pi))^2), and nothing else of the spectrum changes. */
+static void short_waves_are_damped(void)
+{
+    lom_wave_spectrum whole = spectrum_of((lom_sea_desc){ .wind_speed = 12 });
+    lom_wave_spectrum damped = spectrum_of((lom_sea_desc){ .wind_speed = 12, .shortest_wave = 3 });
+    for (double k = 0.01; k < 10; k *= 1.5) {
+        double part = k * 3 / (2 * pi), expected = lom_spectrum_at(&whole, k) * lom_double_exp(-part * part);
+        CHECK(absolute(lom_spectrum_at(&damped, k) - expected) <= 1e-12 * expected, "at k = %g", k);
+    }
+}
+
 static void bad_descriptions_are_refused(void)
 {
     double nan = __builtin_nan(""), infinite = __builtin_inf();
@@ -447,6 +475,8 @@ static void bad_descriptions_are_refused(void)
                                  { .gravity = -9 },
                                  { .wind_level = "breezy" },
                                  { .spectrum = (lom_spectrum_kind)9 },
+                                 { .spreading = (lom_spreading_kind)9 },
+                                 { .spreading = (lom_spreading_kind)-1 },
                                  { .cascade_count = 9 },
                                  { .cascade = { { .size = 100 } } },
                                  { .cascade = { { .size = 1 << 20 } } },
@@ -462,6 +492,10 @@ static void bad_descriptions_are_refused(void)
     lom_sea *sea = lom_create_sea(&small_sea, device, NULL);
     CHECK(!lom_advance_sea(sea, device, nan, NULL) && !lom_advance_sea(sea, device, 1e10, NULL), "time");
     CHECK(!lom_advance_cascade(sea, device, 2, LOM_SEA_ALL, 0, NULL), "cascade 2 of 2");
+    CHECK(lom_view_cascade(sea, 2).waves == 0 && lom_view_cascade(sea, -1).waves == 0, "a view of cascade 2 of 2");
+    CHECK(!lom_advance_cascade(sea, device, 0, 0, 0, NULL) &&
+              !lom_advance_cascade(sea, device, 0, LOM_SEA_ALL + 1, 0, NULL),
+          "fields that are none");
     CHECK(lom_freeze_sea(sea, nan, NULL) == NULL, "frozen at no time");
     lom_free_sea(sea);
     lom_close_device(device);
@@ -489,6 +523,8 @@ int main(int argc, char **argv)
     RUN(nothing_in_a_scene_is_nothing);
     RUN(w3_folds_have_a_negative_jacobian);
     RUN(a_calm_sea_is_flat);
+    RUN(wind_levels_are_beauforts);
+    RUN(short_waves_are_damped);
     RUN(bad_descriptions_are_refused);
     return check_result();
 }
