@@ -111,7 +111,7 @@ cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
 # A lesson is docs/lessons/NAME/NAME.c: a program, and contained in lom under another name than main.
 lesson_sources := $(foreach folder,$(wildcard docs/lessons/*/),$(wildcard $(folder)$(notdir $(folder:/=)).c))
-lessons        := $(lesson_sources:%.c=$(BUILD)/%)
+lessons        := $(lesson_sources:%.c=$(BUILD)/%) $(BUILD)/docs/lessons/mistakes/gallery
 lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o)
 
 # How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
@@ -345,7 +345,7 @@ bench-sampling: $(foreach v,4 8 16,$(BUILD)/bench/sampling.w$(v))
 	for program in $^; do $$program || exit 1; done
 
 format:
-	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch] docs/lessons/*/*.c)
+	clang-format -i $(wildcard include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch] docs/lessons/*/*.[ch])
 
 # The installed library: header files, both libraries, the program, pkg-config's file, the compiler of shaders and the lessons.
 INSTALL_BIN = $(DESTDIR)$(PREFIX)/bin

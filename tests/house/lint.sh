@@ -10,7 +10,7 @@ have() { command -v "$1" >/dev/null 2>&1 || { echo "lint: $1 is not installed, s
 tests/house/layers.sh || status=1
 BUILD=$BUILD tests/house/conversions.sh || status=1
 
-sources=$(ls include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch] docs/lessons/*/*.c)
+sources=$(ls include/lom/*.h src/*/*.[ch] src/*/*/*.[ch] tests/*.h tests/*/*.[ch] docs/lessons/*/*.[ch])
 if have clang-format "the format"; then
     clang-format --dry-run -Werror $sources 2>"$BUILD/format.log" || {
         grep -o '^[^:]*' "$BUILD/format.log" | sort -u | grep '^[a-z]*/' | sed 's/$/: not formatted; run make format/'; status=1; }

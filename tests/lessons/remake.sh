@@ -1,6 +1,7 @@
 #!/bin/sh
 # Draws the lessons again: prints src/cli/lesson_answers.h, the one table of the hashes of their pictures and answers;
-# with --write puts it and the pictures beside the programs in place (then build lom again). The programs have to be
+# with --write puts it and the pictures beside the programs in place (then build lom again), and makes the pictures and the
+# table of the gallery of mistakes. The programs have to be
 # built: make && make build/tests/lessons/test_answers and the lessons, or make check.
 cd "$(dirname "$0")/../.." || exit 1
 BUILD=${BUILD:-build}
@@ -36,5 +37,10 @@ compiler=$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags")
         [ -z "$KEEP" ] || cp "$folder/changed.png" "$KEEP/$name-$exercise.png"
     done <"$folder/changes"
 } >"$folder/table" || exit 1
-[ "$1" != --write ] || cp "$folder/table" src/cli/lesson_answers.h
+if [ "$1" = --write ]; then
+    cp "$folder/table" src/cli/lesson_answers.h
+    gallery=$BUILD/docs/lessons/mistakes/gallery text=docs/lessons/mistakes/README.md
+    "$gallery" docs/lessons/mistakes >&2 && sed '/^| right | wrong |/,$d' $text >"$folder/text" && "$gallery" >>"$folder/text" || exit 1
+    cp "$folder/text" $text
+fi
 cat "$folder/table"

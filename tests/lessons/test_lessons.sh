@@ -41,6 +41,18 @@ cmp -s "$folder/table" src/cli/lesson_answers.h || why="the table is another one
 result the_table_of_lessons_is_remade_alike "$why"
 
 why=
+mkdir "$folder/gallery"
+"$BUILD/docs/lessons/mistakes/gallery" "$folder/gallery" || why="the gallery cannot be drawn"
+for drawn in "$folder"/gallery/*.png; do
+    cmp -s "$drawn" "docs/lessons/mistakes/$(basename "$drawn")" || why="docs/lessons/mistakes/$(basename "$drawn") is another picture"
+done
+[ "$(ls "$folder"/gallery/*.png | wc -l)" -eq "$(ls docs/lessons/mistakes/*.png | wc -l)" ] || why="there are pictures of no mistake"
+"$BUILD/docs/lessons/mistakes/gallery" >"$folder/rows"
+sed -n '/^| right | wrong |/,$p' docs/lessons/mistakes/README.md | cmp -s - "$folder/rows" || why="docs/lessons/mistakes/README.md has another table"
+"$BUILD/docs/lessons/mistakes/gallery" no/such/folder 2>"$folder/err" && why="a folder that is not there is no failure"
+result the_gallery_of_mistakes_is_drawn "$why"
+
+why=
 "$BUILD/tests/lessons/test_answers" --right >"$folder/right"
 [ "$(wc -l <"$folder/right")" -ge 10 ] || why='there are few answers'
 while read -r name exercise answer; do
