@@ -2,12 +2,14 @@
 # Proves that a scene is the same picture, within 2 of 255, wherever in the world it lies and whatever its scale: scenes
 # of every kind are moved by 2^10 .. 2^27 m along each axis together with their camera, and drawn a thousand times
 # smaller and larger with it. A picture of one colour, or equal to that of an empty scene, would prove nothing and fails.
+# Gravity is 9.81 m/s^2 at every scale, so what moves by it is scaled as Froude did: times and speeds go with the root of
+# lengths. The sea's wind has a range, 0.1 to 100 m/s, which leaves it a hundred times smaller and larger.
 . "$(dirname "$0")/render.sh"
 scene=$folder/places.toml
 pool_heights
 
-# A scene is written with places {p X Y Z}, of which {y Y} and {xz X Z} are parts, lengths {l A B ...} and what is per
-# length {per A}: at the move (metres an axis) and the scale these become numbers.
+# A scene is written with places {p X Y Z}, of which {y Y} and {xz X Z} are parts, lengths {l A B ...}, what is per
+# length {per A}, times and speeds {t A B ...}: at the move (metres an axis) and the scale these become numbers.
 at_move_and_scale() {
     awk -v s="$scale" -v m="$move" 'BEGIN { split(m, by, " ") }
     function number(x) { return sprintf("%.15g", x) }
@@ -17,7 +19,7 @@ at_move_and_scale() {
         if (kind == "xz") return "[" number(a[2] * s + by[1]) ", " number(a[3] * s + by[3]) "]"
         if (kind == "y") return number(a[2] * s + by[2])
         if (kind == "per") return number(a[2] / s)
-        for (i = 2; i <= n; i++) text = text (i > 2 ? ", " : "") number(a[i] * s)
+        for (i = 2; i <= n; i++) text = text (i > 2 ? ", " : "") number(a[i] * (kind == "t" ? sqrt(s) : s))
         return text
     }
     { while (match($0, /[{][^}]*[}]/))
@@ -45,9 +47,10 @@ water() { # model, waves
         "{y 0.3}" "{xz 0 0}" "{l 60 60}" "{l 3}" "{l 1}"
     printf 'waves.kind = "%s"\nwaves.height = %s\nwaves.length = [%s]\nwaves.count = 6\nwaves.patch = %s\n' \
         "$2" "{l 0.05}" "{l 4 1}" "{l 16}"
-    printf 'waves.size = 64\nwaves.cascades = 2\nwaves.wind_speed = 3\n'
-    printf 'optics.absorption = [%s, %s, %s]\nfoam.amount = 1\nfoam.tile = %s\nfoam.shore_depth = %s\n' \
-        "{per 0.4}" "{per 0.1}" "{per 0.08}" "{l 2}" "{l 0.09}"
+    printf 'waves.size = 64\nwaves.cascades = 2\nwaves.wind_speed = %s\nwaves.fetch = %s\nwaves.speed = %s\n' \
+        "{t 3}" "{l 100000}" "{t 0.6}"
+    printf 'optics.absorption = [%s, %s, %s]\nfoam.amount = 1\nfoam.tile = %s\nfoam.shore_depth = %s\nfoam.window = %s\n' \
+        "{per 0.4}" "{per 0.1}" "{per 0.08}" "{l 2}" "{l 0.09}" "{t 1}"
     printf '[quality]\nwater = "%s"\nentity_shadows = 256\n' "$1"
 }
 
@@ -75,15 +78,17 @@ write_water() { camera "{p 1 3 12}" 3 -12; sky 35; houses; water "$model" "$wave
 write_clouds() {
     camera "{p 1 30 120}" 3 2
     sky 50
-    printf '[[cloud]]\nposition = %s\nsize = [%s]\nseed = 3\n' "{p 0 60 -60}" "{l 100 40 90}"
+    printf '[[cloud]]\nposition = %s\nsize = [%s]\nseed = 3\nextinction = %s\ndetail_size = %s\n' \
+        "{p 0 60 -60}" "{l 100 40 90}" "{per 0.2}" "{l 80}"
     water tinted gerstner
+    printf 'impostors = "%s"\n' "$impostors"
 }
 write_spray() {
     camera "{p 0 2 9}" 0 -5
     sky 35
-    printf '[[spray]]\nname = "drops"\ncount = 300\nfrom = %s\nto = %s\nvelocity = [0, 4, 0]\nspread = 1\n' \
-        "{p -1 0 0}" "{p 1 0 0}"
-    printf 'size = [0.1, 0.3]\nopacity = 0.8\n'
+    printf '[[spray]]\nname = "drops"\ncount = 300\nfrom = %s\nto = %s\nvelocity = [%s]\nspread = %s\n' \
+        "{p -1 0 0}" "{p 1 0 0}" "{t 0 4 0}" "{t 1}"
+    printf 'life = %s\nsize = [%s]\nsoft = %s\nstretch = %s\nopacity = 0.8\n' "{t 2}" "{l 0.1 0.3}" "{l 0.3}" "{t 0.02}"
 }
 
 draw() { # picture
@@ -109,43 +114,46 @@ moves() { # name, axes that it moves along (0 or 1 each)
         same "$1_moved_by_2_to_the_$power"
     done
 }
-scales() { # name
+scales() { # name, scales
     spared=2 # edges that fall through a pixel's centre
-    for by in 1e-3 0.1 10 1e3; do
+    for by in $2; do
         scale=$by move='0 0 0'
         same "$1_at_scale_$by"
     done
 }
-try() { # name, axes, whether it is scaled
+try() { # name, axes, scales
     scale=1 move='0 0 0'
     draw "$folder/here.png" || { verdict "$1" "it is not drawn: $(head -n 1 "$folder/log")"; return; }
     "$lom" render "$scene" -o "$folder/checked.png" --check --threads 1 --quiet >"$folder/log" 2>&1 ||
         verdict "$1" "$(head -n 1 "$folder/log")"
     moves "$1" "$2"
-    [ "$3" = 0 ] || scales "$1"
+    scales "$1" "$3"
 }
 
+all='1e-3 0.1 10 1e3'
 for kind in entities flat gouraud follow; do
-    try $kind '1 1 1' 1
+    try $kind '1 1 1' "$all"
 done
 kind=terrain
-try terrain '0 1 0' 1
+try terrain '0 1 0' "$all"
 kind=pool
 for model in planar marched; do
-    try "pool_$model" '0 1 0' 1
+    try "pool_$model" '0 1 0' "$all"
 done
 kind=water waves=gerstner
 for model in tinted planar normal_map displaced marched; do
-    try "water_$model" '1 1 1' 1
+    try "water_$model" '1 1 1' "$all"
 done
-model=displaced
-for waves in sea flow; do # gravity has a scale
-    try "water_$waves" '1 1 1' 0
-done
+model=displaced waves=flow
+try water_flow '1 1 1' "$all"
+waves=sea
+try water_sea '1 1 1' '1e-2 0.1 10 100'
 kind=clouds
-try clouds '1 1 1' 0
+for impostors in off reference bounded; do
+    try "clouds_impostors_$impostors" '1 1 1' "$all"
+done
 kind=spray
-try spray '1 1 1' 0
+try spray '1 1 1' "$all"
 
 # Planar water over no bed has no shore to fade at, however near the near plane is.
 for near in 1 1e-2 1e-5; do
