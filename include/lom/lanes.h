@@ -677,6 +677,16 @@ LOM_INLINE lom_float4 lom_transform4(const lom_matrix_uniform *m, lom_float3 p)
     return q;
 }
 
+/* m (v, 0): how m (p, 1) changes when p moves by v. */
+LOM_INLINE lom_float4 lom_turn4(const lom_matrix_uniform *m, lom_float3 v)
+{
+    lom_float4 q = { v.x * m->m[0][0] + v.y * m->m[0][1] + v.z * m->m[0][2],
+                     v.x * m->m[1][0] + v.y * m->m[1][1] + v.z * m->m[1][2],
+                     v.x * m->m[2][0] + v.y * m->m[2][1] + v.z * m->m[2][2],
+                     v.x * m->m[3][0] + v.y * m->m[3][1] + v.z * m->m[3][2] };
+    return q;
+}
+
 /* The upper three rows of m (p, 1): a place, m affine. */
 LOM_INLINE lom_float3 lom_transform3(const lom_matrix_uniform *m, lom_float3 p)
 {

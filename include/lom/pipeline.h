@@ -61,7 +61,7 @@ void lom_release_texture(lom_device *device, lom_texture *texture);
 
 /* Work done since the device was opened: what is not needed must show as zero here. */
 typedef struct lom_counters {
-    uint64_t passes, draws, vertices, triangles; /* triangles submitted */
+    uint64_t passes, draws, vertices, triangles; /* triangles and sprites submitted */
     uint64_t triangles_clipped;                  /* cut by near, far or the guard band */
     uint64_t triangles_binned; /* left after culling, with at least one pixel centre possibly inside */
     uint64_t fragments;        /* that passed the early depth test, or reached a shader */
@@ -94,6 +94,7 @@ typedef struct lom_vertex {
     lom_float4 position; /* clip space */
     lom_float varying[LOM_MAX_VARYINGS];
     lom_float distance[LOM_MAX_DISTANCES]; /* clip distances first, then cull distances */
+    lom_float4 axis[2]; /* only with sprites; clip space, what to add to the position for half a side */
 } lom_vertex;
 
 /* What a fragment shader gets: LOM_LANES fragments of one triangle or of several, in submission order. Lanes that are
@@ -110,6 +111,8 @@ typedef struct lom_varyings {
      * differences of the triangle's vertices: df/dx = dx[0] delta[0][f] + dx[1] delta[1][f]. */
     lom_float dx[2], dy[2];
     lom_float delta[2][LOM_MAX_VARYINGS];
+    lom_float st[2];        /* only with sprites: where on the sprite, -1 to 1 along its axes; dx and dy are theirs */
+    lom_float target_depth; /* only with reads_depth: what the attachment holds at the pixel */
 } lom_varyings;
 
 /* What it gives. discard is clear and depth is z when the shader starts. */
@@ -138,6 +141,9 @@ typedef struct lom_shader {
     bool quads; /* general derivatives: packets of whole 2x2 quads aligned to even frame coordinates */
     int colors; /* outputs written */
     size_t uniforms_size;
+    bool sprites;     /* for LOM_SPRITES */
+    bool round;       /* of sprites: covers s^2 + t^2 < 1 alone */
+    bool reads_depth; /* target_depth; in passes with depth, in draws that write none */
 } lom_shader;
 
 /* Analytic derivative of varying v along window x (right) and y (down); v in differentiates. */
@@ -155,6 +161,14 @@ LOM_INLINE lom_float lom_dy(const lom_varyings *in, int v)
 LOM_INLINE lom_float lom_lod(const lom_texture *texture, const lom_varyings *in, int s, int t)
 {
     return lom_lod_of(texture, lom_dx(in, s), lom_dx(in, t), lom_dy(in, s), lom_dy(in, t));
+}
+
+/* Level of detail of a texture of which a sprite shows `width` x `height`, in texture coordinates: s + width st[0] / 2,
+ * t + height st[1] / 2. */
+LOM_INLINE lom_float lom_sprite_lod(const lom_texture *texture, const lom_varyings *in, float width, float height)
+{
+    const float s = 0.5f * width, t = 0.5f * height;
+    return lom_lod_of(texture, in->dx[0] * s, in->dx[1] * t, in->dy[0] * s, in->dy[1] * t);
 }
 
 /* Differences of any value within each 2x2 quad (right minus left, lower minus upper); only in shaders with quads. */
@@ -298,7 +312,15 @@ bool lom_end_pass(lom_device *device);
 
 /* ---- draws ---- */
 
-typedef enum lom_topology { LOM_TRIANGLES = 0, LOM_TRIANGLE_STRIP, LOM_TRIANGLE_FAN } lom_topology;
+/* LOM_SPRITES: a parallelogram a vertex, for what faces the eye: particles, icons, glyphs. Its middle m is the vertex'
+ * window position, snapped to 1/256 of a pixel as those of triangles are; its half sides a and b are the images of
+ * axis[0] and axis[1] by the derivative of the projection at the middle, in pixels. A pixel centre p = m + s a + t b is
+ * covered where -1 <= s, t < 1, less than a pixel from m - |a| - |b| to m + |a| + |b| along x and y. With D = a.x b.y - a.y b.x, in float and in this order, s = (p.x - m.x) (b.y / D) +
+ * (p.y - m.y) (-b.x / D), t = (p.x - m.x) (-a.y / D) + (p.y - m.y) (a.x / D). Depth and all varyings are the vertex'
+ * own. Nothing is clipped: a vertex that lies outside near, far, the guard band or a clip or cull distance is not
+ * drawn, nor is a sprite with |D| below 2^-16 or half sides above 2^16 pixels. Facing, culling and depth bias do not
+ * apply. */
+typedef enum lom_topology { LOM_TRIANGLES = 0, LOM_TRIANGLE_STRIP, LOM_TRIANGLE_FAN, LOM_SPRITES } lom_topology;
 
 typedef enum lom_attribute_kind {
     LOM_ATTRIBUTE_NONE = 0,

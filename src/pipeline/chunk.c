@@ -286,12 +286,17 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->triangles_clipped = 0;
     chunk->any_code = 0;
     chunk->tile_count = 0;
-    chunk->failed = !choose_vertices(chunk) || !lom_reserve_rows(chunk, chunk->vertex_count);
+    bool sprites = chunk->draw->desc.topology == LOM_SPRITES;
+    chunk->failed = !(sprites ? lom_choose_sprites(chunk) : choose_vertices(chunk)) ||
+                    !lom_reserve_rows(chunk, chunk->vertex_count);
     if (chunk->failed)
         return;
     chunk->row_count = chunk->vertex_count;
     lom_stages_of(chunk->draw->variant)->shade_vertices(pass, chunk);
-    assemble(pass, chunk);
+    if (sprites)
+        lom_set_up_sprites(pass, chunk);
+    else
+        assemble(pass, chunk);
     if (!chunk->failed)
         lom_bin_chunk(pass, chunk);
 }

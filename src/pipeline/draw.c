@@ -44,13 +44,33 @@ static bool check_shader(lom_device *device, const lom_draw_desc *desc)
     return true;
 }
 
+/* What sprites and their shaders must agree on, and what a shader that reads the target's depth needs. */
+static bool check_sprites(lom_device *device, const lom_draw_desc *desc)
+{
+    const lom_shader *s = desc->shader;
+    bool sprites = desc->topology == LOM_SPRITES, depth = device->pass.depth != NULL;
+    if (sprites != s->sprites)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s is %s, but its draw is of %s.", s->name,
+                        s->sprites ? "for sprites" : "not for sprites", sprites ? "sprites" : "triangles");
+    if (sprites && s->differentiates != 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "Shader %s differentiates a varying, but those of sprites are the same at every pixel.",
+                        s->name);
+    if (sprites && (desc->depth_bias != 0 || desc->depth_bias_slope != 0))
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of sprites has a depth bias (%s).", s->name);
+    if (s->reads_depth && (!depth || !(desc->depth_test_off || desc->depth_write_off) || s->writes_depth))
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s reads the target's depth, %s.", s->name,
+                        depth ? "which its draw would write" : "but the pass has none");
+    return true;
+}
+
 static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
 {
     const char *name = desc->shader->name;
     if (desc->index_bits != 0 && desc->index_bits != 16 && desc->index_bits != 32)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Indices have 16 or 32 bits, not %d (a draw of %s).",
                         desc->index_bits, name);
-    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_TRIANGLE_FAN)
+    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_SPRITES)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "A draw of %s has a topology or an instance count that is none.", name);
     if (!__builtin_isfinite(desc->depth_bias) || !__builtin_isfinite(desc->depth_bias_slope))
@@ -88,6 +108,8 @@ static int choose_shader_variant(const lom_device *device, const lom_shader *sha
 
 static size_t count_triangles(const lom_draw_desc *desc)
 {
+    if (desc->topology == LOM_SPRITES)
+        return desc->count;
     if (desc->topology == LOM_TRIANGLES)
         return desc->count / 3;
     return desc->count < 3 ? 0 : desc->count - 2;
@@ -107,6 +129,17 @@ static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
     return true;
 }
 
+/* The usual blending of colours that are multiplied by their alpha, into a target that holds what it is given. */
+static bool lays_over(const struct lom_pass *pass, const lom_draw_desc *desc)
+{
+    const lom_blend *b = &desc->blend[0];
+    return pass->colors == 1 && desc->shader->colors >= 1 && pass->color[0].kind == COLOR_FLOAT &&
+           lom_describe_format(pass->color[0].format)->bits == 32 && desc->mask_off[0] == 0 && b->enabled &&
+           b->source_color == LOM_FACTOR_ONE && b->target_color == LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA &&
+           b->source_alpha == LOM_FACTOR_ONE && b->target_alpha == LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA &&
+           b->color_operation == LOM_BLEND_ADD && b->alpha_operation == LOM_BLEND_ADD;
+}
+
 static void derive(const struct lom_pass *pass, struct lom_draw *draw)
 {
     lom_draw_desc *desc = &draw->desc;
@@ -118,7 +151,8 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     draw->triangles = count_triangles(desc);
     draw->distances = shader->clip_distances + shader->cull_distances;
     draw->distance_offset = ROW_HEADER + ((shader->varyings + 3) & ~3);
-    draw->row_floats = draw->distance_offset + ((draw->distances + 3) & ~3);
+    draw->axis_offset = draw->distance_offset + ((draw->distances + 3) & ~3);
+    draw->row_floats = draw->axis_offset + (shader->sprites ? 4 : 0);
     bool depth = pass->depth != NULL && !desc->depth_test_off;
     draw->compare = !depth                                       ? LOM_COMPARE_ALWAYS
                     : desc->depth_compare == LOM_COMPARE_DEFAULT ? LOM_COMPARE_GREATER
@@ -129,8 +163,10 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     draw->blends = false;
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
+    draw->lays_over = lays_over(pass, desc);
     draw->constant = shader->fragment[draw->variant] != NULL && shader->reads == 0 && !shader->reads_position &&
-                     !shader->discards && !shader->writes_depth && !shader->quads;
+                     !shader->discards && !shader->writes_depth && !shader->quads && !shader->sprites &&
+                     !shader->reads_depth;
     draw->queues_depth = shader->reads_position || draw->late_depth;
     draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
 }
@@ -138,7 +174,8 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
-    if (!check_shader(device, desc) || !check_geometry(device, desc) || !check_vertices(device, desc))
+    if (!check_shader(device, desc) || !check_geometry(device, desc) || !check_sprites(device, desc) ||
+        !check_vertices(device, desc))
         return false;
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");

@@ -54,19 +54,6 @@ static __attribute__((noinline)) void offset_depth(const struct lom_tile *tile, 
     *z = lom_narrow(sum);
 }
 
-/* Early depth test and write of a part; the lanes that pass. */
-LOM_INLINE lom_mask test_depth(struct lom_tile *tile, int place, lom_mask covered, lom_float z)
-{
-    const struct lom_draw *draw = tile->draw;
-    int32_t *memory = (int32_t *)tile->depth + place;
-    lom_float stored = lom_as_float(lom_load_block(memory, tile));
-    lom_float units = lom_depth_units(tile->pass, z);
-    lom_mask passed = covered & lom_compare_depth(draw->compare, units, stored);
-    if (draw->depth_write)
-        lom_store_block(memory, tile, lom_as_int(lom_select(passed, units, stored)));
-    return passed;
-}
-
 void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_mask *mask, const lom_float l[3],
                         bool alone)
 {
@@ -84,7 +71,7 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
         z = moved;
     }
     if (tile->tests_early)
-        covered = test_depth(tile, at->base + tile->offset[at->part * LOM_LANES], covered, z);
+        covered = lom_test_depth(tile, at->base + tile->offset[at->part * LOM_LANES], covered, z);
     uint32_t bits = lom_bits(covered);
     if (bits == 0)
         return;

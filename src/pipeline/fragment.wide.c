@@ -198,12 +198,17 @@ static lom_mask late_depth(struct lom_tile *tile, const struct lom_places *place
 
 /* Fragments of one packet may lie at one pixel; they land in lane order, which is submission order. What reads the
  * target (blending, late depth) goes in rounds of different pixels. */
-static void write_in_order(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, bool uniform,
-                           const lom_fragment *out)
+void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *shaded,
+                                  bool apart, const lom_fragment *out)
 {
+    lom_mask mask = *shaded;
     const struct lom_draw *draw = tile->draw;
     bool late = draw->late_depth && tile->depth != NULL;
-    bool rounds = (late || draw->blends) && !uniform;
+    bool rounds = (late || draw->blends) && !apart;
+    if (!late && !rounds) {
+        LOM_WIDE(lom_write_packet)(tile, places, &mask, out->color);
+        return;
+    }
     while (lom_any(mask)) {
         lom_mask round = rounds ? first_at_pixels(tile, places->pixel, mask) : mask;
         mask &= ~round;
@@ -232,11 +237,14 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
         if (shader->reads_position)
             find_position(tile, packet, &p, &in);
     }
+    if (shader->reads_depth)
+        in.target_depth = lom_depth_of_units(
+            tile->pass, lom_as_float(lom_load_places((const int32_t *)tile->depth, tile, &packet->places)));
     in.covered = packet->covered;
     out.depth = packet->depth;
     out.discard = (lom_mask){ 0 };
     shader->fragment[draw->variant](&out, &in, draw->uniforms);
     tile->packets++;
     lom_mask mask = shader->discards ? in.covered & ~out.discard : in.covered;
-    write_in_order(tile, &packet->places, mask, packet->triangles == 1, &out);
+    LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
 }

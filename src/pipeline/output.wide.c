@@ -123,7 +123,7 @@ static void write_srgb8(struct lom_tile *tile, const struct lom_places *places, 
     lom_store_places(memory, tile, places, mask, (pack(code) & ~kept) | (old & kept));
 }
 
-/* A float as the attachment's format holds it; finite, as textures want it. */
+/* A finite float as the attachment's format holds it. */
 static lom_float round_to_format(lom_format format, lom_float x)
 {
     lom_float number = lom_select(x == x, x, (lom_float){ 0 }), bound = lom_splat(0x1p123f);
@@ -158,6 +158,10 @@ static void write_float(struct lom_tile *tile, const struct lom_places *places, 
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
                                 const lom_float4 *color)
 {
+    if (tile->draw->lays_over) {
+        lom_lay_over(tile, places, *mask, color);
+        return;
+    }
     static void (*const write[])(struct lom_tile *, const struct lom_places *, lom_mask, const lom_float *, int) = {
         [COLOR_UNORM8] = write_unorm8, [COLOR_SRGB8] = write_srgb8, [COLOR_FLOAT] = write_float
     };

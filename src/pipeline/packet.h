@@ -38,6 +38,12 @@ void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *fragment
 void LOM_WIDE(lom_drain_list)(struct lom_tile *tile);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
+/* The lanes of mask, whose fragments are shaded, through the late depth test and the output stage, in lane order;
+ * `apart`: they are different pixels. */
+void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
+                                  bool apart, const lom_fragment *out);
+/* Draws a list of sprites (raster_sprites.wide.c). */
+void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, size_t count);
 /* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
                                 const lom_float4 *color);
@@ -98,6 +104,12 @@ LOM_INLINE lom_float lom_depth_units(const struct lom_pass *pass, lom_float z)
     return pass->depth_scale == 0 ? z : lom_to_float(lom_unorm_of_lanes(z, (float)pass->depth_scale));
 }
 
+/* A stored depth as the attachment's texture reads it. */
+LOM_INLINE lom_float lom_depth_of_units(const struct lom_pass *pass, lom_float units)
+{
+    return pass->depth_scale == 0 ? units : units / (float)pass->depth_scale;
+}
+
 LOM_INLINE lom_mask lom_compare_depth(lom_compare compare, lom_float z, lom_float stored)
 {
     switch (compare) {
@@ -117,6 +129,42 @@ LOM_INLINE lom_mask lom_compare_depth(lom_compare compare, lom_float z, lom_floa
         return lom_splat_int(-1);
     default:
         return z > stored;
+    }
+}
+
+/* Early depth test and write of a part of a window, which begins at `place` in tile memory; the lanes that pass. */
+LOM_INLINE lom_mask lom_test_depth(struct lom_tile *tile, int place, lom_mask covered, lom_float z)
+{
+    const struct lom_draw *draw = tile->draw;
+    int32_t *memory = (int32_t *)tile->depth + place;
+    lom_float stored = lom_as_float(lom_load_block(memory, tile));
+    lom_float units = lom_depth_units(tile->pass, z);
+    lom_mask passed = covered & lom_compare_depth(draw->compare, units, stored);
+    if (draw->depth_write)
+        lom_store_block(memory, tile, lom_as_int(lom_select(passed, units, stored)));
+    return passed;
+}
+
+/* Finite, as textures want it. */
+LOM_INLINE lom_float lom_make_finite(lom_float x)
+{
+    lom_float number = lom_select(x == x, x, (lom_float){ 0 }), bound = lom_splat(0x1p123f);
+    return lom_clamp(number, -bound, bound);
+}
+
+/* What the output stage does for draw->lays_over. */
+LOM_INLINE void lom_lay_over(struct lom_tile *tile, const struct lom_places *places, lom_mask mask,
+                             const lom_float4 *color)
+{
+    const lom_float channels[4] = { color->x, color->y, color->z, color->w }, rest = 1.0f - color->w;
+    int32_t *memory = tile->color[0];
+    for (int c = 0; c < 4; c++, memory += tile->edge * tile->edge) {
+        lom_int target = lom_load_places(memory, tile, places);
+        lom_int result = lom_as_int(lom_make_finite(channels[c] + lom_as_float(target) * rest));
+        if (places->block)
+            lom_store_block(memory + places->pixel[0], tile, lom_select_int(mask, result, target));
+        else
+            lom_store_places(memory, tile, places, mask, result);
     }
 }
 

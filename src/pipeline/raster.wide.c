@@ -214,6 +214,8 @@ static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t n
     case TRIANGLE_LARGE:
         LOM_WIDE(lom_raster_large)(tile, t, number);
         break;
+    case TRIANGLE_SPRITE: /* never here */
+        break;
     }
 }
 
@@ -229,6 +231,10 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
     size_t folded = tile->is_whole ? LOM_WIDE(lom_fold)(tile, list, count) : 0;
     if (tile->is_whole && folded < count)
         lom_load_whole_tile(tile);
+    if (draw->desc.topology == LOM_SPRITES) {
+        LOM_WIDE(lom_raster_sprites)(tile, list, count);
+        return;
+    }
     for (size_t i = folded; i < count; i++) {
         const lom_triangle *t = &chunk->triangles[list[i]];
         __builtin_prefetch(&chunk->triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]]);

@@ -193,7 +193,7 @@ static void resolve_floats(const struct lom_pass *pass, int i, const struct part
     }
 }
 
-/* A depth attachment that no draw of the pass tests or writes ends as it began. */
+/* A depth attachment that no draw of the pass writes ends as it began. */
 static void resolve_depth(const struct lom_pass *pass, const struct part *p, const uint8_t *memory)
 {
     struct lom_rectangle r = depth_rectangle(pass, p);
@@ -207,7 +207,7 @@ void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *me
 {
     struct part p = part_of(pass, number);
     if (pass->depth != NULL)
-        resolve_depth(pass, &p, pass->uses_depth ? memory : NULL);
+        resolve_depth(pass, &p, pass->writes_depth ? memory : NULL);
     if (pass->uses_depth)
         memory += tile_pixels(pass) * 4;
     for (int i = 0; i < pass->colors; i++) {

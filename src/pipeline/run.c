@@ -225,13 +225,19 @@ static void find_paint(lom_device *device, struct lom_draw *draw)
     device->counters.packets++;
 }
 
+static void note_depth(struct lom_pass *pass, const struct lom_draw *draw)
+{
+    pass->writes_depth |= draw->depth_write;
+    pass->uses_depth |= draw->depth_write || draw->compare != LOM_COMPARE_ALWAYS || draw->desc.shader->reads_depth;
+}
+
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
     pass->chunks = device->chunks;
     pass->chunk_count = 0;
     for (size_t i = 0; i < pass->draw_count; i++)
-        pass->uses_depth |= device->draws[i].compare != LOM_COMPARE_ALWAYS || device->draws[i].depth_write;
+        note_depth(pass, &device->draws[i]);
     if (!lay_tile_memory(device))
         return false;
     for (size_t i = 0; i < pass->draw_count; i++) {

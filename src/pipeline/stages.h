@@ -43,7 +43,8 @@ enum {
 typedef enum lom_triangle_kind {
     TRIANGLE_WINDOW = 0, /* fits an even-aligned 4x4 window inside one tile; mask holds its pixels */
     TRIANGLE_SMALL,      /* edge functions fit int32 */
-    TRIANGLE_LARGE       /* edge functions in 64 bits, rebased for each tile */
+    TRIANGLE_LARGE,      /* edge functions in 64 bits, rebased for each tile */
+    TRIANGLE_SPRITE      /* a parallelogram about vertex 0: the steps are those of s and t, a pixel right and down */
 } lom_triangle_kind;
 
 /* A triangle after set-up, 16 words (four rows of four, written and read by lanes). Its vertices are in the order of
@@ -57,7 +58,7 @@ typedef struct lom_triangle {
         struct { /* else: twice the area, edge functions 1 and 2 at pixel (left & ~1, top & ~1) */
             int32_t area, start[2];
         } small;
-        struct { /* TRIANGLE_LARGE: the last pixel, inclusive */
+        struct { /* TRIANGLE_LARGE, TRIANGLE_SPRITE: the last pixel, inclusive */
             int32_t right, bottom, unused;
         } large;
     };
@@ -89,6 +90,7 @@ static inline struct lom_bounds lom_bounds_of(const lom_triangle *t)
     int left = (int)(t->first & 0xffff), top = (int)(t->first >> 16);
     switch (lom_kind_of(t)) {
     case TRIANGLE_LARGE:
+    case TRIANGLE_SPRITE:
         return (struct lom_bounds){ left, top, t->large.right, t->large.bottom };
     case TRIANGLE_SMALL:
         return (struct lom_bounds){ left, top, left + (int)(t->state & 255), top + (int)(t->state >> 8 & 255) };
@@ -117,9 +119,11 @@ struct lom_draw {
     int row_floats; /* of a vertex row: header, varyings, distances, padded to 4 */
     int distance_offset;
     int distances;       /* clip + cull */
-    size_t triangles;    /* of one instance */
+    int axis_offset;     /* of a sprite's half sides in its row: x and y of the one, of the other, in pixels, y down */
+    size_t triangles;    /* or sprites, of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool depth_write, late_depth, blends, constant, biased;
+    bool lays_over;         /* the one colour, in floats: source + target (1 - source alpha) in all channels */
     bool queues_depth;      /* the fragment stage needs the depth */
     struct lom_paint paint; /* with `constant`, once the pass runs */
 };
@@ -235,7 +239,7 @@ struct lom_pass {
     lom_texture *depth;
     double depth_scale;                           /* 65535, 16777215, or 0 for float depth */
     float clear_depth;                            /* in tile units */
-    bool uses_depth;                              /* a draw tests or writes depth */
+    bool uses_depth, writes_depth;                /* a draw tests, reads or writes depth; one writes it */
     bool one_by_one;                              /* small triangles are drawn by themselves, for tests */
     bool streams;                                 /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
@@ -317,6 +321,9 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
 enum { LOM_MAX_FAN = 10 };
 int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
                       uint32_t fan[LOM_MAX_FAN][3]);
+/* Stages 1 and 3 of a chunk of sprites: which vertices it needs; a record for each that may cover a pixel centre. */
+bool lom_choose_sprites(struct lom_chunk *chunk);
+void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk);
 /* Stage 4: sorts the chunk's triangles into its bins. */
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 

@@ -171,6 +171,22 @@ static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, flo
                                        vertex->distance[i + 3] });
 }
 
+/* A sprite's half sides in pixels, y down: the derivative of x / w along an axis is (axis.x - (x / w) axis.w) / w. */
+static void write_axes(const struct lom_pass *pass, const struct lom_draw *draw, const lom_vertex *vertex, float *row,
+                       lom_int at, lom_int codes)
+{
+    struct lom_projection f = lom_projection_of(pass);
+    lom_mask inside = (codes & (CODE_CLIP | CODE_INVALID)) == 0;
+    lom_float w = lom_select(inside, vertex->position.w, lom_splat(1.0f)), side[4];
+    lom_float x = vertex->position.x / w, y = vertex->position.y / w;
+    for (int i = 0; i < 2; i++) {
+        const lom_float4 *axis = &vertex->axis[i];
+        side[2 * i] = (axis->x - x * axis->w) / w * (f.x_scale / SUBPIXELS);
+        side[2 * i + 1] = (axis->y - y * axis->w) / w * (f.y_scale / SUBPIXELS);
+    }
+    lom_scatter_rows(row + draw->axis_offset, at, (lom_float4){ side[0], side[1], side[2], side[3] });
+}
+
 static void write_codes(struct lom_chunk *chunk, size_t first, lom_int codes)
 {
     if (!lom_any(codes != 0)) {
@@ -196,6 +212,8 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
             row + ROW_HEADER + v, at,
             (lom_float4){ vertex->varying[v], vertex->varying[v + 1], vertex->varying[v + 2], vertex->varying[v + 3] });
     write_distances(draw, vertex, row, at, &codes);
+    if (draw->desc.topology == LOM_SPRITES)
+        write_axes(pass, draw, vertex, row, at, codes);
     write_codes(chunk, first, codes);
 }
 

@@ -24,9 +24,7 @@ struct lom_spray_uniforms {
     struct lom_light_uniform light;
     struct lom_haze_uniform haze;
     float near_plane;
-    float origin[2];          /* the frame's pixel that the depth's pixel (0, 0) is */
-    const lom_texture *depth; /* of the scene; reversed, infinite */
-    const float *sprites;     /* of struct lom_sprite */
+    const float *sprites; /* of struct lom_sprite */
 };
 
 /* The same picture for two passes: what the drops add, laid over the frame. */

@@ -39,16 +39,6 @@ static bool move_drops(struct frame *f, const struct lom_spray_view *view, struc
     return true;
 }
 
-/* Two triangles a sprite, the farthest sprite first. */
-static void set_indices(struct lom_drawn_spray *m, const struct lom_sprites *sprites)
-{
-    static const uint32_t corners[6] = { 0, 1, 2, 2, 1, 3 };
-    lom_order_particles(sprites->depth, sprites->count, m->order, m->indices);
-    for (size_t i = 0; i < sprites->count; i++)
-        for (size_t k = 0; k < 6; k++)
-            m->indices[6 * i + k] = 4 * m->order[i] + corners[k];
-}
-
 static int pixel(double ndc, int size, int margin)
 {
     double at = lom_double_floor((0.5 + 0.5 * ndc) * size) + margin;
@@ -71,8 +61,6 @@ static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct
     struct lom_spray_uniforms u = { .light = lom_renderer_light(r, view->eye),
                                     .haze = lom_scene_haze(f->scene, view->eye.y, false),
                                     .near_plane = (float)view->near_plane,
-                                    .origin = { (float)f->crop.x, (float)f->crop.y },
-                                    .depth = r->targets.of[LOM_TARGET_DEPTH],
                                     .sprites = r->spray.sprites[0].middle };
     lom_mat4 clip = lom_clip_from_offset(&view->projection, &view->view);
     u.clip_from_offset = lom_round_matrix(&clip);
@@ -89,16 +77,17 @@ static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, con
     step->width = f->crop.width;
     step->height = f->crop.height;
     step->scissor = reach;
-    set_indices(&r->spray, sprites);
+    lom_order_particles(sprites->depth, sprites->count, r->spray.order, r->spray.scratch);
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_SPRAY]);
-    pass.depth = NULL;
+    pass.depth_load = LOM_LOAD_KEEP;
     pass.scissor = reach;
     const lom_draw_desc draw = { .shader = &lom_spray_shader,
                                  .uniforms = &u,
-                                 .indices = r->spray.indices,
-                                 .count = 6 * sprites->count,
-                                 .vertex_count = 4 * sprites->count,
-                                 .depth_test_off = true,
+                                 .indices = r->spray.order,
+                                 .count = sprites->count,
+                                 .vertex_count = sprites->count,
+                                 .topology = LOM_SPRITES,
+                                 .depth_write_off = true,
                                  .blend = { lom_blend_over } };
     if (!lom_draw_pass(r->device, &pass, &draw, 1))
         return false;

@@ -28,8 +28,8 @@ bool lom_load_spray(lom_renderer *renderer, lom_error *error)
     m->sprites = lom_allocate(m->capacity, sizeof *m->sprites, error);
     m->depth = lom_allocate(m->capacity, sizeof *m->depth, error);
     m->order = lom_allocate(m->capacity, sizeof *m->order, error);
-    m->indices = lom_allocate(m->capacity, 6 * sizeof *m->indices, error); /* the order's scratch, too */
-    return m->particles != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->indices != NULL;
+    m->scratch = lom_allocate(m->capacity, sizeof *m->scratch, error);
+    return m->particles != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
 }
 
 void lom_free_spray(lom_renderer *renderer)
@@ -39,5 +39,5 @@ void lom_free_spray(lom_renderer *renderer)
     lom_release(m->sprites);
     lom_release(m->depth);
     lom_release(m->order);
-    lom_release(m->indices);
+    lom_release(m->scratch);
 }

@@ -14,7 +14,7 @@ struct lom_drawn_spray {
     lom_particle *particles;
     struct lom_sprite *sprites;
     float *depth;
-    uint32_t *order, *indices;
+    uint32_t *order, *scratch;
 };
 
 bool lom_load_spray(lom_renderer *renderer, lom_error *error);

@@ -1,0 +1,132 @@
+/* Stages 5 and 6 of 7 for sprites. In: the sprites of a tile, in order. Out: their fragments, shaded, on to the output
+ * stage: a window's part at a time, without the queue, since what all fragments of a sprite share is found once for it.
+ *
+ * Invariant: s and t at a pixel are fl(fl(dx ds/dx) + fl(dy ds/dy)) of its exact distance to the middle, whatever tile
+ * or part of a window it lies in. */
+#include "pipeline/window.h"
+
+enum { AHEAD = 4 };
+
+/* A sprite over one tile. */
+struct sprite {
+    const lom_triangle *record;
+    struct lom_bounds bounds;
+    float x, y;               /* of the centre of the tile's first pixel, from the middle; pixels, exact */
+    lom_float x_away[PARTS];  /* of the lanes of the strip's first window */
+    lom_float down[PARTS][2]; /* along a strip of windows: what its rows add to s and t */
+    struct lom_varyings in;
+};
+
+/* The guard band keeps the difference below 2^24 units. */
+static float centre(int pixel, int origin, int32_t middle)
+{
+    return (float)((pixel - origin) * SUBPIXELS + SUBPIXELS / 2 - middle) * (1.0f / SUBPIXELS);
+}
+
+static void begin_sprite(const struct lom_tile *tile, const lom_triangle *t, struct sprite *sprite)
+{
+    const lom_shader *shader = tile->draw->desc.shader;
+    const float *row = tile->chunk->rows + t->row[0];
+    lom_varyings *in = &sprite->in;
+    int32_t middle[2];
+    memcpy(middle, row, sizeof middle);
+    sprite->record = t;
+    sprite->bounds = lom_bounds_of(t);
+    sprite->x = centre(tile->x, tile->pass->viewport.x, middle[0]);
+    sprite->y = centre(tile->y, tile->pass->viewport.y, middle[1]);
+    for (int part = 0; part < PARTS; part++)
+        sprite->x_away[part] = lom_to_float(lane_x(part)) + sprite->x;
+    for (uint32_t reads = shader->reads & ((UINT32_C(1) << shader->varyings) - 1); reads != 0; reads &= reads - 1) {
+        int v = __builtin_ctz(reads);
+        in->varying[v] = lom_splat(row[ROW_HEADER + v]);
+    }
+    in->z = lom_splat(t->depth[0]);
+    in->w = 1.0f / lom_splat(row[3]);
+    in->front = lom_splat_int(-1);
+    in->dx[0] = lom_splat(t->step_x1);
+    in->dy[0] = lom_splat(t->step_y1);
+    in->dx[1] = lom_splat(t->step_x2);
+    in->dy[1] = lom_splat(t->step_y2);
+}
+
+static void begin_strip(struct sprite *sprite, int y)
+{
+    for (int part = 0; part < PARTS; part++) {
+        lom_float y_away = lom_to_float(lane_y(part)) + (sprite->y + (float)y);
+        sprite->down[part][0] = y_away * sprite->record->step_y1;
+        sprite->down[part][1] = y_away * sprite->record->step_y2;
+    }
+}
+
+static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part, int place)
+{
+    const struct lom_draw *draw = tile->draw;
+    const lom_shader *shader = draw->desc.shader;
+    lom_varyings *in = &sprite->in;
+    struct lom_places places;
+    lom_fragment out;
+    places.block = true;
+    places.pixel[0] = place;
+    if (shader->reads_position) {
+        in->x = lom_to_float(lane_x(part) + (tile->x + x)) + 0.5f;
+        in->y = lom_to_float(lane_y(part) + (tile->y + y)) + 0.5f;
+    }
+    if (shader->reads_depth)
+        in->target_depth =
+            lom_depth_of_units(tile->pass, lom_as_float(lom_load_block((const int32_t *)tile->depth + place, tile)));
+    out.depth = in->z;
+    out.discard = (lom_mask){ 0 };
+    shader->fragment[draw->variant](&out, in, draw->uniforms);
+    tile->packets++;
+    lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
+    if (draw->late_depth)
+        LOM_WIDE(lom_write_in_order)(tile, &places, &mask, true, &out);
+    else if (draw->lays_over)
+        lom_lay_over(tile, &places, mask, out.color);
+    else
+        LOM_WIDE(lom_write_packet)(tile, &places, &mask, out.color);
+}
+
+/* The window at (x, y) of the tile. */
+static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, int y, bool round, bool shades)
+{
+    const lom_triangle *t = sprite->record;
+    bool cut = t->state >> TRIANGLE_CUT & 1;
+    for (int part = 0; part < PARTS; part++) {
+        lom_float x_away = sprite->x_away[part] + (float)x;
+        lom_float p = x_away * t->step_x1 + sprite->down[part][0], q = x_away * t->step_x2 + sprite->down[part][1];
+        lom_mask covered = round ? p * p + q * q < 1.0f : (p >= -1.0f) & (p < 1.0f) & (q >= -1.0f) & (q < 1.0f);
+        int place = memory_index(tile, x, y) + tile->offset[part * LOM_LANES];
+        if (cut)
+            covered &= inside_bounds(tile, &sprite->bounds, x, y, part);
+        if (tile->tests_early && lom_any(covered))
+            covered = lom_test_depth(tile, place, covered, sprite->in.z);
+        if (!lom_any(covered))
+            continue;
+        tile->fragments += lom_count(covered);
+        sprite->in.covered = covered;
+        sprite->in.st[0] = p;
+        sprite->in.st[1] = q;
+        if (shades)
+            shade(tile, sprite, x, y, part, place);
+    }
+}
+
+void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, size_t count)
+{
+    const lom_triangle *triangles = tile->chunk->triangles;
+    const lom_shader *shader = tile->draw->desc.shader;
+    bool shades = shader->fragment[tile->draw->variant] != NULL;
+    struct sprite sprite;
+    for (size_t i = 0; i < count; i++) {
+        const lom_triangle *ahead = &triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]];
+        __builtin_prefetch(ahead);
+        begin_sprite(tile, &triangles[list[i]], &sprite);
+        struct window_range r = windows_of(tile, &sprite.bounds);
+        for (int y = r.y0; y <= r.y1; y += 4) {
+            begin_strip(&sprite, y);
+            for (int x = r.x0; x <= r.x1; x += 4)
+                raster_window(tile, &sprite, x, y, shader->round, shades);
+        }
+    }
+}

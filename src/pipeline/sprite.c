@@ -1,0 +1,120 @@
+/* Chunks of sprites, which have one vertex each: the stages 1 to 3 of 7 as far as they differ from those of triangles.
+ * In: a chunk's range; vertices with their half sides in pixels. Out: the vertices it needs; a record for each sprite
+ * that may cover a pixel centre, in order.
+ *
+ * Invariant: a record is a function of its vertex alone, found by one source in single steps of float. */
+#include "pipeline/stages.h"
+
+static const float smallest_area = 0x1p-16f, largest_side = 0x1p16f; /* |D| in square pixels; pixels */
+
+/* The vertex number of sprite i of the chunk; false where there is none. */
+static bool find_number(const struct lom_chunk *chunk, size_t i, uint32_t *number)
+{
+    const lom_draw_desc *desc = &chunk->draw->desc;
+    size_t place = desc->first + chunk->first + i;
+    uint32_t index = desc->indices == NULL    ? (uint32_t)place
+                     : desc->index_bits == 16 ? ((const uint16_t *)desc->indices)[place]
+                                              : ((const uint32_t *)desc->indices)[place];
+    int64_t vertex = (int64_t)index + desc->base_vertex;
+    *number = (uint32_t)vertex;
+    return vertex >= 0 && vertex < (int64_t)desc->vertex_count;
+}
+
+bool lom_choose_sprites(struct lom_chunk *chunk)
+{
+    struct lom_assembly *assembly = chunk->assembly;
+    chunk->vertex_base = 0;
+    chunk->vertex_count = 0;
+    chunk->listed = true;
+    if (!lom_reserve(&assembly->vertex_list, &assembly->vertex_list_capacity, chunk->count, sizeof(uint32_t), NULL))
+        return false;
+    for (size_t i = 0; i < chunk->count; i++)
+        chunk->vertex_count += find_number(chunk, i, &assembly->vertex_list[chunk->vertex_count]);
+    return true;
+}
+
+/* Along x or y: the pixels whose centres may be covered, and whether the scissor cuts them. */
+struct extent {
+    int low, high;
+    bool cut;
+};
+
+/* Of a sprite that reaches so far from its middle. What is left out lies at least a pixel outside. */
+static struct extent bound(int32_t middle, float reach, int origin, int first, int last)
+{
+    double at = (double)middle / SUBPIXELS - 0.5;
+    int low = lom_int_of(lom_double_floor(at - (double)reach)) + origin;
+    int high = origin - lom_int_of(lom_double_floor(-at - (double)reach));
+    return (struct extent){ low > first ? low : first, high < last ? high : last, low < first || high > last };
+}
+
+static float size_of(float x)
+{
+    return x < 0 ? -x : x;
+}
+
+/* s and t have errors of a few roundings of their largest terms, up to (|a| + |b|) |a| |b| / |D| pixels: where those
+ * are so large that a pixel beside the bounds might seem to be covered, the bounds are tested, too. */
+static bool is_sliver(const float *a, const float *b, float area)
+{
+    float u = size_of(a[0]) + size_of(a[1]), v = size_of(b[0]) + size_of(b[1]);
+    return u * v * (u + v) > size_of(area) * 0x1p18f;
+}
+
+/* The record of the sprite whose vertex has the row; false where it covers nothing. */
+static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, const float *row, lom_triangle *t)
+{
+    const float *a = row + draw->axis_offset, *b = a + 2;
+    const lom_rect *s = &draw->scissor;
+    float area = a[0] * b[1] - a[1] * b[0];
+    int32_t middle[2];
+    for (int i = 0; i < 4; i++)
+        if (!(size_of(a[i]) <= largest_side))
+            return false;
+    memcpy(middle, row, sizeof middle);
+    struct extent x = bound(middle[0], size_of(a[0]) + size_of(b[0]), pass->viewport.x, s->x, s->x + s->width - 1);
+    struct extent y = bound(middle[1], size_of(a[1]) + size_of(b[1]), pass->viewport.y, s->y, s->y + s->height - 1);
+    if (!(size_of(area) >= smallest_area) || x.low > x.high || y.low > y.high)
+        return false;
+    t->step_x1 = b[1] / area;
+    t->step_y1 = -b[0] / area;
+    t->step_x2 = -a[1] / area;
+    t->step_y2 = a[0] / area;
+    t->depth[0] = row[2];
+    t->first = (uint32_t)x.low | (uint32_t)y.low << 16;
+    t->large.right = x.high;
+    t->large.bottom = y.high;
+    t->state = TRIANGLE_SPRITE << TRIANGLE_KIND;
+    if (x.cut || y.cut || is_sliver(a, b, area))
+        t->state |= 1u << TRIANGLE_CUT;
+    return true;
+}
+
+/* The tile that holds all of the sprite, if one does. */
+static int32_t find_tile(const struct lom_pass *pass, const lom_triangle *t)
+{
+    int shift = __builtin_ctz((unsigned)pass->tile);
+    struct lom_bounds b = lom_bounds_of(t);
+    int left = (b.left - pass->tile_x0) >> shift, right = (b.right - pass->tile_x0) >> shift;
+    int top = (b.top - pass->tile_y0) >> shift, bottom = (b.bottom - pass->tile_y0) >> shift;
+    return left == right && top == bottom ? top * pass->tiles_x + left : SEVERAL_TILES;
+}
+
+void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    const struct lom_draw *draw = chunk->draw;
+    struct lom_assembly *assembly = chunk->assembly;
+    size_t pitch = (size_t)draw->row_floats;
+    if (!lom_reserve(&chunk->triangles, &chunk->triangles_capacity, chunk->vertex_count, sizeof(lom_triangle), NULL) ||
+        !lom_reserve(&assembly->tile, &assembly->tile_capacity, chunk->vertex_count, sizeof(int32_t), NULL)) {
+        chunk->failed = true;
+        return;
+    }
+    for (size_t i = 0; i < chunk->vertex_count; i++) {
+        lom_triangle t = { .row = { (uint32_t)(i * pitch) } };
+        if (assembly->codes[i] != 0 || !set_up(pass, draw, chunk->rows + i * pitch, &t))
+            continue;
+        assembly->tile[chunk->triangle_count] = find_tile(pass, &t);
+        chunk->triangles[chunk->triangle_count++] = t;
+    }
+}
