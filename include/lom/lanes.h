@@ -372,6 +372,15 @@ LOM_INLINE void lom_defined_compress(float *to, lom_mask mask, lom_float x)
     }
 }
 
+/* x[which[i]] in lane i; 0 <= which[i] < LOM_LANES. */
+LOM_INLINE lom_float lom_defined_permute(lom_float x, lom_int which)
+{
+    lom_float result;
+    for (int i = 0; i < LOM_LANES; i++)
+        result[i] = x[which[i]];
+    return result;
+}
+
 /* ---- overrides: the same values by an instruction ---- */
 
 #if defined __x86_64__ && !defined LOM_NO_OVERRIDES
@@ -467,6 +476,12 @@ LOM_INLINE lom_float lom_round(lom_float x)
 LOM_INLINE void lom_compress(float *to, lom_mask mask, lom_float x)
 {
     lom_defined_compress(to, mask, x);
+}
+#endif
+#ifndef LOM_OVERRIDES_PERMUTE
+LOM_INLINE lom_float lom_permute(lom_float x, lom_int which)
+{
+    return lom_defined_permute(x, which);
 }
 #endif
 #ifndef LOM_OVERRIDES_GATHER

@@ -31,6 +31,7 @@ LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
 #define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_COMPRESS
 #define LOM_OVERRIDES_HALVES
+#define LOM_OVERRIDES_PERMUTE
 #define LOM_OVERRIDES_STREAMS
 
 LOM_INLINE void lom_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
@@ -69,6 +70,11 @@ LOM_INLINE void lom_store_halves(int32_t *low, int32_t *high, lom_int x)
 LOM_INLINE void lom_compress(float *to, lom_mask mask, lom_float x)
 {
     _mm512_storeu_ps(to, _mm512_maskz_compress_ps(_mm512_movepi32_mask((__m512i)mask), (__m512)x));
+}
+
+LOM_INLINE lom_float lom_permute(lom_float x, lom_int which)
+{
+    return (lom_float)_mm512_permutexvar_ps((__m512i)which, (__m512)x);
 }
 
 LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)
@@ -226,6 +232,7 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
 #define LOM_OVERRIDES_TO_DOUBLE
 #define LOM_OVERRIDES_STREAMS
 #define LOM_OVERRIDES_COMPRESS
+#define LOM_OVERRIDES_PERMUTE
 
 /* Digit k of entry b: the number of the k-th lowest bit that is set in b. */
 static const uint32_t lom_set_bits[256] __attribute__((unused)) = {
@@ -291,6 +298,11 @@ LOM_INLINE void lom_end_streams(void)
 LOM_INLINE lom_double lom_to_double(lom_int x)
 {
     return __builtin_convertvector(x, lom_double);
+}
+
+LOM_INLINE lom_float lom_permute(lom_float x, lom_int which)
+{
+    return (lom_float)_mm256_permutevar8x32_ps((__m256)x, (__m256i)which);
 }
 
 LOM_INLINE lom_float lom_select(lom_mask mask, lom_float a, lom_float b)

@@ -1,46 +1,63 @@
-/* Stage 5 of 7 for small triangles, packed. In: the pixels that small triangles cover, a code each, in order. Out:
- * those that pass the early depth test, LOM_LANES of any triangles at a time, to the fragment stage or into the queue.
+/* Stage 5 of 7 for small triangles, packed. In: triangles of a tile that are drawn together. Out: the fragments that
+ * pass the early depth test, LOM_LANES of any triangles at a time, to the fragment stage.
  *
  * Invariant: weights and depths are those of early.wide.c and raster.wide.c, which draw the same triangles one by one;
  * fragments at one pixel are tested in their order. */
-#include "pipeline/window.h"
+#include "lanes/pair_products.h"
+#include "pipeline/slots.h"
 
-enum { WORDS = sizeof(lom_triangle) / sizeof(float) };
-
-/* LOM_LANES entries of the list with what was found of them. */
+/* LOM_LANES entries of the list. */
 struct packed {
-    lom_int pixel, x, y; /* place in tile memory; pixel of the tile */
-    lom_int which;       /* a lane's triangle, counted from the packet's first */
-    const int32_t *row;  /* where the triangles' records begin, in words */
-    int triangles;
-    lom_float l[3], depth;
+    lom_int code, which; /* which: of the slots from `first` on */
+    int first, triangles;
+    int count; /* lanes that are entries; the others repeat the last one */
 };
 
-/* An edge function of small triangles: the first record's words and the steps. Positions in pixels from the record's
- * first are below 2^7 and steps over 256 below 2^14: their products and sum are exact in float, and the sum is an
- * integer below 2^22. */
-LOM_INLINE lom_int edge_at(lom_float start, lom_float step_x, lom_float step_y, lom_float x, lom_float y)
+LOM_INLINE int slot_of(int32_t code)
 {
-    const float unit = 1.0f / SUBPIXELS;
-    lom_float steps = x * (step_x * unit) + y * (step_y * unit);
-    return lom_as_int(start) + (lom_bounded_to_int(steps) << SUBPIXEL_BITS);
+    return (int)((uint32_t)code >> CODE_TRIANGLE);
 }
 
-LOM_INLINE void weigh(const struct lom_tile *tile, struct packed *p)
+/* Entries from `at` on, before `end`: as many as there are lanes, or as lie in so many slots. */
+LOM_INLINE struct packed take(const struct lom_list *list, int at, int end)
 {
-    const float *words = (const float *)(const void *)tile->chunk->triangles;
-    lom_float4 step = lom_pick_rows(words, p->row, p->triangles, p->which);
-    lom_float4 plane = lom_pick_rows(words + 4, p->row, p->triangles, p->which);
-    lom_float4 start = lom_pick_rows(words + 8, p->row, p->triangles, p->which);
-    lom_int first = lom_as_int(start.w);
-    lom_float x = lom_to_float(p->x - (first & 0xfffe)), y = lom_to_float(p->y - (first >> 16 & 0xfffe));
-    lom_int e1 = edge_at(start.y, step.x, step.y, x, y), e2 = edge_at(start.z, step.z, step.w, x, y);
-    p->l[0] = lom_to_float(lom_as_int(start.x) - e1 - e2) * plane.x;
-    p->l[1] = lom_to_float(e1) * plane.x;
-    p->l[2] = lom_to_float(e2) * plane.x;
-    lom_float z0 = plane.y, z1 = z0 + plane.z, z2 = z0 + plane.w;
-    lom_float low = lom_min(lom_min(z0, z1), z2), high = lom_max(lom_max(z0, z1), z2);
-    p->depth = lom_clamp(z0 + p->l[1] * plane.z + p->l[2] * plane.w, low, high);
+    const int32_t *code = list->code + at;
+    struct packed p = { .code = lom_load_int(code), .first = slot_of(code[0]), .count = LOM_LANES };
+    int last = at + LOM_LANES <= end ? slot_of(code[LOM_LANES - 1]) : p.first + LOM_LANES;
+    if (last - p.first >= LOM_LANES) {
+        for (p.count = 1; at + p.count < end && p.count < LOM_LANES && slot_of(code[p.count]) < p.first + LOM_LANES;)
+            p.count++;
+        last = slot_of(code[p.count - 1]);
+        p.code = lom_select_int(lom_lane_index() < p.count, p.code, lom_splat_int(code[p.count - 1]));
+    }
+    p.which = (lom_int)((lom_uint)p.code >> CODE_TRIANGLE) - p.first;
+    p.triangles = last - p.first + 1;
+    return p;
+}
+
+LOM_INLINE lom_int pixel_of(lom_int code)
+{
+    return code & ((1 << CODE_X) - 1);
+}
+
+/* Weights, of which l[0] is found only where somebody reads it. */
+LOM_INLINE void weigh(const struct lom_list *list, const struct packed *p, lom_float l[3])
+{
+    lom_float4 edge = load_slots(list->slots, SLOT_STEP1, p->first, p->which);
+    lom_float4 plane = load_slots(list->slots, SLOT_AREA, p->first, p->which);
+    lom_int at = lom_make_pair(p->code >> CODE_X & 63, p->code >> CODE_Y & 63);
+    lom_int e1 = lom_as_int(edge.z) + (lom_dot_pairs(at, lom_as_int(edge.x)) << SUBPIXEL_BITS);
+    lom_int e2 = lom_as_int(edge.w) + (lom_dot_pairs(at, lom_as_int(edge.y)) << SUBPIXEL_BITS);
+    l[0] = lom_to_float(lom_as_int(plane.x) - e1 - e2) * plane.y;
+    l[1] = lom_to_float(e1) * plane.y;
+    l[2] = lom_to_float(e2) * plane.y;
+}
+
+LOM_INLINE lom_float find_depth_lanes(const struct lom_list *list, const struct packed *p, const lom_float l[3])
+{
+    lom_float4 plane = load_slots(list->slots, SLOT_AREA, p->first, p->which);
+    lom_float4 more = load_slots(list->slots, SLOT_DEPTH1, p->first, p->which);
+    return lom_clamp(plane.z + l[1] * more.x + l[2] * more.y, plane.w, more.z);
 }
 
 /* What the test leaves in tile memory, which is the same whether a fragment passed or not. */
@@ -72,13 +89,13 @@ LOM_INLINE lom_float exchange(float *memory, const int32_t *pixel, lom_float dep
     return lom_load(old);
 }
 
-/* The lanes that pass; lanes that are none repeat the last one that is, and change nothing. */
-LOM_INLINE lom_mask test_depths(struct lom_tile *tile, const struct packed *p)
+/* The lanes that pass; lanes that are no entries repeat the last one that is, and change nothing. */
+LOM_INLINE lom_mask test_depths(struct lom_tile *tile, lom_int place, lom_float depth)
 {
     const struct lom_draw *draw = tile->draw;
-    lom_float units = lom_depth_units(tile->pass, p->depth), old;
+    lom_float units = lom_depth_units(tile->pass, depth), old;
     int32_t pixel[LOM_LANES];
-    lom_store_int(pixel, p->pixel);
+    lom_store_int(pixel, place);
     switch (rule_of(draw)) {
     case DEPTH_LESSER:
         old = exchange(tile->depth, pixel, units, DEPTH_LESSER);
@@ -90,78 +107,102 @@ LOM_INLINE lom_mask test_depths(struct lom_tile *tile, const struct packed *p)
         old = exchange(tile->depth, pixel, units, DEPTH_REPLACED);
         break;
     default:
-        old = lom_gather(tile->depth, p->pixel);
+        old = lom_gather(tile->depth, place);
         break;
     }
     return lom_compare_depth(draw->compare, units, old);
 }
 
-static void shade(struct lom_tile *tile, const struct packed *p, lom_mask covered)
+/* Leaves of the entries from `from` on those that pass. */
+static void test_entries(struct lom_tile *tile, int from)
 {
+    struct lom_list *list = &tile->list;
+    int passed = from;
+    for (int at = from, step; at < list->count; at += step) {
+        struct packed p = take(list, at, list->count);
+        lom_float l[3];
+        weigh(list, &p, l);
+        lom_mask covered = test_depths(tile, pixel_of(p.code), find_depth_lanes(list, &p, l));
+        covered &= lom_lane_index() < p.count;
+        step = p.count;
+        lom_int next = lom_load_int(list->code + at + step); /* the store of a whole packet may reach them */
+        lom_compress((float *)list->code + passed, covered, lom_as_float(p.code));
+        lom_store_int(list->code + at + step, next);
+        passed += (int)lom_count(covered);
+    }
+    list->count = passed;
+}
+
+static void shade(struct lom_tile *tile, const struct packed *p)
+{
+    const struct lom_list *list = &tile->list;
     struct lom_packet packet;
-    for (int k = 0; k < 3; k++)
-        packet.l[k] = p->l[k];
-    packet.depth = p->depth;
+    weigh(list, p, packet.l);
+    packet.depth = (lom_float){ 0 };
+    if (tile->draw->queues_depth)
+        packet.depth = find_depth_lanes(list, p, packet.l);
     packet.which = p->which;
     packet.triangles = p->triangles;
     for (int i = 0; i < p->triangles; i++)
-        packet.triangle[i] = p->row[i] / WORDS;
-    packet.covered = covered;
+        packet.triangle[i] = (int32_t)list->number[p->first + i];
+    packet.covered = lom_lane_index() < p->count;
     packet.places.block = false;
-    lom_store_int(packet.places.pixel, p->pixel);
+    lom_store_int(packet.places.pixel, pixel_of(p->code));
     LOM_WIDE(lom_shade_packet)(tile, &packet);
 }
 
-static void enqueue(struct lom_tile *tile, const struct packed *p, lom_mask covered)
+/* Shades the entries, the last ones only where they fill a packet or `all` are asked for; those that are left come first
+ * then. */
+static void shade_entries(struct lom_tile *tile, bool all)
 {
-    struct lom_fragments f;
-    for (int k = 0; k < 3; k++)
-        f.l[k] = p->l[k];
-    f.depth = p->depth;
-    f.pixel = p->pixel;
-    f.triangle = (lom_int)((lom_uint)lom_gather_int(p->row, p->which) / WORDS);
-    f.taken = f.covered = covered;
-    LOM_WIDE(lom_enqueue)(tile, &f);
+    struct lom_list *list = &tile->list;
+    int at = 0;
+    while (list->count - at >= LOM_LANES || (all && at < list->count)) {
+        struct packed p = take(list, at, list->count);
+        shade(tile, &p);
+        at += p.count;
+    }
+    list->count -= at;
+    lom_store_int(list->code, lom_load_int(list->code + at));
 }
 
-/* Entries `at` to `end` (one past the last) of the list. */
-LOM_INLINE void run_packed(struct lom_tile *tile, int at, int end, bool tests, bool shades)
+/* Entries that are left keep their triangles, in slots of their own. */
+static void keep_triangles(struct lom_list *list)
 {
-    const struct lom_list *list = &tile->list;
-    lom_int code = lom_load_int(list->code + at);
-    int count = end - at < LOM_LANES ? end - at : LOM_LANES;
-    int first = (int)((uint32_t)list->code[at] >> CODE_TRIANGLE);
-    int last = (int)((uint32_t)list->code[at + count - 1] >> CODE_TRIANGLE);
-    struct packed p = { .pixel = code & ((1 << CODE_X) - 1),
-                        .x = (code >> CODE_X & 63) + tile->x,
-                        .y = (code >> CODE_Y & 63) + tile->y,
-                        .which = (lom_int)((lom_uint)code >> CODE_TRIANGLE) - first,
-                        .row = list->row + first,
-                        .triangles = last - first + 1 };
-    weigh(tile, &p);
-    lom_mask covered = lom_lane_index() < count;
-    if (tests)
-        covered &= test_depths(tile, &p);
-    uint32_t passed = lom_count(covered);
-    tile->fragments += passed;
-    if (!shades || passed == 0)
-        return;
-    if ((int)passed == count && count == LOM_LANES && tile->queue.count == 0)
-        shade(tile, &p, covered);
-    else
-        enqueue(tile, &p, covered);
+    int slot = -1, last = -1;
+    for (int i = 0; i < list->count; i++) {
+        int old = slot_of(list->code[i]);
+        slot += old != last;
+        last = old;
+        list->number[slot] = list->number[old];
+        list->code[i] = (list->code[i] & ((1 << CODE_TRIANGLE) - 1)) | (int32_t)((uint32_t)slot << CODE_TRIANGLE);
+    }
+    list->triangles = slot + 1;
 }
 
-void LOM_WIDE(lom_drain_list)(struct lom_tile *tile)
+void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
 {
     struct lom_list *list = &tile->list;
     bool shades = tile->draw->desc.shader->fragment[tile->draw->variant] != NULL;
-    if (list->count == 0)
+    if (list->triangles == 0)
         return;
-    lom_store_int(list->code + list->count, lom_splat_int(list->code[list->count - 1]));
-    for (int i = 0; i < 4; i++) /* lom_pick_rows reads on to a multiple of 4 */
-        list->row[list->triangles + i] = list->row[0];
-    for (int at = 0; at < list->count; at += LOM_LANES)
-        run_packed(tile, at, list->count, tile->tests_early, shades);
-    list->count = list->triangles = 0;
+    if (tile->queue.count > 0 && shades)
+        LOM_WIDE(lom_flush)(tile);
+    LOM_WIDE(lom_fill_slots)(tile);
+    int slot = list->kept;
+    while (slot < list->triangles) {
+        int tested = list->count;
+        slot = LOM_WIDE(lom_cover_slots)(tile, slot);
+        if (tile->tests_early)
+            test_entries(tile, tested);
+        tile->fragments += (uint64_t)(list->count - tested);
+        if (shades)
+            shade_entries(tile, false);
+        else
+            list->count = 0;
+    }
+    if (shades && all)
+        shade_entries(tile, true);
+    keep_triangles(list);
+    list->kept = list->triangles;
 }

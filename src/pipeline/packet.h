@@ -34,8 +34,8 @@ void LOM_WIDE(lom_enqueue)(struct lom_tile *tile, const struct lom_fragments *fr
 /* A part of a window of one triangle on to the fragment stage, or into the queue on the way there. `alone`: the queue
  * holds no fragment of an earlier triangle. */
 void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *fragments, bool alone);
-/* Tests and delivers what the tile's list holds (pack.wide.c). */
-void LOM_WIDE(lom_drain_list)(struct lom_tile *tile);
+/* Draws the triangles of the tile's list; unless `all` is asked for, the last fragments may stay in it (pack.wide.c). */
+void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
 /* The lanes of mask, whose fragments are shaded, through the late depth test and the output stage, in lane order;

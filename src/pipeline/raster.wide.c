@@ -84,122 +84,20 @@ static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t n
     }
 }
 
-/* ---- small triangles to the list ---- */
-
-/* The codes of the pixels of a 2x2 block whose bits are set, less that of its first. */
-#define CODE(k) ((k) | ((k)&1) << CODE_X | ((k) >> 1) << CODE_Y)
-static const int32_t block_codes[16][4] = {
-    { 0 },
-    { CODE(0) },
-    { CODE(1) },
-    { CODE(0), CODE(1) },
-    { CODE(2) },
-    { CODE(0), CODE(2) },
-    { CODE(1), CODE(2) },
-    { CODE(0), CODE(1), CODE(2) },
-    { CODE(3) },
-    { CODE(0), CODE(3) },
-    { CODE(1), CODE(3) },
-    { CODE(0), CODE(1), CODE(3) },
-    { CODE(2), CODE(3) },
-    { CODE(0), CODE(2), CODE(3) },
-    { CODE(1), CODE(2), CODE(3) },
-    { CODE(0), CODE(1), CODE(2), CODE(3) },
-};
-
-static const uint8_t block_counts[16] = { 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4 };
-
-/* Adds the pixels of a part of a window whose lanes are set; `codes` are those of all its pixels. Without a branch: one
- * that depends on a mask is guessed wrong too often. */
-LOM_INLINE void list_part(struct lom_list *list, lom_mask covered, lom_int codes)
-{
-    int32_t *to = list->code + list->count;
-    uint32_t bits = lom_bits(covered);
-    if (LOM_LANES > 4) {
-        lom_compress((float *)to, covered, lom_as_float(codes));
-        list->count += (int)lom_count_bits(bits);
-        return;
-    }
-    /* A block, and the baseline has neither a permutation to compress by nor a count of bits. */
-    lom_store_int(to, lom_load_int(block_codes[bits]) + codes[0]);
-    list->count += block_counts[bits];
-}
-
-/* The code of pixel (x, y) of the tile, both even, of the list's next triangle. */
-LOM_INLINE int32_t code_of(const struct lom_tile *tile, int x, int y)
-{
-    uint32_t next = (uint32_t)tile->list.triangles << CODE_TRIANGLE;
-    return (int32_t)(next + (uint32_t)(memory_index(tile, x, y) + (x << CODE_X) + (y << CODE_Y)));
-}
-
-LOM_INLINE lom_int window_codes(const struct lom_tile *tile, int part)
-{
-    return lom_load_int(tile->offset + part * LOM_LANES) + (lane_x(part) << CODE_X) + (lane_y(part) << CODE_Y);
-}
-
-static void list_window(struct lom_tile *tile, const lom_triangle *t)
-{
-    int left = (int)(t->first & 0xfffe) - tile->x, top = (int)(t->first >> 16 & 0xfffe) - tile->y;
-    int32_t code = code_of(tile, left, top);
-    for (int part = 0; part < PARTS; part++) {
-        uint32_t bits = (t->state & 0xffff) >> part * LOM_LANES & ((1u << LOM_LANES) - 1);
-        list_part(&tile->list, lom_mask_of_bits(bits), window_codes(tile, part) + code);
-    }
-}
-
-/* The same windows as raster_small; the third edge is what the other two leave of the area. The biases of the top-left
- * rule are part of all of them. False, and nothing done, where they are many: those are mostly packets by themselves. */
-static bool list_small(struct lom_tile *tile, const lom_triangle *t)
-{
-    struct lom_bounds b = lom_bounds_of(t);
-    struct window_range r = windows_of(tile, &b);
-    struct small_edge e[3];
-    bool cut = t->state >> TRIANGLE_CUT & 1;
-    if (((r.x1 - r.x0) / 4 + 1) * ((r.y1 - r.y0) / 4 + 1) > LIST_WINDOWS)
-        return false;
-    find_small_edges(tile, t, &b, e);
-    lom_int whole = lom_splat_int(t->small.area + e[0].bias + e[1].bias + e[2].bias);
-    lom_int lanes1[PARTS], lanes2[PARTS], codes[PARTS];
-    for (int part = 0; part < PARTS; part++) {
-        lanes1[part] = small_lanes(&e[1], part) + (e[1].start + e[1].bias);
-        lanes2[part] = small_lanes(&e[2], part) + (e[2].start + e[2].bias);
-        codes[part] = window_codes(tile, part);
-    }
-    for (int y = r.y0; y <= r.y1; y += 4)
-        for (int x = r.x0; x <= r.x1; x += 4) {
-            int32_t start1 = e[1].dx * x + e[1].dy * y, start2 = e[2].dx * x + e[2].dy * y, code = code_of(tile, x, y);
-            for (int part = 0; part < PARTS; part++) {
-                lom_int e1 = lanes1[part] + start1, e2 = lanes2[part] + start2;
-                lom_mask covered = (e1 | e2 | (whole - e1 - e2)) >= 0;
-                if (cut)
-                    covered &= inside_bounds(tile, &b, x, y, part);
-                list_part(&tile->list, covered, codes[part] + code);
-            }
-        }
-    return true;
-}
-
 /* Whether the fragments of the draw's small triangles can be computed together, from their records alone. */
 static bool packs(const struct lom_draw *draw)
 {
     return !draw->constant && !draw->biased && !draw->desc.shader->quads;
 }
 
-/* False where the triangle has to be drawn by itself. */
-static bool list_triangle(struct lom_tile *tile, const lom_triangle *t, int32_t number)
+/* Whether a triangle may be drawn with others: its windows are few, else they are mostly packets by themselves. The parts
+ * that cover.wide.c makes of it are less than 4 pixels wider and higher than it is. */
+static bool is_packed(const lom_triangle *t)
 {
-    struct lom_list *list = &tile->list;
+    int width = (int)(t->state & 255) + 1, height = (int)(t->state >> 8 & 255) + 1;
     lom_triangle_kind kind = lom_kind_of(t);
-    int before = list->count;
-    if (t->state >> TRIANGLE_CLIP != 0 || kind == TRIANGLE_LARGE || (kind == TRIANGLE_SMALL && !list_small(tile, t)))
-        return false;
-    if (kind == TRIANGLE_WINDOW)
-        list_window(tile, t);
-    list->row[list->triangles] = number * (int32_t)(sizeof *t / sizeof(float));
-    list->triangles += list->count > before;
-    if (list->count >= LIST_SIZE || list->triangles == LIST_TRIANGLES)
-        LOM_WIDE(lom_drain_list)(tile);
-    return true;
+    return t->state >> TRIANGLE_CLIP == 0 &&
+           (kind == TRIANGLE_WINDOW || (kind == TRIANGLE_SMALL && (width + 4) * (height + 4) <= LIST_PIXELS));
 }
 
 static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t number)
@@ -222,6 +120,7 @@ static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t n
 void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count)
 {
     const struct lom_draw *draw = chunk->draw;
+    struct lom_list *packed = &tile->list;
     bool together = packs(draw) && !tile->pass->one_by_one;
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
@@ -238,10 +137,14 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
     for (size_t i = folded; i < count; i++) {
         const lom_triangle *t = &chunk->triangles[list[i]];
         __builtin_prefetch(&chunk->triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]]);
-        if (together && list_triangle(tile, t, (int32_t)list[i]))
+        if (together && is_packed(t)) {
+            packed->number[packed->triangles++] = list[i];
+            if (packed->triangles == LIST_TRIANGLES)
+                LOM_WIDE(lom_drain_list)(tile, false);
             continue;
-        LOM_WIDE(lom_drain_list)(tile);
+        }
+        LOM_WIDE(lom_drain_list)(tile, true);
         raster_alone(tile, t, (int32_t)list[i]);
     }
-    LOM_WIDE(lom_drain_list)(tile);
+    LOM_WIDE(lom_drain_list)(tile, true);
 }

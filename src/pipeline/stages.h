@@ -176,21 +176,25 @@ struct lom_queue {
     int count;
 };
 
-/* Pixels that small triangles cover, before anything is computed for them: a code is the index into the tile's memory,
- * the pixel of the tile, and which of the list's triangles. */
+/* Small triangles that are drawn together, and the pixels that they cover: a code is the index into the tile's memory, the
+ * pixel of the tile, and which of the list's triangles. */
 enum {
     CODE_X = 12,
     CODE_Y = 18,
     CODE_TRIANGLE = 24,
-    LIST_SIZE = 512,      /* codes after which it is drained */
-    LIST_WINDOWS = 16,    /* that one triangle may have */
-    LIST_TRIANGLES = 256, /* what a code can tell apart */
-    LIST_ROOM = LIST_SIZE + LIST_WINDOWS * 16 + 16
+    LIST_SIZE = 512,     /* codes after which it is drained */
+    LIST_PIXELS = 256,   /* that one triangle's parts may have, covered or not */
+    LIST_TRIANGLES = 64, /* of which some may be left from the last time */
+    LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
+    SLOT_PITCH = LIST_TRIANGLES + 16,
+    SLOT_WORDS = 16 /* slots.h */
 };
 struct lom_list {
     int32_t code[LIST_ROOM];
-    int32_t row[LIST_TRIANGLES + 4]; /* where the triangles' records begin, in words */
+    uint32_t number[SLOT_PITCH];          /* of the triangles, in the chunk's */
+    float slots[SLOT_WORDS * SLOT_PITCH]; /* what was found of them */
     int count, triangles;
+    int kept; /* triangles of which only the fragments that are there are left */
 };
 
 struct lom_pass;

@@ -204,6 +204,19 @@ static void compress_keeps_set_lanes_in_order(void)
     }
 }
 
+static void lanes_are_permuted_by_their_numbers(void)
+{
+    for (uint64_t n = 0; n < 2000; n++) {
+        lom_float x = lom_as_float(pattern(10, n)), a, b;
+        lom_int which = pattern(11, n) & (LOM_LANES - 1);
+        a = lom_permute(x, which);
+        b = lom_defined_permute(x, which);
+        CHECK(same_int(lom_as_int(a), lom_as_int(b)), "pattern %d", (int)n);
+        lom_int reversed = lom_as_int(lom_permute(x, LOM_LANES - 1 - lom_lane_index()));
+        CHECK(reversed[0] == lom_as_int(x)[LOM_LANES - 1] && reversed[LOM_LANES - 1] == lom_as_int(x)[0]);
+    }
+}
+
 static void definitions_have_their_stated_values(void)
 {
     float nan = __builtin_nanf(""), infinity = __builtin_inff();
@@ -259,6 +272,7 @@ int main(int argc, char **argv)
     RUN(set_lanes_are_counted);
     RUN(pairs_are_multiplied_and_added);
     RUN(compress_keeps_set_lanes_in_order);
+    RUN(lanes_are_permuted_by_their_numbers);
     RUN(gathers_read_what_their_indices_name);
     RUN(rows_are_gathered_and_scattered_in_lane_order);
     RUN(matrices_multiply_each_lane);

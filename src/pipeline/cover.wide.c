@@ -1,0 +1,190 @@
+/* Stage 5 of 7 for small triangles, its first half. In: the triangles of a tile that are drawn together. Out: their
+ * slots, and a code for each pixel they cover, in order.
+ *
+ * Invariant: the pixels are those of raster.wide.c, which draws the same triangles one by one. Loops over triangles have
+ * no branch that depends on a mask: it would be guessed wrong too often. */
+#include "lanes/pair_products.h"
+#include "pipeline/slots.h"
+
+enum { PART_WIDTH = LOM_LANES > 4 ? 4 : 2, PART_HEIGHT = LOM_LANES > 8 ? 4 : 2 };
+
+/* ---- slots ---- */
+
+/* Where the parts of LOM_LANES pixels lie that cover what the tile has of a triangle's bounds. They begin at the
+ * bounds, not at a multiple of their size, so that a small triangle has few; but end within the tile. */
+LOM_INLINE lom_int find_parts(const struct lom_tile *tile, lom_int first, lom_int state)
+{
+    lom_int left = (first & 0xffff) - tile->x, top = (lom_int)((lom_uint)first >> 16) - tile->y;
+    lom_int last = lom_splat_int(tile->edge - 1), zero = { 0 };
+    lom_int right = lom_min_int(left + (state & 255), last), bottom = lom_min_int(top + (state >> 8 & 255), last);
+    lom_int x = lom_max_int(left, zero) & ~1, y = lom_max_int(top, zero) & ~1;
+    lom_int columns = (right - x) / PART_WIDTH + 1, rows = (bottom - y) / PART_HEIGHT + 1;
+    lom_mask moves = (state >> TRIANGLE_KIND & 3) != TRIANGLE_WINDOW; /* a window has its place */
+    x = lom_select_int(moves, lom_min_int(x, tile->edge - columns * PART_WIDTH), x);
+    y = lom_select_int(moves, lom_min_int(y, tile->edge - rows * PART_HEIGHT), y);
+    return (x & 255) | (y & 255) << 8 | (columns & 255) << 16 | rows << 24;
+}
+
+/* The top-left rule, as bias_of. */
+LOM_INLINE lom_int bias_lanes(lom_int dx, lom_int dy)
+{
+    return ~((dx > 0) | ((dx == 0) & (dy > 0)));
+}
+
+/* LOM_LANES slots; the records' words are those of lom_triangle. */
+static void fill_packet(struct lom_tile *tile, int first)
+{
+    float *slots = tile->list.slots;
+    const float *words = (const float *)(const void *)tile->chunk->triangles;
+    lom_int at = lom_load_int((const int32_t *)tile->list.number + first) * (int32_t)(sizeof(lom_triangle) / 4);
+    const float unit = 1.0f / SUBPIXELS; /* steps are multiples of 256, and below 2^14 over it */
+    lom_float4 step = lom_gather_rows(words, at), plane = lom_gather_rows(words + 4, at);
+    lom_float4 start = lom_gather_rows(words + 8, at), last = lom_gather_rows(words + 12, at);
+    lom_int dx1 = lom_bounded_to_int(step.x * unit), dy1 = lom_bounded_to_int(step.y * unit);
+    lom_int dx2 = lom_bounded_to_int(step.z * unit), dy2 = lom_bounded_to_int(step.w * unit);
+    lom_int pair1 = lom_make_pair(dx1, dy1), pair2 = lom_make_pair(dx2, dy2);
+    lom_int corner = lom_as_int(start.w), state = lom_as_int(last.w), area = lom_as_int(start.x);
+    lom_int to_tile = lom_make_pair(tile->x - (corner & 0xfffe), tile->y - (corner >> 16 & 0xfffe));
+    lom_int start1 = lom_as_int(start.y) + (lom_dot_pairs(to_tile, pair1) << SUBPIXEL_BITS);
+    lom_int start2 = lom_as_int(start.z) + (lom_dot_pairs(to_tile, pair2) << SUBPIXEL_BITS);
+    lom_int bias1 = bias_lanes(dx1, dy1), bias2 = bias_lanes(dx2, dy2), bias0 = bias_lanes(-dx1 - dx2, -dy1 - dy2);
+    lom_float z0 = plane.y, z1 = z0 + plane.z, z2 = z0 + plane.w;
+    store_slots(slots, SLOT_STEP1, first,
+                (lom_float4){ lom_as_float(pair1), lom_as_float(pair2), lom_as_float(start1), lom_as_float(start2) });
+    store_slots(slots, SLOT_AREA, first, (lom_float4){ start.x, plane.x, z0, lom_min(lom_min(z0, z1), z2) });
+    store_slots(slots, SLOT_DEPTH1, first, (lom_float4){ plane.z, plane.w, lom_max(lom_max(z0, z1), z2), last.w });
+    store_slots(slots, SLOT_COVER1, first,
+                (lom_float4){ lom_as_float(start1 + bias1), lom_as_float(start2 + bias2),
+                              lom_as_float(area + bias0 + bias1 + bias2),
+                              lom_as_float(find_parts(tile, corner, state)) });
+}
+
+void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile)
+{
+    struct lom_list *list = &tile->list;
+    for (int i = 0; i < LOM_LANES; i++) /* the last packet reads on */
+        list->number[list->triangles + i] = list->number[0];
+    for (int first = 0; first < list->triangles; first += LOM_LANES)
+        fill_packet(tile, first);
+}
+
+/* ---- coverage ---- */
+
+/* The codes of the pixels of a 2x2 block whose bits are set, less that of its first. */
+#define CODE(k) ((k) | ((k)&1) << CODE_X | ((k) >> 1) << CODE_Y)
+static const int32_t block_codes[16][4] = {
+    { 0 },
+    { CODE(0) },
+    { CODE(1) },
+    { CODE(0), CODE(1) },
+    { CODE(2) },
+    { CODE(0), CODE(2) },
+    { CODE(1), CODE(2) },
+    { CODE(0), CODE(1), CODE(2) },
+    { CODE(3) },
+    { CODE(0), CODE(3) },
+    { CODE(1), CODE(3) },
+    { CODE(0), CODE(1), CODE(3) },
+    { CODE(2), CODE(3) },
+    { CODE(0), CODE(2), CODE(3) },
+    { CODE(1), CODE(2), CODE(3) },
+    { CODE(0), CODE(1), CODE(2), CODE(3) },
+};
+
+static const uint8_t block_counts[16] = { 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4 };
+
+/* Writes the codes of the lanes that are set, `codes` being those of all; returns where the next ones go. */
+LOM_INLINE int32_t *list_part(int32_t *to, lom_mask covered, lom_int codes)
+{
+    uint32_t bits = lom_bits(covered);
+    if (LOM_LANES > 4) {
+        lom_compress((float *)to, covered, lom_as_float(codes));
+        return to + lom_count_bits(bits);
+    }
+    /* A block, and the baseline has neither a permutation to compress by nor a count of bits. */
+    lom_store_int(to, lom_load_int(block_codes[bits]) + codes[0]);
+    return to + block_counts[bits];
+}
+
+/* What a tile's windows have in common: the codes of their pixels, less those of their first, and the tile's edge. */
+struct frame {
+    lom_int codes[PARTS];
+    int edge;
+};
+
+/* The code of pixel (x, y) of the tile, both even. */
+LOM_INLINE int32_t code_of(const struct frame *frame, int slot, int x, int y)
+{
+    return (int32_t)(((uint32_t)slot << CODE_TRIANGLE) +
+                     (uint32_t)(y * frame->edge + x * 2 + (x << CODE_X) + (y << CODE_Y)));
+}
+
+LOM_INLINE int32_t *cover_window(const struct frame *frame, int slot, uint32_t mask, int x, int y, int32_t *to)
+{
+    int32_t code = code_of(frame, slot, x, y);
+    for (int part = 0; part < PARTS; part++) {
+        uint32_t bits = mask >> part * LOM_LANES & ((1u << LOM_LANES) - 1);
+        to = list_part(to, lom_mask_of_bits(bits), frame->codes[part] + code);
+    }
+    return to;
+}
+
+/* Of a slot; `cut` to bounds, or NULL. The third edge function is what the other two leave of the area. */
+LOM_INLINE int32_t *cover_parts(const struct lom_tile *tile, const struct frame *frame, int slot,
+                                const struct lom_bounds *cut, int32_t *to)
+{
+    const int32_t *words = (const int32_t *)(const void *)tile->list.slots;
+    lom_int step1 = lom_splat_int(words[slot_word(SLOT_STEP1, slot)]);
+    lom_int step2 = lom_splat_int(words[slot_word(SLOT_STEP2, slot)]);
+    lom_int start1 = lom_splat_int(words[slot_word(SLOT_COVER1, slot)]);
+    lom_int start2 = lom_splat_int(words[slot_word(SLOT_COVER2, slot)]);
+    lom_int whole = lom_splat_int(words[slot_word(SLOT_COVER, slot)]);
+    uint32_t parts = (uint32_t)words[slot_word(SLOT_PARTS, slot)];
+    int left = (int)(parts & 255), top = (int)(parts >> 8 & 255);
+    int right = left + (int)(parts >> 16 & 255) * PART_WIDTH, bottom = top + (int)(parts >> 24) * PART_HEIGHT;
+    const lom_int pixels = lom_make_pair(lane_x(0), lane_y(0));
+    for (int y = top; y < bottom; y += PART_HEIGHT) {
+        lom_int at = pixels + (left | y << 16), codes = frame->codes[0] + code_of(frame, slot, left, y);
+        for (int x = left; x < right; x += PART_WIDTH) {
+            lom_int e1 = (lom_dot_pairs(at, step1) << SUBPIXEL_BITS) + start1;
+            lom_int e2 = (lom_dot_pairs(at, step2) << SUBPIXEL_BITS) + start2;
+            lom_mask covered = (e1 | e2 | (whole - e1 - e2)) >= 0;
+            if (cut != NULL)
+                covered &= inside_bounds(tile, cut, x, y, 0);
+            to = list_part(to, covered, codes);
+            at += PART_WIDTH;
+            codes += PART_WIDTH * 2 + (PART_WIDTH << CODE_X);
+        }
+    }
+    return to;
+}
+
+static int32_t *cover_cut(const struct lom_tile *tile, const struct frame *frame, int slot, int32_t *to)
+{
+    struct lom_bounds bounds = lom_bounds_of(&tile->chunk->triangles[tile->list.number[slot]]);
+    return cover_parts(tile, frame, slot, &bounds, to);
+}
+
+int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from)
+{
+    struct lom_list *list = &tile->list;
+    const int32_t *words = (const int32_t *)(const void *)list->slots;
+    struct frame frame = { .edge = tile->edge };
+    for (int part = 0; part < PARTS; part++)
+        frame.codes[part] =
+            lom_load_int(tile->offset + part * LOM_LANES) + (lane_x(part) << CODE_X) + (lane_y(part) << CODE_Y);
+    int32_t *to = list->code + list->count, *end = list->code + LIST_SIZE;
+    int slot = from, triangles = list->triangles;
+    for (; slot < triangles && to < end; slot++) {
+        uint32_t state = (uint32_t)words[slot_word(SLOT_STATE, slot)];
+        uint32_t parts = (uint32_t)words[slot_word(SLOT_PARTS, slot)];
+        if ((state >> TRIANGLE_KIND & 3) == TRIANGLE_WINDOW)
+            to = cover_window(&frame, slot, state & 0xffff, (int)(parts & 255), (int)(parts >> 8 & 255), to);
+        else if (state >> TRIANGLE_CUT & 1)
+            to = cover_cut(tile, &frame, slot, to);
+        else
+            to = cover_parts(tile, &frame, slot, NULL, to);
+    }
+    list->count = (int)(to - list->code);
+    return slot;
+}
