@@ -20,6 +20,52 @@ static void make_skin(uint8_t rgba[SKIN * SKIN][4])
     }
 }
 
+/* A cut through three waves that run to the right, at 1.7 seconds: at the lower left, 16 pixels a metre. */
+static void draw_waves(const struct stages *by, uint8_t (*color)[4])
+{
+    enum { LEFT = 2, WIDE = 48, TOP = 60, LEVEL = 70, BOTTOM = 78, PARTS = 16 };
+    static const lom_trochoid waves[3] = { { { 1, 0 }, 4.2, 6.42, 0.1, 0.22, 0.22 },
+                                           { { 1, 0 }, 7.7, 8.69, 0.4, 0.05, 0.05 },
+                                           { { 1, 0 }, 13.1, 11.33, 0.7, 0.02, 0.02 } };
+    for (int i = 0; i < WIDE * (BOTTOM - TOP); i++)
+        write_pixel((const float[4]){ 0.8f, 0.8f, 0.75f, 1 }, false,
+                    color[(TOP + i / WIDE) * GALLERY_WIDTH + LEFT + i % WIDE]);
+    for (int i = -WIDE * PARTS; i < 2 * WIDE * PARTS;
+         i++) { /* columns of water at rest, some of which move into the cut */
+        float x = (float)i / (16 * PARTS), at[2] = { x, 0 };
+        for (int k = 0; k < 3; k++) {
+            float moved[3];
+            by->wave(&waves[k], x, 0, 1.7f, moved);
+            at[0] += moved[0];
+            at[1] += moved[1];
+        }
+        int column = lom_int_of(floorf(at[0] * 16)), top = LEVEL - lom_int_of(rintf(at[1] * 16));
+        for (int y = top > 0 ? top : 0; y < BOTTOM && column >= 0 && column < WIDE; y++)
+            write_pixel((const float[4]){ 0.03f, 0.15f, 0.25f, 1 }, false, color[y * GALLERY_WIDTH + LEFT + column]);
+    }
+}
+
+/* A round cloud over the middle, lit from above: 8 steps a ray, blended over what is there. */
+static void draw_cloud(const struct stages *by, uint8_t (*color)[4])
+{
+    enum { STEPS = 8, RADIUS = 11, X = 58, Y = 13 };
+    for (int y = Y - RADIUS; y <= Y + RADIUS; y++)
+        for (int x = X - RADIUS; x <= X + RADIUS; x++) {
+            float ray[2] = { 1, 0 }, across = (float)(x - X) / RADIUS, up = (float)(Y - y) / RADIUS;
+            for (int i = 0; i < STEPS; i++) { /* from the eye's side, which is darker */
+                float along = ((float)i + 0.5f) * 2 / STEPS - 1,
+                      from_edge = 1 - (across * across + up * up + along * along);
+                by->march(greater(from_edge, 0) * 6 / STEPS, 0.35f + 0.25f * up + 0.4f * (along > 0 ? 1.0f : 0.0f),
+                          ray);
+            }
+            uint8_t *pixel = color[y * GALLERY_WIDTH + x];
+            float light[4] = { 0, 0, 0, 1 };
+            for (int c = 0; c < 3; c++)
+                light[c] = ray[1] + ray[0] * decode(pixel[c]);
+            write_pixel(light, false, pixel);
+        }
+}
+
 /* Draws it into color by stages of which those that are NULL are right. False when memory runs out. */
 static bool draw_gallery_scene(const struct stages *others, uint8_t (*color)[4])
 {
@@ -66,6 +112,8 @@ static bool draw_gallery_scene(const struct stages *others, uint8_t (*color)[4])
         drawn[next] = true;
         draw_thing_by(&by, &picture, &things[next], &texture, &camera, eye);
     }
+    draw_cloud(&by, color);
+    draw_waves(&by, color);
     lom_free_mesh(floor);
     lom_free_mesh(strip);
     lom_free_mesh(torus);

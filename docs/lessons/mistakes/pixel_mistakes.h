@@ -347,4 +347,68 @@ static void cut_off_bytes(const float color[4], bool blends, uint8_t pixel[4])
     }
 }
 
+/* ---- wave ---- */
+
+static void travel_backwards(const lom_trochoid *w, float x, float z, float time, float moved[3])
+{
+    wave(w, x, z, -time, moved);
+}
+
+static void wave_of_length(const lom_trochoid *w, float x, float z, float time, float moved[3])
+{
+    lom_trochoid other = *w;
+    other.number = w->number / 6.283185307179586; /* 1 / length */
+    wave(&other, x, z, time, moved);
+}
+
+static void wave_of_one_speed(const lom_trochoid *w, float x, float z, float time, float moved[3])
+{
+    lom_trochoid other = *w;
+    other.rate = lom_double_sqrt(9.80665) * w->number;
+    wave(&other, x, z, time, moved);
+}
+
+static void wave_up_and_down(const lom_trochoid *w, float x, float z, float time, float moved[3])
+{
+    lom_trochoid sine = *w;
+    sine.across = 0;
+    wave(&sine, x, z, time, moved);
+}
+
+static void wave_turned_over(const lom_trochoid *w, float x, float z, float time, float moved[3])
+{
+    wave(w, x, z, time, moved);
+    moved[0] = -moved[0];
+    moved[2] = -moved[2];
+}
+
+/* ---- march ---- */
+
+static void lose_evenly(float depth, float light, float ray[2])
+{
+    float through = greater(1 - depth, 0);
+    ray[1] = ray[1] + ray[0] * (1 - through) * light;
+    ray[0] = ray[0] * through;
+}
+
+static void forget_what_is_before(float depth, float light, float ray[2])
+{
+    float through = (float)lom_double_exp(-(double)depth);
+    ray[1] = ray[1] + (1 - through) * light;
+    ray[0] = ray[0] * through;
+}
+
+static void put_behind_over(float depth, float light, float ray[2])
+{
+    float through = (float)lom_double_exp(-(double)depth);
+    ray[1] = ray[1] * through + (1 - through) * light;
+    ray[0] = ray[0] * through;
+}
+
+static void add_depth_as_light(float depth, float light, float ray[2])
+{
+    ray[1] = ray[1] + ray[0] * depth * light;
+    ray[0] = ray[0] * (float)lom_double_exp(-(double)depth);
+}
+
 #endif

@@ -9,6 +9,8 @@ int draw_pipeline(int argc, char **argv);
 #include "../pipeline/pipeline.c"
 #undef main
 
+#include <lom/waves.h>
+
 /* What is drawn: a mesh, where it is, and what of it. */
 struct thing {
     const lom_mesh *mesh;
@@ -39,14 +41,17 @@ struct stages {
     void (*sample)(const struct texture *texture, struct fragment *f);             /* in: varying, lod; out: texel */
     void (*shade)(const struct uniforms *u, struct fragment *f);                   /* out: color */
     void (*write_pixel)(const float color[4], bool blends, uint8_t pixel[4]);
+    /* What the pipeline has not, but water and clouds have. */
+    void (*wave)(const lom_trochoid *w, float x, float z, float time, float moved[3]); /* out: by how much */
+    void (*march)(float depth, float light, float ray[2]); /* a step: its optical depth, the light there; ray: below */
 };
 enum { STAGES = sizeof(struct stages) / sizeof(void (*)(void)) };
 
 /* Their names, in the same order. */
 static const char *const stage_names[STAGES] = {
-    "order",       "model_matrix",    "normal_matrix", "round_matrix", "make_texture", "shade_vertex",
-    "clip",        "project",         "set_up",        "covers",       "depth_at",     "is_nearer",
-    "interpolate", "level_of_detail", "sample",        "shade",        "write_pixel",
+    "order",   "model_matrix", "normal_matrix", "round_matrix", "make_texture", "shade_vertex", "clip",
+    "project", "set_up",       "covers",        "depth_at",     "is_nearer",    "interpolate",  "level_of_detail",
+    "sample",  "shade",        "write_pixel",   "wave",         "march",
 };
 
 /* A mistake: one stage with one rule broken. */
@@ -72,10 +77,44 @@ static bool is_nearer(float depth, float before)
     return depth > before;
 }
 
+/* A trochoid (Gerstner 1809) as lom/waves.h defines it. */
+static void wave(const lom_trochoid *w, float x, float z, float time, float moved[3])
+{
+    double phase = w->number * (w->direction[0] * (double)x + w->direction[1] * (double)z);
+    double t = phase + 6.283185307179586 * w->phase - w->rate * (double)time, across = -w->across * lom_double_sin(t);
+    moved[0] = (float)(across * w->direction[0]);
+    moved[1] = (float)(w->amplitude * lom_double_cos(t));
+    moved[2] = (float)(across * w->direction[1]);
+}
+
+/* Front to back; ray: the share of light that comes through all steps so far (1 at first), and the light so far (0). */
+static void march(float depth, float light, float ray[2])
+{
+    float through = (float)lom_double_exp(-(double)depth);
+    ray[1] = ray[1] + ray[0] * (1 - through) * light;
+    ray[0] = ray[0] * through;
+}
+
 static const struct stages right_stages = {
-    order,       lom_model_matrix, lom_normal_matrix, lom_round_matrix, make_texture, shade_vertex,    clip,   project,
-    set_up,      covers,           depth_at,          is_nearer,        interpolate,  level_of_detail, sample, shade,
+    order,
+    lom_model_matrix,
+    lom_normal_matrix,
+    lom_round_matrix,
+    make_texture,
+    shade_vertex,
+    clip,
+    project,
+    set_up,
+    covers,
+    depth_at,
+    is_nearer,
+    interpolate,
+    level_of_detail,
+    sample,
+    shade,
     write_pixel,
+    wave,
+    march,
 };
 
 /* Right stages where the others are NULL. */
