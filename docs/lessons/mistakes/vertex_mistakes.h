@@ -103,11 +103,12 @@ static struct texture flip_v(int width, int height, const uint8_t *rgba, float (
     struct texture t = make_texture(width, height, rgba, room);
     for (struct level *l = t.level; l < t.level + t.levels; l++)
         for (int y = 0; y < l->height / 2; y++)
-            for (int i = 0; i < 4 * l->width; i++) {
-                float *upper = &l->texel[y * l->width][i], *lower = &l->texel[(l->height - 1 - y) * l->width][i],
-                      swap = *upper;
-                *upper = *lower;
-                *lower = swap;
+            for (int x = 0; x < l->width; x++) {
+                float *upper = l->texel[y * l->width + x], *lower = l->texel[(l->height - 1 - y) * l->width + x],
+                      swap[4];
+                memcpy(swap, upper, sizeof swap);
+                memcpy(upper, lower, sizeof swap);
+                memcpy(lower, swap, sizeof swap);
             }
     return t;
 }
