@@ -39,7 +39,7 @@ static const struct lesson lessons[] = {
 enum { LESSONS = sizeof lessons / sizeof lessons[0], IS_PICTURE = -1 };
 
 /* What is known of an answer: of a number, which is rounded to `decimals`, or of a picture. Exercise 0 is the lesson's
- * own picture. */
+ * own picture, the answer to none. */
 struct answer {
     const char *lesson;
     int exercise, decimals;
@@ -188,8 +188,9 @@ static int check_answer(const struct lesson *lesson, const char *exercise, const
     uint64_t hash;
     if (!hash_answer(asked, text, &hash))
         return LOM_EXIT_FAILED;
-    for (const struct answer *a = asked; a < answers + ANSWERS; a++)
-        if (strcmp(a->lesson, asked->lesson) == 0 && a->exercise == asked->exercise && a->hash == hash) {
+    for (const struct answer *a = answers; a < answers + ANSWERS; a++)
+        if (strcmp(a->lesson, asked->lesson) == 0 && a->hash == hash &&
+            (a->exercise == asked->exercise || (a->exercise == 0 && asked->decimals == IS_PICTURE))) {
             printf("%s %s\n", a->right ? "Right." : "Not right.", a->sentence);
             return a->right ? LOM_EXIT_DONE : LOM_EXIT_DIFFERS;
         }

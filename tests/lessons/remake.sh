@@ -9,9 +9,9 @@ folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 answers=$BUILD/tests/lessons/test_answers
 
-row() { # LESSON EXERCISE PICTURE SENTENCE
+row() { # LESSON EXERCISE PICTURE RIGHT SENTENCE
     hash=$("$BUILD/lom" info --json "$3" | sed 's/.*"hash": *"\([0-9a-f]*\)".*/\1/')
-    printf '    { "%s", %d, IS_PICTURE, 0x%s, true, "%s" },\n' "$1" "$2" "$hash" "$4"
+    printf '    { "%s", %d, IS_PICTURE, 0x%s, %s, "%s" },\n' "$1" "$2" "$hash" "$4" "$5"
 }
 
 compiler=$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags")
@@ -23,7 +23,7 @@ compiler=$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags")
         name=$(basename "$source" .c)
         [ "$source" = "docs/lessons/$name/$name.c" ] || continue
         "$BUILD/${source%.c}" "$folder/$name.png" >&2 || exit 1
-        row "$name" 0 "$folder/$name.png" ""
+        row "$name" 0 "$folder/$name.png" false "That is the picture of the lesson's own program."
         [ "$1" != --write ] || cp "$folder/$name.png" "docs/lessons/$name/$name.png"
     done
     "$answers" --rows
@@ -33,7 +33,7 @@ compiler=$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags")
         cmp -s "$folder/changed.c" "docs/lessons/$name/$name.c" && { echo "$name $exercise: the change changes nothing" >&2; exit 1; }
         $compiler -std=gnu11 -O1 -Iinclude -ffp-contract=off -Wno-psabi ${SAN:+-fsanitize=$SAN} "$folder/changed.c" \
             "$BUILD/liblom.a" -lm -lpthread -o "$folder/changed" && "$folder/changed" "$folder/changed.png" >&2 || exit 1
-        row "$name" "$exercise" "$folder/changed.png" "$sentence"
+        row "$name" "$exercise" "$folder/changed.png" true "$sentence"
         [ -z "$KEEP" ] || cp "$folder/changed.png" "$KEEP/$name-$exercise.png"
     done <"$folder/changes"
 } >"$folder/table" || exit 1

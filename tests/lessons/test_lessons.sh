@@ -65,6 +65,7 @@ for changed in "$folder"/changed/*.png; do
     pair=$(basename "$changed" .png)
     "$lom" lesson "${pair%-*}" "${pair##*-}" "$changed" | grep -q '^Right' || why="$pair is not right"
     "$lom" lesson "${pair%-*}" "${pair##*-}" "docs/lessons/${pair%-*}/${pair%-*}.png" >"$folder/out" && why="$pair takes the unchanged picture"
+    grep -q "own program" "$folder/out" || why="$pair is not told from the lesson's own picture"
 done
 result answers_are_told_from_wrong_ones "$why"
 
