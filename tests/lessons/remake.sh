@@ -14,7 +14,7 @@ row() { # LESSON EXERCISE PICTURE RIGHT SENTENCE
     printf '    { "%s", %d, IS_PICTURE, 0x%s, %s, "%s" },\n' "$1" "$2" "$hash" "$4" "$5"
 }
 
-compiler=$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags")
+compiler="$(sed 's/ -D_GNU_SOURCE.*//' "$BUILD/flags") $(grep -o -e '--coverage' "$BUILD/flags" | head -1)"
 {
     echo "/* Hashes of the lessons' pictures (exercise 0) and of the answers to their exercises. Made by tests/lessons/remake.sh"
     echo ' * --write; the answers are in tests/lessons/test_answers.c. */'
