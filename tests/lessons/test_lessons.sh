@@ -50,6 +50,9 @@ done
 "$BUILD/docs/lessons/mistakes/gallery" >"$folder/rows"
 sed -n '/^| right | wrong |/,$p' docs/lessons/mistakes/README.md | cmp -s - "$folder/rows" || why="docs/lessons/mistakes/README.md has another table"
 "$BUILD/docs/lessons/mistakes/gallery" no/such/folder 2>"$folder/err" && why="a folder that is not there is no failure"
+mkdir "$folder/two"
+"$BUILD/docs/lessons/mistakes/gallery" "$folder/two" gamma near_clip && [ "$(ls "$folder/two" | wc -l)" -eq 3 ] || why="two mistakes are not drawn alone"
+"$BUILD/docs/lessons/mistakes/gallery" "$folder/two" gama 2>"$folder/err" && why="a mistake that is none is no failure"
 result the_gallery_of_mistakes_is_drawn "$why"
 
 why=

@@ -1,5 +1,5 @@
-/* The gallery of mistakes: gallery FOLDER writes right.png and, a mistake, NAME.png into a folder that is there; gallery
- * alone prints the table of README.md. In: the plain pipeline, each time with one wrong stage. Out: a scene as it draws it. */
+/* The gallery of mistakes: gallery FOLDER [NAME...] writes right.png and, a mistake, NAME.png into a folder that is there;
+ * gallery alone prints the table of README.md. In: the plain pipeline, each time with one wrong stage. Out: a scene as it draws it. */
 #include "gallery.h"
 #include "mistakes.h"
 
@@ -36,12 +36,28 @@ static bool print_table(void)
     return done;
 }
 
+/* Whether a mistake was asked for by its name; without names all are. */
+static bool is_asked(const char *name, int count, char **names)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(names[i], name) == 0)
+            return true;
+    return count == 0;
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 1)
         return print_table() ? 0 : 2;
-    bool done = argc == 2 && write_scene(argv[1], "right", &right_stages);
+    int drawn = 0, asked = argc - 2;
+    bool done = write_scene(argv[1], "right", &right_stages);
     for (int i = 0; i < MISTAKES && done; i++)
-        done = write_scene(argv[1], mistakes[i].name, &mistakes[i].wrong);
-    return done ? 0 : 2;
+        if (is_asked(mistakes[i].name, asked, argv + 2)) {
+            done = write_scene(argv[1], mistakes[i].name, &mistakes[i].wrong);
+            drawn++;
+        }
+    if (done && drawn < asked)
+        fprintf(stderr, "gallery: of %d names %d are no mistake's; gallery without arguments lists them.\n", asked,
+                asked - drawn);
+    return done && drawn >= asked ? 0 : 2;
 }
