@@ -17,7 +17,8 @@ static double now_ms(void)
 
 struct room {
     lom_particle *particles;
-    struct lom_sprites sprites;
+    struct lom_sprite *sprites;
+    float *depth;
     uint32_t *order, *scratch;
 };
 
@@ -26,13 +27,12 @@ static void run_moment(const lom_spray *spray, const struct lom_spray_view *view
 {
     lom_emitter emitter = lom_spray_emitter(spray);
     double at[STEPS + 1];
-    room->sprites.count = 0;
     at[0] = now_ms();
     lom_place_particles(&emitter, time, room->particles, NULL);
     at[1] = now_ms();
-    lom_add_sprites(&room->sprites, spray, view, room->particles, emitter.count);
+    lom_make_sprites(spray, view, room->particles, emitter.count, room->sprites, room->depth);
     at[2] = now_ms();
-    lom_order_particles(room->sprites.depth, room->sprites.count, room->order, room->scratch);
+    lom_order_particles(room->depth, emitter.count, room->order, room->scratch);
     at[3] = now_ms();
     for (int i = 0; i < STEPS; i++)
         least[i] = at[i + 1] - at[i] < least[i] ? at[i + 1] - at[i] : least[i];
@@ -41,11 +41,11 @@ static void run_moment(const lom_spray *spray, const struct lom_spray_view *view
 int main(void)
 {
     struct room room = { .particles = lom_allocate(COUNT, sizeof(lom_particle), NULL),
-                         .sprites = { .sprite = lom_allocate(COUNT, sizeof(struct lom_sprite), NULL),
-                                      .depth = lom_allocate(COUNT, sizeof(float), NULL) },
+                         .sprites = lom_allocate(COUNT, sizeof(struct lom_sprite), NULL),
+                         .depth = lom_allocate(COUNT, sizeof(float), NULL),
                          .order = lom_allocate(COUNT, sizeof(uint32_t), NULL),
                          .scratch = lom_allocate(COUNT, sizeof(uint32_t), NULL) };
-    if (room.particles == NULL || room.sprites.sprite == NULL || room.sprites.depth == NULL || room.order == NULL ||
+    if (room.particles == NULL || room.sprites == NULL || room.depth == NULL || room.order == NULL ||
         room.scratch == NULL)
         return 2;
     lom_spray spray = { .count = COUNT,

@@ -71,6 +71,9 @@ typedef struct lom_counters {
 } lom_counters;
 
 lom_counters lom_device_counters(const lom_device *device);
+/* Seconds by the clock in which two of the device's workers or more were at work, since it was opened: what is left of
+ * a frame's time is its serial share, which bounds what more workers can gain. 0 with one thread, and for NULL. */
+double lom_device_shared_seconds(const lom_device *device);
 
 /* ---- shaders ---- */
 

@@ -71,7 +71,8 @@ typedef struct lom_spray_counters {
 enum { LOM_MAX_STAGES = 16 };
 typedef struct lom_stage_time {
     const char *name;
-    double milliseconds; /* by the clock: the only thing here that differs from run to run */
+    double milliseconds; /* by the clock: this and the next are all that differs here from run to run */
+    double alone;        /* of these, those in which at most one of the device's workers ran */
 } lom_stage_time;
 
 typedef struct lom_frame {

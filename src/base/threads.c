@@ -8,12 +8,18 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { SPINS = 2000 };
 
 /* Bytes that a worker needs at most, at every level of optimisation; systems give as little as 128 KiB (musl). */
 static const size_t worker_stack = (size_t)1 << 20;
+
+/* When a worker was at its work, nanoseconds; a cache line each. */
+struct turn {
+    _Alignas(64) int64_t begin, end;
+};
 
 struct lom_pool {
     pid_t process; /* that the workers belong to */
@@ -26,6 +32,8 @@ struct lom_pool {
     bool ending;
     lom_work *work;
     void *context;
+    struct turn *turns;
+    uint64_t shared; /* nanoseconds in which two were at work, or more */
 };
 
 struct worker {
@@ -54,6 +62,35 @@ static unsigned wait_for_generation(lom_pool *pool, unsigned seen)
     return seen + 1;
 }
 
+static int64_t now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
+}
+
+static void take_turn(lom_pool *pool, int number)
+{
+    pool->turns[number].begin = now();
+    pool->work(pool->context, number);
+    pool->turns[number].end = now();
+}
+
+/* Two are at work from when the second begins to when the last but one ends. */
+static void count_shared(lom_pool *pool)
+{
+    int64_t first = INT64_MAX, second = INT64_MAX, last = INT64_MIN, last_but_one = INT64_MIN;
+    for (int i = 0; i < pool->size; i++) {
+        int64_t begin = pool->turns[i].begin, end = pool->turns[i].end;
+        second = begin < first ? first : begin < second ? begin : second;
+        first = begin < first ? begin : first;
+        last_but_one = end > last ? last : end > last_but_one ? end : last_but_one;
+        last = end > last ? end : last;
+    }
+    if (last_but_one > second)
+        pool->shared += (uint64_t)(last_but_one - second);
+}
+
 static void *run_worker(void *argument)
 {
     struct worker *worker = argument;
@@ -66,7 +103,7 @@ static void *run_worker(void *argument)
         seen = wait_for_generation(pool, seen);
         if (pool->ending)
             return NULL;
-        pool->work(pool->context, number);
+        take_turn(pool, number);
         if (atomic_fetch_sub_explicit(&pool->running, 1, memory_order_acq_rel) == 1) {
             pthread_mutex_lock(&pool->mutex);
             pthread_cond_signal(&pool->finished);
@@ -95,14 +132,22 @@ static bool start_worker(lom_pool *pool, int number)
     return started;
 }
 
+static void free_memory(lom_pool *pool)
+{
+    lom_release(pool->threads);
+    lom_release(pool->turns);
+    lom_release(pool);
+}
+
 lom_pool *lom_create_pool(int threads, lom_error *error)
 {
     lom_pool *pool = lom_allocate(1, sizeof *pool, error);
     if (pool == NULL)
         return NULL;
     pool->threads = lom_allocate((size_t)threads, sizeof *pool->threads, error);
-    if (pool->threads == NULL) {
-        lom_release(pool);
+    pool->turns = lom_allocate((size_t)threads, sizeof *pool->turns, error);
+    if (pool->threads == NULL || pool->turns == NULL) {
+        free_memory(pool);
         return NULL;
     }
     pthread_mutex_init(&pool->mutex, NULL);
@@ -136,8 +181,12 @@ void lom_free_pool(lom_pool *pool)
         pthread_cond_destroy(&pool->wake);
         pthread_mutex_destroy(&pool->mutex);
     }
-    lom_release(pool->threads);
-    lom_release(pool);
+    free_memory(pool);
+}
+
+uint64_t lom_pool_shared(const lom_pool *pool)
+{
+    return pool->shared;
 }
 
 int lom_pool_size(const lom_pool *pool)
@@ -145,18 +194,8 @@ int lom_pool_size(const lom_pool *pool)
     return pool->process == getpid() ? pool->size : 1;
 }
 
-void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
+static void wait_for_workers(lom_pool *pool)
 {
-    const int size = lom_pool_size(pool);
-    if (size > 1) {
-        pool->work = work;
-        pool->context = context;
-        atomic_store_explicit(&pool->running, size - 1, memory_order_relaxed);
-        advance_generation(pool);
-    }
-    work(context, 0);
-    if (size == 1)
-        return;
     for (int i = 0; i < SPINS; i++) {
         if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0)
             return;
@@ -166,4 +205,20 @@ void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
     while (atomic_load_explicit(&pool->running, memory_order_acquire) != 0)
         pthread_cond_wait(&pool->finished, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
+}
+
+void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
+{
+    const int size = lom_pool_size(pool);
+    if (size == 1) {
+        work(context, 0);
+        return;
+    }
+    pool->work = work;
+    pool->context = context;
+    atomic_store_explicit(&pool->running, size - 1, memory_order_relaxed);
+    advance_generation(pool);
+    take_turn(pool, 0);
+    wait_for_workers(pool);
+    count_shared(pool);
 }

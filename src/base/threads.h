@@ -6,6 +6,7 @@
 
 typedef struct lom_pool lom_pool;
 typedef void lom_work(void *context, int worker);
+typedef void lom_range_work(void *context, size_t first, size_t end);
 
 /* A pool of `threads` workers, of which the caller is number 0; each has the default float state. When the system gives
  * fewer threads the pool is that much smaller: results never depend on it. In a forked child the pool is the caller
@@ -15,8 +16,13 @@ lom_pool *lom_create_pool(int threads, lom_error *error);
 void lom_free_pool(lom_pool *pool);
 /* Workers of the pool, the caller included. */
 int lom_pool_size(const lom_pool *pool);
+/* Nanoseconds by the clock in which two workers or more were at work, since the pool was made. */
+uint64_t lom_pool_shared(const lom_pool *pool);
 /* Runs work(context, worker) on every worker; returns when all have returned. What they wrote is visible to the caller.
  */
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context);
+
+/* Runs work(context, first, end) for ranges that make up 0 .. count - 1, `piece` at most in each, on all workers. */
+void lom_share_out(lom_pool *pool, size_t count, size_t piece, lom_range_work *work, void *context);
 
 #endif

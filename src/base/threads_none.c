@@ -22,6 +22,12 @@ int lom_pool_size(const lom_pool *pool)
     return 1;
 }
 
+uint64_t lom_pool_shared(const lom_pool *pool)
+{
+    (void)pool;
+    return 0;
+}
+
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
 {
     (void)pool;

@@ -9,6 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Each stage's milliseconds, then of all of them those in which at most one worker ran. */
+static void print_times(lom_json *json, const lom_frame *frame)
+{
+    const lom_stage_time *stage = frame->stage;
+    double alone = 0;
+    char name[48];
+    for (int i = 0; i < LOM_MAX_STAGES && stage[i].name != NULL; i++) {
+        snprintf(name, sizeof name, "ms_%s", stage[i].name);
+        lom_json_number(json, name, stage[i].milliseconds);
+    }
+    for (int i = 0; i < LOM_MAX_STAGES && stage[i].name != NULL; i++) {
+        snprintf(name, sizeof name, "alone_%s", stage[i].name);
+        lom_json_number(json, name, stage[i].alone);
+        alone += stage[i].alone;
+    }
+    lom_json_number(json, "ms_alone", alone);
+}
+
 static void print_stats(FILE *out, const lom_renderer *renderer, const lom_frame *frame, int number, double elapsed)
 {
     const lom_counters *c = &frame->counters;
@@ -48,11 +66,7 @@ static void print_stats(FILE *out, const lom_renderer *renderer, const lom_frame
         if (frame->plan.step[i].runs)
             length += (size_t)snprintf(ran + length, sizeof ran - length, "%s%s", length > 0 ? " " : "",
                                        frame->plan.step[i].name);
-    for (int i = 0; i < LOM_MAX_STAGES && frame->stage[i].name != NULL; i++) {
-        char name[48];
-        snprintf(name, sizeof name, "ms_%s", frame->stage[i].name);
-        lom_json_number(&json, name, frame->stage[i].milliseconds);
-    }
+    print_times(&json, frame);
     lom_json_text(&json, "ran", ran);
     lom_json_end(&json);
 }

@@ -3,6 +3,7 @@
 #include "base/pass_error.h"
 #include "pipeline/device.h"
 #include "pipeline/renew_texture.h"
+#include "pipeline/share_work.h"
 
 #include "lanes/variants.h"
 
@@ -109,6 +110,16 @@ bool lom_check_device(const lom_device *device, lom_error *error)
 lom_device_desc lom_describe_device(const lom_device *device)
 {
     return device != NULL ? device->desc : (lom_device_desc){ .threads = 0 };
+}
+
+void lom_share_work(lom_device *device, size_t count, size_t piece, lom_range_work *work, void *context)
+{
+    lom_share_out(device->pool, count, piece, work, context);
+}
+
+double lom_device_shared_seconds(const lom_device *device)
+{
+    return device == NULL || device->pool == NULL ? 0 : (double)lom_pool_shared(device->pool) * 1e-9;
 }
 
 lom_counters lom_device_counters(const lom_device *device)

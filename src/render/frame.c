@@ -89,21 +89,37 @@ static double milliseconds(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
+/* The clock, and how much of it workers shared. */
+struct moment {
+    double milliseconds, shared;
+};
+
+static struct moment look_at_clock(const lom_renderer *r)
+{
+    return (struct moment){ milliseconds(), lom_device_shared_seconds(r->device) * 1e3 };
+}
+
+static lom_stage_time time_since(const lom_renderer *r, struct moment *before, const char *name)
+{
+    struct moment now = look_at_clock(r);
+    double whole = now.milliseconds - before->milliseconds, alone = whole - (now.shared - before->shared);
+    *before = now;
+    return (lom_stage_time){ name, whole, alone > 0 ? alone : 0 };
+}
+
 static bool draw_stages(struct frame *f, lom_stage_time *times, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
         return false;
     bool done = true;
-    double before = milliseconds();
+    struct moment before = look_at_clock(r);
     const size_t count = sizeof stages / sizeof stages[0];
     for (size_t i = 0; done && i < count; i++) {
         f->done = (double)i / (double)(count + 1);
         done = stages[i].run(f, error);
         done = lom_check_device(r->device, error) && done;
-        double now = milliseconds();
-        times[i] = (lom_stage_time){ stages[i].name, now - before };
-        before = now;
+        times[i] = time_since(r, &before, stages[i].name);
     }
     f->done = (double)count / (double)(count + 1);
     lom_report_progress(f, "output");
@@ -133,11 +149,11 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
         look(f);
     lom_image *traced = placed && renderer->reference != NULL ? lom_draw_reference(f, &failed) : NULL;
     bool drawn = placed && renderer->reference == NULL && draw_stages(f, out->stage, &failed);
-    double start = milliseconds();
-    out->image = drawn ? lom_output_target(f->scene, renderer->targets.of[LOM_TARGET_COLOR], &failed)
+    struct moment start = look_at_clock(renderer);
+    out->image = drawn ? lom_output_target(f->scene, renderer->device, renderer->targets.of[LOM_TARGET_COLOR], &failed)
                        : lom_output_image(f->scene, traced, &failed);
     if (drawn || traced != NULL)
-        out->stage[sizeof stages / sizeof stages[0]] = (lom_stage_time){ "output", milliseconds() - start };
+        out->stage[sizeof stages / sizeof stages[0]] = time_since(renderer, &start, "output");
     out->shallow_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) - f->wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);
     assert((out->image != NULL) == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */

@@ -1,5 +1,6 @@
 /* The finished picture. In: what was drawn. Out: an image in the scene's output format, encoded once. */
 #include "image/texture.h"
+#include "pipeline/share_work.h"
 #include "render/targets.h"
 
 /* IEC 61966-2-1 of linear light, in double. */
@@ -29,22 +30,6 @@ static void encode_row(const lom_output *output, const float *linear, int channe
         }
 }
 
-/* Four bytes a pixel become three in the same memory. */
-static lom_image *drop_alpha(lom_image *image, lom_format format)
-{
-    size_t count = (size_t)image->width * (size_t)image->height;
-    uint8_t *to = image->pixels;
-    const uint8_t *from = image->pixels;
-    for (size_t i = 0; i < count; i++, from += 4, to += 3) {
-        uint8_t r = from[0], g = from[1], b = from[2];
-        to[0] = r;
-        to[1] = g;
-        to[2] = b;
-    }
-    image->format = format;
-    return image;
-}
-
 static lom_format output_format(const lom_output *output)
 {
     if (output->format != LOM_OUTPUT_RGB8)
@@ -52,18 +37,45 @@ static lom_format output_format(const lom_output *output)
     return output->transfer == LOM_TRANSFER_SRGB ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8;
 }
 
-lom_image *lom_output_target(const lom_scene *scene, const lom_texture *drawn, lom_error *error)
+/* A row of four bytes a pixel without its alpha. */
+static void drop_alpha(const uint8_t *restrict from, int count, uint8_t *restrict to)
 {
-    const lom_output *output = &scene->output;
-    lom_format format = output_format(output);
-    int width = lom_texture_width(drawn), height = lom_texture_height(drawn);
-    if (output->format == LOM_OUTPUT_RGB8) {
-        lom_image *image = lom_read_texture(drawn, 0, 0, error);
-        return image != NULL ? drop_alpha(image, format) : NULL;
+    for (int i = 0; i < count; i++, from += 4, to += 3) {
+        to[0] = from[0];
+        to[1] = from[1];
+        to[2] = from[2];
     }
-    lom_image *image = lom_create_image(width, height, 1, format, error);
-    for (int y = 0; image != NULL && y < height; y++)
-        encode_row(output, lom_texel(drawn, 0, 0, y, 0), 4, width, lom_image_pixel(image, 0, y, 0));
+}
+
+struct writing {
+    const lom_output *output;
+    const lom_texture *drawn;
+    lom_image *image;
+};
+
+static void write_rows(void *context, size_t first, size_t end)
+{
+    const struct writing *w = context;
+    int width = w->image->width;
+    for (size_t y = first; y < end; y++) {
+        const void *from = lom_texel(w->drawn, 0, 0, (int)y, 0);
+        void *to = lom_image_pixel(w->image, 0, (int)y, 0);
+        if (w->output->format == LOM_OUTPUT_RGB8)
+            drop_alpha(from, width, to);
+        else
+            encode_row(w->output, from, 4, width, to);
+    }
+}
+
+lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error)
+{
+    enum { ROWS = 16 };
+    const lom_output *output = &scene->output;
+    int width = lom_texture_width(drawn), height = lom_texture_height(drawn);
+    lom_image *image = lom_create_image(width, height, 1, output_format(output), error);
+    struct writing writing = { output, drawn, image };
+    if (image != NULL)
+        lom_share_work(device, (size_t)height, ROWS, write_rows, &writing);
     return image;
 }
 

@@ -30,7 +30,7 @@ uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int dra
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int drawn_width, int drawn_height,
                       lom_error *error);
 /* What was drawn into the colour target, in the scene's output format: the caller's. NULL on failure. */
-lom_image *lom_output_target(const lom_scene *scene, const lom_texture *drawn, lom_error *error);
+lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error);
 /* The same of a picture of the reference (RGB32F), which is freed; NULL stays NULL. */
 lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error);
 

@@ -1,6 +1,6 @@
 /* Flight and lives of particles. In: an emitter and a time. Out: where each particle is. Invariant: a particle is a
  * function of the emitter, its number and the time alone. */
-#include <lom/particles.h>
+#include "spray/spray.h"
 
 static const double gravity = 9.80665;
 
@@ -60,7 +60,7 @@ static bool is_within(double value, double least, double most)
     return value >= least && value <= most;
 }
 
-static bool check_emitter(const lom_emitter *e, double time, lom_error *error)
+bool lom_check_emitter(const lom_emitter *e, double time, lom_error *error)
 {
     if (e->count > LOM_MAX_PARTICLES)
         return lom_fail(error, LOM_ERROR_LIMIT, "An emitter of %zu particles is beyond the limit of %d.", e->count,
@@ -133,13 +133,19 @@ static lom_particle particle_at(const lom_emitter *e, size_t index, double time)
     return p;
 }
 
+void lom_place_range(const lom_emitter *emitter, double time, size_t first, size_t end, lom_particle *particles)
+{
+    for (size_t i = first; i < end; i++)
+        particles[i - first] = particle_at(emitter, i, time);
+}
+
 bool lom_place_particles(const lom_emitter *emitter, double time, lom_particle *particles, lom_error *error)
 {
     lom_float_state state;
     lom_enter_float_state(&state);
-    bool is_valid = check_emitter(emitter, time, error);
-    for (size_t i = 0; is_valid && i < emitter->count; i++)
-        particles[i] = particle_at(emitter, i, time);
+    bool is_valid = lom_check_emitter(emitter, time, error);
+    if (is_valid)
+        lom_place_range(emitter, time, 0, emitter->count, particles);
     lom_leave_float_state(&state);
     return is_valid;
 }

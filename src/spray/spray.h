@@ -42,18 +42,25 @@ struct lom_spray_view {
     double to_light[3];
 };
 
-/* What can be drawn: the first `count` sprites, their depths, and in low and high the part of the screen that they
- * reach, in normalised device coordinates. */
-struct lom_sprites {
-    struct lom_sprite *sprite;
-    float *depth; /* metres along the view axis */
-    size_t count;
+/* How many of some sprites are seen, and in low and high the part of the screen that these reach, in normalised device
+ * coordinates; of none, low is 1 and high -1. */
+struct lom_sprite_reach {
+    size_t seen;
     double low[2], high[2];
 };
 
-/* Adds those of particles[0 .. count - 1] that the frame shows; there is room for them. */
-void lom_add_sprites(struct lom_sprites *sprites, const lom_spray *spray, const struct lom_spray_view *view,
-                     const lom_particle *particles, size_t count);
+/* Whether an emitter and a time are within their ranges; false with a sentence. */
+bool lom_check_emitter(const lom_emitter *emitter, double time, lom_error *error);
+/* lom_place_particles of the numbers first .. end - 1, of an emitter that was checked. */
+void lom_place_range(const lom_emitter *emitter, double time, size_t first, size_t end, lom_particle *particles);
+
+/* A sprite for each of particles[0 .. count - 1] that the frame shows, and its depth, metres along the view axis; where
+ * it does not, depth is 0 and the sprite as it was. */
+struct lom_sprite_reach lom_make_sprites(const lom_spray *spray, const struct lom_spray_view *view,
+                                         const lom_particle *particles, size_t count, struct lom_sprite *sprites,
+                                         float *depth);
+/* What both reach. */
+struct lom_sprite_reach lom_join_reaches(struct lom_sprite_reach a, struct lom_sprite_reach b);
 
 extern const lom_shader lom_spray_shader, lom_spray_layer_shader;
 

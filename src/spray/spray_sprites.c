@@ -64,34 +64,44 @@ static struct place place_of(const struct lom_spray_view *view, const double at[
     return p;
 }
 
-/* Whether a ball about the place lies outside the view. */
+/* Whether a ball about the place lies outside the view, or its middle before the near plane, where nothing is drawn. */
 static bool is_outside(const struct lom_spray_view *view, const struct place *p, double reach)
 {
     double a = view->projection.m[0][0], b = view->projection.m[1][1];
     double x = p->x < 0 ? -p->x : p->x, y = p->y < 0 ? -p->y : p->y;
-    return p->w + reach <= view->near_plane || x * a - p->w > reach * lom_double_sqrt(a * a + 1) ||
+    return p->w <= view->near_plane || x * a - p->w > reach * lom_double_sqrt(a * a + 1) ||
            y * b - p->w > reach * lom_double_sqrt(b * b + 1);
 }
 
-/* A ball that reaches the near plane may be anywhere on the screen. */
-static void widen(struct lom_sprites *sprites, const struct lom_spray_view *view, const struct place *p, double reach)
+/* The part of the screen that a ball about the place reaches; anything, where that reaches the near plane. */
+static struct lom_sprite_reach reach_of(const struct lom_spray_view *view, const struct place *p, double reach)
 {
     const double middle[2] = { p->x, p->y };
     double nearest = p->w - reach, farthest = p->w + reach;
-    for (int i = 0; i < 2; i++) {
-        double scale = view->projection.m[i][i], low = -1, high = 1;
-        if (nearest > view->near_plane) {
-            double a = (middle[i] - reach) * scale, b = (middle[i] + reach) * scale;
-            low = a < 0 ? a / nearest : a / farthest;
-            high = b > 0 ? b / nearest : b / farthest;
-        }
-        sprites->low[i] = low < sprites->low[i] ? low : sprites->low[i];
-        sprites->high[i] = high > sprites->high[i] ? high : sprites->high[i];
+    struct lom_sprite_reach r = { .seen = 1, .low = { -1, -1 }, .high = { 1, 1 } };
+    for (int i = 0; i < 2 && nearest > view->near_plane; i++) {
+        double scale = view->projection.m[i][i];
+        double a = (middle[i] - reach) * scale, b = (middle[i] + reach) * scale;
+        r.low[i] = a < 0 ? a / nearest : a / farthest;
+        r.high[i] = b > 0 ? b / nearest : b / farthest;
     }
+    return r;
 }
 
-static void add_sprite(struct lom_sprites *sprites, const lom_spray *spray, const struct lom_spray_view *view,
-                       const lom_particle *particle)
+struct lom_sprite_reach lom_join_reaches(struct lom_sprite_reach a, struct lom_sprite_reach b)
+{
+    a.seen += b.seen;
+    for (int i = 0; i < 2; i++) {
+        a.low[i] = b.low[i] < a.low[i] ? b.low[i] : a.low[i];
+        a.high[i] = b.high[i] > a.high[i] ? b.high[i] : a.high[i];
+    }
+    return a;
+}
+
+static const struct lom_sprite_reach none = { .seen = 0, .low = { 1, 1 }, .high = { -1, -1 } };
+
+static struct lom_sprite_reach make_sprite(const lom_spray *spray, const struct lom_spray_view *view,
+                                           const lom_particle *particle, struct lom_sprite *s, float *depth)
 {
     const struct place p = place_of(view, particle->place);
     double radius = spray->size[0] + (spray->size[1] - spray->size[0]) * particle->share;
@@ -103,10 +113,8 @@ static void add_sprite(struct lom_sprites *sprites, const lom_spray *spray, cons
     double opacity = spray->opacity * particle->alpha * (radius / wide) * (radius / high);
     double reach = wide + high;
     if (opacity < least_opacity || is_outside(view, &p, reach))
-        return;
-    widen(sprites, view, &p, reach);
-    struct lom_sprite *s = &sprites->sprite[sprites->count];
-    sprites->depth[sprites->count++] = (float)p.w;
+        return none;
+    *depth = (float)p.w;
     for (int i = 0; i < 3; i++) {
         s->middle[i] = (float)p.offset[i];
         s->along[i] = (float)(along[i] * high);
@@ -116,12 +124,18 @@ static void add_sprite(struct lom_sprites *sprites, const lom_spray *spray, cons
     s->opacity = (float)opacity;
     s->soft = (float)spray->soft;
     s->sun = (float)sun_share(spray->forward, dot(away, view->to_light));
+    return reach_of(view, &p, reach);
 }
 
-void lom_add_sprites(struct lom_sprites *sprites, const lom_spray *spray, const struct lom_spray_view *view,
-                     const lom_particle *particles, size_t count)
+struct lom_sprite_reach lom_make_sprites(const lom_spray *spray, const struct lom_spray_view *view,
+                                         const lom_particle *particles, size_t count, struct lom_sprite *sprites,
+                                         float *depth)
 {
-    for (size_t i = 0; i < count; i++)
+    struct lom_sprite_reach reach = none;
+    for (size_t i = 0; i < count; i++) {
+        depth[i] = 0;
         if (particles[i].alpha > 0)
-            add_sprite(sprites, spray, view, &particles[i]);
+            reach = lom_join_reaches(reach, make_sprite(spray, view, &particles[i], &sprites[i], &depth[i]));
+    }
+    return reach;
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Proves of spray before and behind a boulder, over water: one hash for every lane width and thread count; a crop is the
-# cut-out of the whole; a frame alone is the frame of a run; the scissor changes no byte; emitters that show nothing
-# leave the frame bit for bit, and the plan says why.
+# cut-out of the whole; a frame alone is the frame of a run; the scissor changes no byte; of one worker all times
+# are such in which one worker ran; emitters that show nothing leave the frame bit for bit, and the plan says why.
 . "$(dirname "$0")/render.sh"
 scene=$folder/spray.toml
 cat >"$folder/still.toml" <<END
@@ -62,6 +62,16 @@ crops crop_is_the_cut_out
 frame_alone a_frame_alone_is_the_frame_of_a_run
 [ "$(hash --set quality.scissor=false)" = "$whole" ] && why= || why='the scissor changes the picture'
 verdict the_scissor_changes_no_byte "$why"
+
+stats=$(draw --threads 1 --stats -)
+value() { echo "$stats" | sed -n "s/.*\"$1\": \([^,}]*\).*/\1/p"; }
+why=
+for stage in scene sea spray output; do
+    [ -n "$(value alone_$stage)" ] && [ "$(value alone_$stage)" = "$(value ms_$stage)" ] ||
+        why="$stage: $(value alone_$stage) ms alone of $(value ms_$stage)"
+done
+echo "$(value ms_alone) $(value ms)" | awk '{ exit !($1 > 0 && $1 <= $2) }' || why="$(value ms_alone) of $(value ms) ms are alone"
+verdict one_worker_is_always_alone "$why"
 
 still=$("$lom" render "$folder/still.toml" --size 160x90 --hash | cut -d' ' -f1)
 [ "$still" != "$whole" ] && why= || why='nothing is drawn'

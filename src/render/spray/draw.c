@@ -2,6 +2,7 @@
  * one order, the farthest first. Drops are laid over one another in floats, in a picture of their own that then is laid
  * over the frame: thousands of faint ones would vanish in the rounding of 8 bits. Invariant: a drop that is out of
  * view, hidden or clear changes no byte. */
+#include "pipeline/share_work.h"
 #include "render/frame.h"
 #include "shading/square.h"
 
@@ -18,24 +19,50 @@ static bool is_in_view(const lom_spray *spray, const lom_emitter *emitter, const
     return lom_box_visibility(frustum, box) != LOM_OUTSIDE;
 }
 
+/* An emitter's drops on their way into sprites, by all workers. */
+struct moving {
+    const lom_spray *spray;
+    const lom_emitter *emitter;
+    const struct lom_spray_view *view;
+    double time;
+    struct lom_sprite *sprites;
+    float *depth;
+    struct lom_sprite_reach *reach; /* of each piece */
+};
+
+static void move_piece(void *context, size_t first, size_t end)
+{
+    const struct moving *m = context;
+    lom_particle particles[LOM_DROPS_TOGETHER];
+    lom_place_range(m->emitter, m->time, first, end, particles);
+    m->reach[first / LOM_DROPS_TOGETHER] =
+        lom_make_sprites(m->spray, m->view, particles, end - first, m->sprites + first, m->depth + first);
+}
+
 /* Moves the drops of the emitters that may be seen, and makes sprites of those that are. */
-static bool move_drops(struct frame *f, const struct lom_spray_view *view, struct lom_sprites *sprites,
+static bool move_drops(struct frame *f, const struct lom_spray_view *view, struct lom_sprite_reach *reach,
                        lom_error *error)
 {
     const lom_scene *scene = f->scene;
+    struct lom_drawn_spray *m = &f->renderer->spray;
     lom_mat4 clip = lom_multiply(&view->projection, &view->view);
     lom_frustum frustum = lom_view_frustum(&clip, false);
+    size_t moved = 0;
     for (size_t i = 0; i < scene->spray_count; i++) {
         const lom_spray *spray = &scene->sprays[i];
         lom_emitter emitter = lom_spray_emitter(spray);
         if (!spray->visible || emitter.count == 0 || !is_in_view(spray, &emitter, &frustum))
             continue;
-        if (!lom_place_particles(&emitter, f->time, f->renderer->spray.particles, error))
+        if (!lom_check_emitter(&emitter, f->time, error))
             return false;
-        lom_add_sprites(sprites, spray, view, f->renderer->spray.particles, emitter.count);
-        f->spray->moved += emitter.count;
+        struct moving moving = { spray, &emitter, view, f->time, m->sprites + moved, m->depth + moved, m->reaches };
+        lom_share_work(f->renderer->device, emitter.count, LOM_DROPS_TOGETHER, move_piece, &moving);
+        for (size_t piece = 0; piece * LOM_DROPS_TOGETHER < emitter.count; piece++)
+            *reach = lom_join_reaches(*reach, m->reaches[piece]);
+        moved += emitter.count;
     }
-    f->spray->drawn = sprites->count;
+    f->spray->moved = moved;
+    f->spray->drawn = reach->seen;
     return true;
 }
 
@@ -46,7 +73,7 @@ static int pixel(double ndc, int size, int margin)
 }
 
 /* The pixels that sprites reach. */
-static lom_rect reach_of(const struct frame *f, const struct lom_sprites *sprites)
+static lom_rect reach_of(const struct frame *f, const struct lom_sprite_reach *sprites)
 {
     if (!f->scene->quality.scissor)
         return (lom_rect){ 0, 0, f->width, f->height };
@@ -67,25 +94,25 @@ static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct
     return u;
 }
 
-static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, const struct lom_sprites *sprites)
+static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, const struct lom_sprite_reach *sprites)
 {
     lom_renderer *r = f->renderer;
     lom_rect reach = reach_of(f, sprites);
     struct lom_spray_uniforms u = uniforms_of(f, view);
     lom_step *step = lom_add_step(f, "spray", true, "%zu drops of %llu, the farthest first, then over the frame",
-                                  sprites->count, (unsigned long long)f->spray->moved);
+                                  sprites->seen, (unsigned long long)f->spray->moved);
     step->width = f->crop.width;
     step->height = f->crop.height;
     step->scissor = reach;
-    lom_order_particles(sprites->depth, sprites->count, r->spray.order, r->spray.scratch);
+    lom_order_particles(r->spray.depth, f->spray->moved, r->spray.order, r->spray.scratch); /* the seen ones first */
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_SPRAY]);
     pass.depth_load = LOM_LOAD_KEEP;
     pass.scissor = reach;
     const lom_draw_desc draw = { .shader = &lom_spray_shader,
                                  .uniforms = &u,
                                  .indices = r->spray.order,
-                                 .count = sprites->count,
-                                 .vertex_count = sprites->count,
+                                 .count = sprites->seen,
+                                 .vertex_count = f->spray->moved,
                                  .topology = LOM_SPRITES,
                                  .depth_write_off = true,
                                  .blend = { lom_blend_over } };
@@ -128,12 +155,10 @@ bool lom_draw_spray(struct frame *f, lom_error *error)
                                    .width = f->width,
                                    .height = f->height,
                                    .to_light = { to_light.x, to_light.y, to_light.z } };
-    struct lom_sprites sprites = {
-        .sprite = f->renderer->spray.sprites, .depth = f->renderer->spray.depth, .low = { 1, 1 }, .high = { -1, -1 }
-    };
+    struct lom_sprite_reach sprites = { .seen = 0, .low = { 1, 1 }, .high = { -1, -1 } };
     if (!move_drops(f, &view, &sprites, error))
         return false;
-    if (sprites.count != 0)
+    if (sprites.seen != 0)
         return draw_sprites(f, &view, &sprites);
     lom_add_step(f, "spray", false, f->spray->moved != 0 ? "none of %llu drops is in view" : "no emitter is in view",
                  (unsigned long long)f->spray->moved);

@@ -24,18 +24,18 @@ bool lom_load_spray(lom_renderer *renderer, lom_error *error)
         return true;
     for (size_t i = 0; i < scene->spray_count; i++)
         largest = count_of(&scene->sprays[i]) > largest ? count_of(&scene->sprays[i]) : largest;
-    m->particles = lom_allocate(largest, sizeof *m->particles, error);
+    m->reaches = lom_allocate(largest / LOM_DROPS_TOGETHER + 1, sizeof *m->reaches, error);
     m->sprites = lom_allocate(m->capacity, sizeof *m->sprites, error);
     m->depth = lom_allocate(m->capacity, sizeof *m->depth, error);
     m->order = lom_allocate(m->capacity, sizeof *m->order, error);
     m->scratch = lom_allocate(m->capacity, sizeof *m->scratch, error);
-    return m->particles != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
+    return m->reaches != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
 }
 
 void lom_free_spray(lom_renderer *renderer)
 {
     struct lom_drawn_spray *m = &renderer->spray;
-    lom_release(m->particles);
+    lom_release(m->reaches);
     lom_release(m->sprites);
     lom_release(m->depth);
     lom_release(m->order);

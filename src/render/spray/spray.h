@@ -8,10 +8,13 @@
 
 struct frame;
 
+/* Drops that a worker moves at a time. */
+enum { LOM_DROPS_TOGETHER = 512 };
+
 /* What drops need in a frame: room for all of them. */
 struct lom_drawn_spray {
-    size_t capacity; /* drops of visible emitters; 0: none */
-    lom_particle *particles;
+    size_t capacity;                  /* drops of visible emitters; 0: none */
+    struct lom_sprite_reach *reaches; /* of the pieces of an emitter */
     struct lom_sprite *sprites;
     float *depth;
     uint32_t *order, *scratch;

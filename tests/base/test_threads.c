@@ -1,0 +1,98 @@
+/* Proves of pools: a range is handed out whole, every number of it once, in pieces that begin at multiples of their
+ * size, whatever the count, the piece and the workers; the time that is counted as shared holds all of what two workers
+ * spent together and never more than has passed; a pool of one shares none. */
+#include "base/threads.h"
+
+#include "check.h"
+
+#include <stdatomic.h>
+#include <time.h>
+
+enum { MOST = 1000 };
+
+struct taken {
+    atomic_int times[MOST];
+    size_t count, piece;
+    atomic_int wrong;
+};
+
+static void take(void *context, size_t first, size_t end)
+{
+    struct taken *t = context;
+    bool whole = end - first == t->piece || end == t->count;
+    if (first % t->piece != 0 || first >= end || end > t->count || !whole)
+        atomic_fetch_add(&t->wrong, 1);
+    for (size_t i = first; i < end && i < MOST; i++)
+        atomic_fetch_add(&t->times[i], 1);
+}
+
+static void every_number_is_taken_once(void)
+{
+    static const size_t counts[] = { 0, 1, 7, 8, 9, 64, 999, MOST }, pieces[] = { 1, 8, 64, 5000 };
+    for (int threads = 1; threads <= 5; threads += 2) {
+        lom_pool *pool = lom_create_pool(threads, NULL);
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+            for (size_t p = 0; p < sizeof pieces / sizeof *pieces; p++) {
+                struct taken t = { .count = counts[c], .piece = pieces[p] };
+                lom_share_out(pool, t.count, t.piece, take, &t);
+                size_t once = 0;
+                for (size_t i = 0; i < MOST; i++)
+                    once += (size_t)atomic_load(&t.times[i]) == (i < t.count);
+                CHECK(once == MOST && atomic_load(&t.wrong) == 0,
+                      "%zu by %zu on %d threads: %zu right, %d wrong ranges", t.count, t.piece, threads, once,
+                      atomic_load(&t.wrong));
+            }
+        lom_free_pool(pool);
+    }
+}
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+struct meeting {
+    atomic_int arrived;
+    int guests;
+};
+
+static const double together = 0.003;
+
+/* Waits until all are here, then stays for a while. */
+static void meet(void *context, int worker)
+{
+    struct meeting *m = context;
+    (void)worker;
+    atomic_fetch_add(&m->arrived, 1);
+    while (atomic_load(&m->arrived) < m->guests)
+        ;
+    for (double until = seconds() + together; seconds() < until;)
+        ;
+}
+
+static void shared_time_is_what_two_spend_together(void)
+{
+    for (int threads = 1; threads <= 3; threads++) {
+        lom_pool *pool = lom_create_pool(threads, NULL);
+        int size = lom_pool_size(pool);
+        double begin = seconds(), shared = 0;
+        for (int round = 1; round <= 3; round++) {
+            struct meeting m = { .guests = size };
+            lom_run_pool(pool, meet, &m);
+            shared = (double)lom_pool_shared(pool) * 1e-9;
+            CHECK(size == 1 ? shared == 0 : shared >= round * together, "%d workers, round %d: %g s", size, round,
+                  shared);
+        }
+        CHECK(shared <= seconds() - begin, "%d workers: %g s in %g s", size, shared, seconds() - begin);
+        lom_free_pool(pool);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    RUN(every_number_is_taken_once);
+    RUN(shared_time_is_what_two_spend_together);
+    return check_result();
+}
