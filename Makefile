@@ -1,7 +1,7 @@
 # lom is built and tested by make: see README.md.
 #
 #   make                        the program build/lom and the library build/liblom.a, build/liblom.so
-#   make demo                   draws the demo scenes, to demo.png and demo-lake.png
+#   make demo                   draws the demo scenes, to demo.png and demo-lake.png, with this processor's lanes alone
 #   make check                  the tests; the last line is "N passed, N failed"
 #   make lint, make format      what the house asks of the source; clang-format over all of it
 #   make install, uninstall     into PREFIX (/usr/local), under DESTDIR
@@ -245,10 +245,33 @@ fuzz:
 	        build-fuzz/corpus/$$target $$(ls -d tests/fuzz/corpus/$$target 2>/dev/null) || exit 1; \
 	done
 
-# Needs the program alone.
-demo: $(BUILD)/lom
-	$(BUILD)/lom render assets/scenes/lake.toml -o demo-lake.png
-	$(BUILD)/lom render assets/scenes/flight.toml -o demo.png
+# Waits for the lanes that this processor draws with alone: of the program's objects those are left out that are of other
+# widths, whose functions nobody calls then and are empty. The others are the whole program's, and make goes on from there.
+demo: $(BUILD)/demo/lom
+	$(BUILD)/demo/lom render assets/scenes/lake.toml -o demo-lake.png
+	$(BUILD)/demo/lom render assets/scenes/flight.toml -o demo.png
+
+NM = nm
+cpu           := $(if $(filter demo,$(MAKECMDGOALS)),$(shell grep -m1 ^flags /proc/cpuinfo 2>/dev/null))
+widest        := $(if $(filter-out $(cpu),avx512f avx512dq avx512bw avx512vl avx512cd),$(if $(filter avx2,$(cpu)),8),16)
+demo_variants := $(filter 4 $(widest),$(VARIANTS))
+demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o), \
+	$(cli_objects) $(lesson_objects) $(measure_objects) $(lib_objects))
+
+$(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o
+	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+
+$(BUILD)/demo/variants.o: src/lanes/variants.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) -ULOM_EACH_VARIANT '-DLOM_EACH_VARIANT(X,name)=$(foreach v,$(demo_variants),X(name,$v))' $(CFLAGS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/demo/absent.o: $(BUILD)/demo/absent.c
+	$(call short,CC)$(CC) $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/demo/absent.c: $(demo_objects)
+	@mkdir -p $(@D)
+	@$(NM) -g -P $^ | awk '$$2 == "U" { used[$$1] } $$2 ~ /^[A-TV-Z]$$/ { there[$$1] } END { for (name in used) \
+	    if (!(name in there) && name ~ /_(8|16|8_plain|16_plain)$$/) print "void " name "(void);\nvoid " name "(void) {}" }' >$@
 
 check: all $(programs) $(lessons) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
@@ -383,4 +406,4 @@ lint: $(BUILD)/liblom.a
 clean:
 	rm -rf $(BUILD)
 
--include $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(lesson_objects:.o=.d) $(programs:=.d) $(lessons:=.d)
+-include $(BUILD)/demo/variants.d $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(lesson_objects:.o=.d) $(programs:=.d) $(lessons:=.d)
