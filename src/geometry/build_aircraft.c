@@ -166,10 +166,9 @@ static void build_propeller(lom_mesh_builder *builder)
         build_blade(builder, 0.5 + lom_two_pi * i / 3);
 }
 
-void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed)
 {
     (void)seed;
-    (void)error;
     lom_model_material(builder, "livery", 0.3, 60);
     build_fuselage(builder);
     build_wings(builder);

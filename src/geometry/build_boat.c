@@ -165,9 +165,8 @@ static void build_oars(lom_mesh_builder *builder, uint64_t seed)
     }
 }
 
-void lom_build_boat(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_boat(lom_mesh_builder *builder, uint64_t seed)
 {
-    (void)error;
     build_hull(builder);
     build_transom(builder);
     build_inside(builder);

@@ -29,9 +29,8 @@ static void build_deck(lom_mesh_builder *builder, uint64_t seed)
     lom_builder_transform(builder, NULL);
 }
 
-void lom_build_jetty(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_jetty(lom_mesh_builder *builder, uint64_t seed)
 {
-    (void)error;
     build_deck(builder, seed);
     lom_model_material(builder, "log", 0.02, 8);
     for (int hand = -1; hand <= 1; hand += 2) {
@@ -185,9 +184,8 @@ static void build_porch(lom_mesh_builder *builder)
     }
 }
 
-void lom_build_cabin(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_cabin(lom_mesh_builder *builder, uint64_t seed)
 {
-    (void)error;
     build_walls(builder, seed);
     build_gables(builder);
     build_roof(builder);

@@ -54,9 +54,8 @@ static void build_bough(lom_mesh_builder *builder, uint64_t seed, lom_vec3 foot,
 }
 
 /* A spruce of 11 m: whorls of drooping boughs from the ground to the top. */
-void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed)
 {
-    (void)error;
     const double height = 11.0;
     lom_model_material(builder, "bark", 0, 1);
     lom_model_ring stem[4] = { { { 0, -0.4, 0 }, 0.24 },
@@ -117,9 +116,8 @@ static void build_tuft(lom_mesh_builder *builder, uint64_t seed, lom_vec3 center
 }
 
 /* A Scots pine of 12 m: a long bare stem, crooked limbs, tufts at their ends. */
-void lom_build_pine(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_pine(lom_mesh_builder *builder, uint64_t seed)
 {
-    (void)error;
     enum { RINGS = 7, LIMBS = 19 };
     lom_model_ring stem[RINGS];
     for (int i = 0; i < RINGS; i++) {
@@ -163,9 +161,8 @@ void lom_build_pine(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
 }
 
 /* A clump of reeds in water half a metre deep: y = 0 is the surface. */
-void lom_build_reeds(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_reeds(lom_mesh_builder *builder, uint64_t seed)
 {
-    (void)error;
     for (uint64_t i = 0; i < 96; i++) {
         uint64_t key = i * 8;
         double distance = 0.95 * lom_double_sqrt(lom_model_random(seed, key, 0, 1)), angle = 2.399963 * (double)i;

@@ -1,5 +1,6 @@
 /* Boulders and stones. In: sizes and a seed; out: closed meshes with the rock's texture laid on from the side that each
  * triangle faces. */
+#include "geometry/builder.h"
 #include "geometry/model.h"
 
 /* ---- an icosahedron, subdivided ---- */
@@ -87,9 +88,11 @@ static lom_vec3 point_towards(const shape *s, lom_vec3 d)
     return lom_vec3_scale(d, radius * (1 + 0.14 * rough));
 }
 
-void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone, lom_error *error)
+void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone)
 {
-    sphere s = make_sphere(stone->detail, error);
+    if (builder == NULL)
+        return;
+    sphere s = make_sphere(stone->detail, &builder->error);
     if (s.points == NULL)
         return;
     shape form = shape_of(stone->seed);
@@ -114,14 +117,14 @@ void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone,
     lom_release(s.points);
 }
 
-void lom_build_boulder(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_boulder(lom_mesh_builder *builder, uint64_t seed)
 {
     lom_model_material(builder, "stone", 0.04, 12);
     lom_model_stone stone = { { 0, 0.35, 0 }, { 1.35, 0.95, 1.1 }, seed, 3 };
-    lom_model_stone_at(builder, &stone, error);
+    lom_model_stone_at(builder, &stone);
 }
 
-void lom_build_stones(lom_mesh_builder *builder, uint64_t seed, lom_error *error)
+void lom_build_stones(lom_mesh_builder *builder, uint64_t seed)
 {
     lom_model_material(builder, "stone", 0.04, 12);
     for (uint64_t i = 0; i < 11; i++) {
@@ -134,6 +137,6 @@ void lom_build_stones(lom_mesh_builder *builder, uint64_t seed, lom_error *error
             .seed = seed + 100 + i,
             .detail = i < 2 ? 2 : 1,
         };
-        lom_model_stone_at(builder, &stone, error);
+        lom_model_stone_at(builder, &stone);
     }
 }

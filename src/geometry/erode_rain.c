@@ -109,13 +109,10 @@ static bool advance(lom_field *field, const double brush[BRUSH_WIDTH][BRUSH_WIDT
     return true;
 }
 
-bool lom_erode_by_rain(lom_field *height, const lom_rain *rain, lom_error *error)
+void lom_erode_by_rain(lom_field *height, const lom_rain *rain)
 {
     double brush[BRUSH_WIDTH][BRUSH_WIDTH];
     make_brush(brush);
-    if (height->size < 4 * BRUSH_WIDTH)
-        return lom_fail(error, LOM_ERROR_USAGE, "rain needs a field of at least %d cells a side, not %d.",
-                        4 * BRUSH_WIDTH, height->size);
     double span = height->size - 2 * BRUSH - 4;
     for (int i = 0; i < rain->drops; i++) {
         drop d = { .speed = 1, .water = 1 };
@@ -125,7 +122,6 @@ bool lom_erode_by_rain(lom_field *height, const lom_rain *rain, lom_error *error
         while (steps < LIFETIME && advance(height, brush, &d, rain->water_level))
             steps++;
     }
-    return true;
 }
 
 /* Moves a quarter of what stands over the talus, from each cell to its lower neighbours, in place. */

@@ -42,8 +42,8 @@ typedef struct lom_rain {
 } lom_rain;
 
 /* Single drops that run down, take soil where they are fast and leave it where they are slow (after H. Beyer:
- * Implementation of a method for hydraulic erosion, 2015). False without memory. */
-bool lom_erode_by_rain(lom_field *height, const lom_rain *rain, lom_error *error);
+ * Implementation of a method for hydraulic erosion, 2015). The field has at least 256 cells a side. */
+void lom_erode_by_rain(lom_field *height, const lom_rain *rain);
 
 /* Material slides down wherever a slope is over the talus; `rounds` sweeps. */
 void lom_erode_by_gravity(lom_field *height, double talus, int rounds);

@@ -6,7 +6,7 @@
 
 static const struct entity {
     const char *name;
-    void (*build)(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
+    void (*build)(lom_mesh_builder *builder, uint64_t seed);
     double units; /* coordinates are multiples of 1 / units */
 } entities[] = {
     { "boat", lom_build_boat, 1000 },     { "jetty", lom_build_jetty, 1000 }, { "cabin", lom_build_cabin, 1000 },
@@ -50,7 +50,7 @@ lom_mesh *lom_make_entity(const char *name, uint64_t seed, lom_error *error)
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_mesh_builder *builder = lom_create_mesh_builder(error);
-    found->build(builder, seed, error);
+    found->build(builder, seed);
     lom_mesh *mesh = lom_finish_mesh(builder, 0.8, error);
     if (mesh != NULL)
         round_mesh(mesh, found->units);

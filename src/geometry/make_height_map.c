@@ -267,8 +267,7 @@ static bool form_land(landscape *l, const lom_height_map_desc *desc, lom_error *
     add_rock(l);
     lom_erode_by_gravity(&l->height, 1.05, 20);
     double ratio = (double)desc->size / 1024.0;
-    if (!lom_erode_by_rain(&l->height, &(lom_rain){ lom_int_of(260000 * ratio * ratio), 0.5, desc->seed + 3 }, error))
-        return false;
+    lom_erode_by_rain(&l->height, &(lom_rain){ lom_int_of(260000 * ratio * ratio), 0.5, desc->seed + 3 });
     lom_erode_by_gravity(&l->height, 1.0, 6);
     shape_shore(l);
     fit_relief(l);

@@ -3,14 +3,14 @@
 #include "base/numbers.h"
 #include "geometry/model.h"
 
+#include <assert.h>
 #include <string.h>
 
 void lom_model_material(lom_mesh_builder *builder, const char *name, double specular, double shininess)
 {
     lom_material material = { .ambient = { 1, 1, 1 }, .diffuse = { 1, 1, 1 }, .opacity = 1 };
     size_t length = strlen(name);
-    if (length + 5 > sizeof material.name)
-        return;
+    assert(length + 5 <= sizeof material.name);
     memcpy(material.name, name, length);
     memcpy(material.diffuse_map, name, length);
     memcpy(material.diffuse_map + length, ".png", 4);

@@ -42,20 +42,20 @@ typedef struct lom_model_stone {
     uint64_t seed;
     int detail; /* subdivisions of an icosahedron, 0..5 */
 } lom_model_stone;
-void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone, lom_error *error);
+void lom_model_stone_at(lom_mesh_builder *builder, const lom_model_stone *stone);
 
 /* A number in [low, high) that belongs to (seed, index). */
 double lom_model_random(uint64_t seed, uint64_t index, double low, double high);
 
 /* The things, by file. Each is made at the origin with y = 0 at the ground or at the water's surface. */
-void lom_build_boat(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_jetty(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_cabin(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_pine(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_boulder(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_stones(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
-void lom_build_reeds(lom_mesh_builder *builder, uint64_t seed, lom_error *error);
+void lom_build_boat(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_aircraft(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_jetty(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_cabin(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_spruce(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_pine(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_boulder(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_stones(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_reeds(lom_mesh_builder *builder, uint64_t seed);
 
 #endif

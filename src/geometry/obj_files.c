@@ -1,5 +1,7 @@
 /* The files that an OBJ file names. In: its path. Out: the paths of its material files and of their maps, as far as
- * they can be read. Invariant: an OBJ or MTL file that is malformed still gives what it named before its mistake. */
+ * they can be read. Invariant: an OBJ or MTL file that is malformed still gives what it named before its mistake;
+ * a list is whole, or there is an error. */
+#include "base/pass_error.h"
 #include "base/reserve.h"
 #include "obj.h"
 
@@ -42,11 +44,14 @@ lom_bytes lom_list_obj_files(const char *path, lom_error *error)
     if (file.data == NULL)
         return (lom_bytes){ 0 };
     lom_mesh *mesh = lom_decode_obj_with((const char *)file.data, file.size, path, list_and_read, &list, &malformed);
-    bool done = true;
+    bool done = malformed.code != LOM_ERROR_MEMORY || lom_pass_error(&malformed, error);
     for (size_t i = 0; mesh != NULL && done && i < mesh->material_count; i++)
         if (mesh->materials[i].diffuse_map[0] != 0)
             done = add(&list, mesh->materials[i].diffuse_map, error);
     lom_free_mesh(mesh);
     lom_release(file.data);
-    return list.paths;
+    if (done)
+        return list.paths;
+    lom_release(list.paths.data);
+    return (lom_bytes){ 0 };
 }

@@ -317,6 +317,10 @@ static void boxes(void)
         }
         CHECK(separation(box.high, most) < 1e-13);
     }
+    const lom_mat4 far = lom_translation((lom_vec3){ 5, 6, 7 });
+    const lom_box nothing = { { 1, 0, 0 }, { -1, 2, 2 } };
+    lom_box moved = lom_transform_box(&far, nothing);
+    CHECK(memcmp(&moved, &nothing, sizeof moved) == 0, "an empty box is empty everywhere");
 }
 
 int main(int argc, char **argv)

@@ -430,6 +430,25 @@ static void comments_behind_newmtl(void)
 }
 
 /* A map's name ends where a comment begins that looks like one. */
+/* A path that does not fit is refused, and so is a file longer than any mesh. */
+static void limits(void)
+{
+    char mtl[2000];
+    const char *text = "mtllib a.mtl\n" TRIANGLE "f 1 2 3\n";
+    size_t most = sizeof((lom_material *)0)->diffuse_map - 1;
+    for (size_t length = most; length <= most + 1; length++) {
+        lom_error error = { 0 };
+        snprintf(mtl, sizeof mtl, "newmtl a\nmap_Kd %0*d\n", (int)length, 7);
+        lom_mesh *mesh = lom_decode_obj_with(text, strlen(text), "a.obj", read_given, mtl, &error);
+        CHECK((mesh != NULL) == (length == most), "%zu bytes: %s", length, error.text);
+        CHECK(mesh != NULL || strstr(error.text, "longer than") != NULL, "%zu bytes: %s", length, error.text);
+        lom_free_mesh(mesh);
+    }
+    lom_error error = { 0 };
+    CHECK(lom_decode_obj(text, ((size_t)1 << 30) + 1, "a.obj", &error) == NULL && error.code == LOM_ERROR_LIMIT, "%s",
+          error.text);
+}
+
 static void map_names(void)
 {
     static const char *const maps[][2] = {
@@ -603,6 +622,32 @@ static void refused_writing(void)
     CHECK(lom_encode_obj(mesh, NULL, &error).data == NULL && strstr(error.text, "Vertex 2") != NULL, "%s", error.text);
     mesh->vertices[2].uv[0] = 0;
     const char *names[] = { "", " a", "a ", "a\nb", "#", "# a", "a\\" };
+    const lom_mesh_part part = mesh->parts[0], bad_parts[] = { { .first_index = 4 },
+                                                               { .index_count = 6 },
+                                                               { .first_index = 3, .index_count = 3 },
+                                                               { .index_count = 2 },
+                                                               { .index_count = 3, .material = 1 } };
+    for (size_t i = 0; i < sizeof bad_parts / sizeof *bad_parts; i++) {
+        mesh->parts[0] = bad_parts[i];
+        error = (lom_error){ 0 };
+        CHECK(lom_encode_obj(mesh, NULL, &error).data == NULL && strstr(error.text, "Part 0") != NULL, "case %zu: %s",
+              i, error.text);
+    }
+    mesh->parts[0] = part;
+    for (size_t i = 1; i < sizeof names / sizeof *names; i++) {
+        error = (lom_error){ 0 };
+        CHECK(lom_encode_obj(mesh, names[i], &error).data == NULL && strstr(error.text, "material file") != NULL,
+              "case %zu: %s", i, error.text);
+    }
+    for (int i = 0; i < 5; i++) {
+        lom_material *m = &mesh->materials[0];
+        float *const numbers[] = { &m->ambient[2], &m->diffuse[0], &m->specular[1], &m->shininess, &m->opacity };
+        *m = lom_default_material("red");
+        *numbers[i] = i % 2 == 0 ? __builtin_inff() : __builtin_nanf("");
+        error = (lom_error){ 0 };
+        CHECK(lom_encode_mtl(mesh, &error).data == NULL && strstr(error.text, "\"red\" has a number") != NULL,
+              "case %d: %s", i, error.text);
+    }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         mesh->materials[0] = lom_default_material(names[i]);
         CHECK(lom_encode_mtl(mesh, NULL).data == NULL && lom_encode_obj(mesh, NULL, NULL).data == NULL, "case %zu", i);
@@ -627,6 +672,7 @@ int main(int argc, char **argv)
     RUN(names_with_marks);
     RUN(comments_behind_newmtl);
     RUN(map_names);
+    RUN(limits);
     RUN(files);
     RUN(round_trip);
     RUN(writing_is_idempotent);

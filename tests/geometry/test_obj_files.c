@@ -44,6 +44,9 @@ static void materials_and_maps(void)
              triangle);
     put("two.obj", obj);
     check_list("two.obj", (const char *const[]){ "a.mtl", "b.mtl", "red.png", "sub/blue.ppm", NULL });
+    snprintf(obj, sizeof obj, "mtllib %s/a.mtl\n%susemtl red\nf 1 2 3\n", folder, triangle);
+    put("absolute.obj", obj);
+    check_list("absolute.obj", (const char *const[]){ "a.mtl", "red.png", NULL });
     snprintf(obj, sizeof obj, "%sf 1 2 3\n", triangle);
     put("none.obj", obj);
     check_list("none.obj", (const char *const[]){ NULL });

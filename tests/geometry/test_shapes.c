@@ -2,6 +2,8 @@
  * torus, normals by crease against a plain oracle. */
 #include "check.h"
 
+#include "geometry/model.h"
+
 #include <lom/geometry.h>
 
 static const double PI = 3.14159265358979323846;
@@ -340,6 +342,39 @@ static void assembly(void)
     lom_free_mesh(box);
 }
 
+/* Where a triangle has no area, nor has any about it, up is its normal. */
+static void triangles_without_area_face_up(void)
+{
+    lom_mesh_builder *builder = lom_create_mesh_builder(NULL);
+    for (int k = 0; k < 3; k++)
+        lom_builder_vertex(builder, (lom_vec3){ k, 2 * k, 0 }, 0, 0);
+    lom_builder_triangle(builder, 0, 1, 2);
+    lom_mesh *mesh = lom_finish_mesh(builder, 1, NULL);
+    for (size_t k = 0; mesh != NULL && k < mesh->vertex_count; k++)
+        CHECK(mesh->vertices[k].normal[0] == 0 && mesh->vertices[k].normal[1] == 1 && mesh->vertices[k].normal[2] == 0,
+              "vertex %zu", k);
+    lom_free_mesh(mesh);
+}
+
+/* Tubes that end in a disc or a tip are closed, and have the volume of their truncated pyramids. */
+static void tubes_are_closed(void)
+{
+    static const double radii[3][3] = { { 1, 1, 1 }, { 1, 1, 0 }, { 0.5, 1, 0 } };
+    for (int i = 0; i < 3; i++) {
+        lom_mesh_builder *builder = lom_create_mesh_builder(NULL);
+        lom_model_ring rings[3];
+        for (int k = 0; k < 3; k++)
+            rings[k] = (lom_model_ring){ .center = { 0, 3.0 * k, 0 }, .radius = radii[i][k] };
+        lom_model_tube(builder, rings, 3, 16, (lom_model_map){ .u0 = 0, .u1 = 1, .metres = 1 });
+        lom_mesh *tube = lom_finish_mesh(builder, 0.5, NULL);
+        double area = 8 * lom_double_sin(PI / 8), thirds = 0; /* of the polygon of 16 corners */
+        for (int k = 0; k < 2; k++)
+            thirds += radii[i][k] * radii[i][k] + radii[i][k] * radii[i][k + 1] + radii[i][k + 1] * radii[i][k + 1];
+        check_shape("tube", tube, 2, area * 3 * thirds / 3, 1e-5);
+        lom_free_mesh(tube);
+    }
+}
+
 static void failures(void)
 {
     for (int i = 0; i < 6; i++) {
@@ -363,6 +398,10 @@ static void failures(void)
         CHECK((mesh == NULL) == (i < 5) && (error.code == LOM_ERROR_USAGE) == (i < 5), "case %d: %s", i, error.text);
         lom_free_mesh(mesh);
     }
+    const size_t most = (size_t)UINT32_MAX + 1;
+    lom_error large = { 0 };
+    CHECK(lom_create_mesh(most, 3, 1, 0, &large) == NULL && large.code == LOM_ERROR_LIMIT, "%s", large.text);
+    CHECK(lom_create_mesh(3, most, 1, 0, NULL) == NULL, "more than 2^32 indices");
     lom_builder_vertex(NULL, (lom_vec3){ 0, 0, 0 }, 0, 0);
     lom_builder_triangle(NULL, 0, 0, 0);
     lom_builder_transform(NULL, NULL);
@@ -385,6 +424,8 @@ int main(int argc, char **argv)
     RUN(transformation);
     RUN(creases);
     RUN(assembly);
+    RUN(triangles_without_area_face_up);
+    RUN(tubes_are_closed);
     RUN(failures);
     return check_result();
 }

@@ -1,0 +1,254 @@
+/* Proves what failing memory does to making, encoding, comparing and placing things: whichever allocation fails, once or
+ * from there on, there is an error with a sentence or the same bytes as without the fault, and nothing leaks. What takes
+ * long is tried at evenly spread allocations. */
+#include "faults.h"
+
+#include "cloud/cloud_draw.h"
+#include "world/world.h"
+
+#include <lom/lom.h>
+
+/* ---- what is made before the faults begin ---- */
+
+static lom_image *color, *gray, *floats, *noise, *other;
+static lom_mesh *mesh;
+
+static bool prepare(void)
+{
+    lom_error error = { 0 };
+    color = lom_read_image(small_path("color.png"), &error);
+    gray = lom_convert_image(color, LOM_FORMAT_R8, &error);
+    floats = lom_convert_image(color, LOM_FORMAT_RGB32F, &error);
+    noise = lom_create_image(160, 160, 1, LOM_FORMAT_RGB8, &error); /* longer than a stored block */
+    for (size_t i = 0; i < lom_image_size(noise); i++)
+        noise->pixels[i] = (uint8_t)lom_random_bits(3, i);
+    other = lom_convert_image(noise, LOM_FORMAT_RGB8, &error);
+    other->pixels[500] ^= 9;
+    mesh = lom_read_obj(small_path("box.obj"), &error);
+    return mesh != NULL;
+}
+
+static bool hash_bytes(lom_bytes bytes, uint64_t *hash)
+{
+    *hash = lom_hash_bytes(LOM_HASH_START, bytes.data, bytes.size);
+    lom_release(bytes.data);
+    return bytes.data != NULL;
+}
+
+static bool hash_picture(lom_image *image, uint64_t *hash)
+{
+    *hash = image != NULL ? lom_hash_image(image) : 0;
+    lom_free_image(image);
+    return image != NULL;
+}
+
+static bool hash_mesh(lom_mesh *made, uint64_t *hash)
+{
+    *hash =
+        made != NULL ? lom_hash_bytes(LOM_HASH_START, made->vertices, made->vertex_count * sizeof *made->vertices) : 0;
+    lom_free_mesh(made);
+    return made != NULL;
+}
+
+/* ---- tasks ---- */
+
+static bool encode(const char *kind, uint64_t *hash, lom_error *error)
+{
+    const lom_image *image = strcmp(kind, "pgm") == 0 ? gray : strcmp(kind, "pfm") == 0 ? floats : color;
+    return hash_bytes(lom_encode_image(kind, image, error), hash);
+}
+
+static bool encode_noise(const char *kind, uint64_t *hash, lom_error *error)
+{
+    return hash_bytes(lom_encode_image(kind, noise, error), hash);
+}
+
+static bool encode_video(const char *name, uint64_t *hash, lom_error *error)
+{
+    uint64_t header;
+    (void)name;
+    return hash_bytes(lom_encode_y4m_header(8, 8, 25, 1, error), &header) &&
+           hash_bytes(lom_encode_y4m_frame(color, error), hash);
+}
+
+static bool convert(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    return hash_picture(lom_convert_image(color, LOM_FORMAT_RGBA16, error), hash);
+}
+
+static bool compare(const char *name, uint64_t *hash, lom_error *error)
+{
+    lom_comparison result;
+    double numbers[2] = { 0, 0 };
+    (void)name;
+    if (!lom_compare_images(noise, other, &result, error) || !lom_compare_ssim(noise, other, &numbers[0], error) ||
+        !lom_compare_flip(noise, other, &numbers[1], error) ||
+        !hash_picture(lom_compare_picture(noise, other, error), hash))
+        return false;
+    *hash = lom_hash_bytes(*hash, numbers, sizeof numbers) + result.pixels;
+    return true;
+}
+
+static bool encode_mesh(const char *name, uint64_t *hash, lom_error *error)
+{
+    uint64_t materials;
+    (void)name;
+    return hash_bytes(lom_encode_mtl(mesh, error), &materials) &&
+           hash_bytes(lom_encode_obj(mesh, "box.mtl", error), hash);
+}
+
+static bool list_files(const char *name, uint64_t *hash, lom_error *error)
+{
+    lom_bytes list = lom_list_obj_files(small_path(name), error);
+    bool listed = list.data != NULL && error->code == LOM_OK;
+    *hash = lom_hash_bytes(LOM_HASH_START, list.data, list.size);
+    lom_release(list.data);
+    return listed;
+}
+
+static bool document(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    return hash_bytes(lom_write_scene_documentation(error), hash);
+}
+
+static bool make_entity(const char *name, uint64_t *hash, lom_error *error)
+{
+    return hash_mesh(lom_make_entity(name, 1, error), hash);
+}
+
+static bool copy_mesh(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    lom_mesh_builder *builder = lom_create_mesh_builder(error);
+    if (builder == NULL)
+        return false;
+    lom_builder_mesh(builder, mesh);
+    return hash_mesh(lom_finish_mesh(builder, 0.5, error), hash);
+}
+
+static bool make_picture(const char *name, uint64_t *hash, lom_error *error)
+{
+    const lom_cloud_desc cloud = { name, 8, 8, 8, 3 };
+    if (strcmp(name, "normal-map") == 0)
+        return hash_picture(lom_make_normal_map(&(lom_normal_map_desc){ .size = 128 }, error), hash);
+    if (strcmp(name, "flow-map") == 0)
+        return hash_picture(lom_make_flow_map(color, error), hash);
+    if (strcmp(name, "cove") == 0)
+        return hash_picture(lom_make_coast(name, 9, 1, error), hash);
+    if (strcmp(name, "sun") == 0)
+        return hash_picture(lom_make_sun_picture(8, 0.5, error), hash);
+    if (strcmp(name, "flat-cloud") == 0)
+        return hash_picture(lom_make_cloud_picture(8, 1, error), hash);
+    if (strcmp(name, "rock") == 0)
+        return hash_picture(lom_make_albedo(&(lom_albedo_desc){ .name = name, .size = 64 }, error), hash);
+    return hash_picture(lom_make_cloud(&cloud, error), hash);
+}
+
+static bool make_sky(const char *name, uint64_t *hash, lom_error *error)
+{
+    lom_image *faces[6];
+    (void)name;
+    bool made = lom_make_sky_box(&(lom_sky_box_desc){ .size = 8 }, faces, error);
+    *hash = made ? lom_hash_image(faces[5]) : 0;
+    for (int i = 0; i < 6; i++)
+        lom_free_image(faces[i]);
+    return made;
+}
+
+static bool make_blue_noise(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    float *ranks = lom_make_blue_noise(8, 1, error);
+    *hash = ranks != NULL ? lom_hash_bytes(LOM_HASH_START, ranks, 64 * sizeof *ranks) : 0;
+    lom_release(ranks);
+    return ranks != NULL;
+}
+
+static bool make_volumes(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    lom_image *density = lom_create_image(4, 4, 4, LOM_FORMAT_R8, error);
+    lom_medium *medium = density != NULL ? lom_create_medium(density, error) : NULL;
+    lom_detail *detail = medium != NULL ? lom_create_detail(density, error) : NULL;
+    lom_reference_volume *volume =
+        detail != NULL ? lom_create_reference_volume(
+                             &(lom_reference_volume_desc){ .density = density, .high = { 1, 1, 1 } }, error)
+                       : NULL;
+    *hash = 1;
+    lom_free_reference_volume(volume);
+    lom_free_detail(detail);
+    lom_free_medium(medium);
+    lom_free_image(density);
+    return volume != NULL;
+}
+
+/* The scene at two moments; its box moves. */
+static bool place(const char *name, uint64_t *hash, lom_error *error)
+{
+    static const char *const moves[] = { "entity.box.key=[{time=0, position=[0,1,0]}, {time=1, position=[2,1,0]}]" };
+    lom_scene *scene = lom_read_scene(small_path(name), moves, 1, error);
+    struct lom_world *world = scene != NULL ? lom_create_world(scene, error) : NULL;
+    struct lom_moment moment = { .placements = NULL };
+    bool done = world != NULL && lom_world_at(world, 0, &moment, error) && lom_world_at(world, 0.5, &moment, error);
+    *hash = 1;
+    lom_free_moment(&moment);
+    lom_free_world(world);
+    lom_free_scene(scene);
+    return done;
+}
+
+/* ---- tests ---- */
+
+static void encoding(void)
+{
+    static const char *const kinds[] = { "png", "ppm", "pgm", "pam", "pfm", "qoi", "nrrd" };
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        fail_memory(encode, kinds[i], 1, 0, 0);
+    fail_memory(encode_noise, "png", 3, 0, 0);
+    fail_memory(encode_video, "video", 2, 0, 0);
+    fail_memory(encode_mesh, "mesh", 2, 0, 0);
+    fail_memory(document, "documentation", 2, 0, 0);
+}
+
+static void comparing(void)
+{
+    fail_memory(convert, "convert", 2, 0, 0);
+    fail_memory(compare, "compare", 5, 2, 0);
+}
+
+static void listing_and_placing(void)
+{
+    fail_memory(list_files, "box.obj", 5, 0, 0);
+    fail_memory(place, "scene.toml", 10, 0, 0);
+}
+
+static void making(void)
+{
+    static const char *const pictures[] = { "normal-map", "flow-map", "cove",       "sun",
+                                            "flat-cloud", "rock",     "hemisphere", "cumulus_humilis",
+                                            "automaton",  "puffs",    "wyvill",     "cirrus" };
+    for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++)
+        fail_memory(make_picture, pictures[i], 1, 0, 4);
+    fail_memory(make_sky, "sky", 6, 0, 8);
+    fail_memory(make_blue_noise, "blue noise", 2, 0, 0);
+    fail_memory(make_volumes, "volumes", 5, 0, 0);
+    fail_memory(copy_mesh, "mesh", 5, 0, 0);
+    fail_memory(make_entity, "boat", 10, 0, 8);
+    fail_memory(make_entity, "stones", 5, 0, 8);
+}
+
+int main(int argc, char **argv)
+{
+    if (!make_small_scene())
+        return 1;
+    if (!prepare())
+        return 1;
+    RUN(encoding);
+    RUN(comparing);
+    RUN(listing_and_placing);
+    RUN(making);
+    remove_small_scene();
+    return check_result();
+}
