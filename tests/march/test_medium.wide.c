@@ -41,6 +41,75 @@ static void v14_split_changes_nothing(void)
     lom_free_medium(medium);
 }
 
+/* Octave k alone, of a sun that is exp(-T / 16) everywhere, is lit by exp(-T / 2^k), of all eight. */
+static void octaves_are_powers_of_the_sun(void)
+{
+    lom_medium *medium = medium_along_x(4, one);
+    lom_image *density = lom_create_image(2, 2, 2, LOM_FORMAT_R8, NULL);
+    const float same[256] = { 0 };
+    lom_light_grid *grid = lom_create_light_grid(density, 1, same, NULL);
+    const int32_t word = 0x7fff0000 | 52429; /* a share of 0.8 */
+    for (int i = 0; i < 27; i++)
+        grid->light[i] = word;
+    for (int k = 0; k < LOM_MAX_OCTAVES; k++) {
+        lom_medium_desc desc = plain(medium, 1, 0.1);
+        lom_medium_rays rays = rays_along_x(0, 1);
+        desc.light = grid;
+        desc.octaves = k + 1;
+        desc.weight[0] = k == 0;
+        desc.weight[k] = 1;
+        lom_medium_result seen = march(&rays, &desc);
+        double s = 52429 / 65535.0, lit = k < 5 ? s : lom_double_pow(s, 1.0 / (1 << (k - 4)));
+        for (int doubled = k; doubled < 4; doubled++)
+            lit *= lit;
+        double want = -lom_double_expm1(-1) * lit;
+        CHECK(magnitude((double)seen.sun[0] - want) < 1e-5, "octave %d: %g, not %g", k, (double)seen.sun[0], want);
+    }
+    lom_free_light_grid(grid);
+    lom_free_image(density);
+    lom_free_medium(medium);
+}
+
+static void images_that_are_no_media_are_refused(void)
+{
+    static const struct {
+        int width, height, depth;
+        lom_format format;
+        bool medium, detail;
+    } cases[] = { { 4, 4, 4, LOM_FORMAT_R8, true, true },
+                  { 4, 4, 4, LOM_FORMAT_R16, true, false },
+                  { 4, 4, 4, LOM_FORMAT_RGB8, false, false },
+                  { 3, 3, 3, LOM_FORMAT_R8, true, false },
+                  { 4, 4, 2, LOM_FORMAT_R8, true, false },
+                  { LOM_MAX_VOLUME + 1, 1, 1, LOM_FORMAT_R8, false, false },
+                  { 1, 1, LOM_MAX_VOLUME + 1, LOM_FORMAT_R8, false, false } };
+    const float same[256] = { 0 };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        lom_error error = { 0 };
+        lom_image *image = lom_create_image(cases[i].width, cases[i].height, cases[i].depth, cases[i].format, NULL);
+        lom_medium *medium = lom_create_medium(image, &error);
+        CHECK((medium != NULL) == cases[i].medium && (medium != NULL || error.text[0] != 0), "medium %zu: %s", i,
+              error.text);
+        error = (lom_error){ 0 };
+        lom_detail *detail = lom_create_detail(image, &error);
+        CHECK((detail != NULL) == cases[i].detail && (detail != NULL || error.code == LOM_ERROR_USAGE), "noise %zu: %s",
+              i, error.text);
+        error = (lom_error){ 0 };
+        if (i < 2 || i > 4) { /* colours have no density to average */
+            lom_light_grid *grid = lom_create_light_grid(image, 0.5, same, &error);
+            CHECK((grid != NULL) == cases[i].medium && (grid != NULL || error.code == LOM_ERROR_USAGE), "grid %zu: %s",
+                  i, error.text);
+            lom_free_light_grid(grid);
+        }
+        lom_free_detail(detail);
+        lom_free_medium(medium);
+        lom_free_image(image);
+    }
+    CHECK(lom_create_medium(NULL, NULL) == NULL && lom_create_detail(NULL, NULL) == NULL &&
+              lom_create_light_grid(NULL, 1, same, NULL) == NULL,
+          "no image");
+}
+
 /* V15: forwards or backwards, the same comes through. */
 static void v15_order_reversed(void)
 {
@@ -260,6 +329,8 @@ int main(int argc, char **argv)
 {
     RUN(v2_v3_v13_slab_is_exact);
     RUN(v14_split_changes_nothing);
+    RUN(octaves_are_powers_of_the_sun);
+    RUN(images_that_are_no_media_are_refused);
     RUN(v15_order_reversed);
     RUN(v13_order_of_convergence);
     RUN(v5_empty_medium);

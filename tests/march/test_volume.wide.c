@@ -207,6 +207,23 @@ static void test_extreme_rays_are_safe(void)
     lom_free_image(image);
 }
 
+/* One channel is the density of white. */
+static void test_gray_is_the_density_of_white(void)
+{
+    lom_image *image = lom_create_image(2, 2, 2, LOM_FORMAT_R8, NULL);
+    for (int value = 0; value < 256; value += 51) {
+        memset(image->pixels, value, 8);
+        lom_volume *volume = lom_create_volume(image, NULL);
+        lom_volume_place place = lom_find_in_volume(volume, lom_splat3(0.5f, 0.5f, 0.5f));
+        lom_float3 color = lom_sample_volume_color(volume, place);
+        CHECK(color.x[0] == 1 && color.y[0] == 1 && color.z[0] == 1, "%d: %g", value, (double)color.x[0]);
+        float off = lom_sample_density(volume, place)[0] - (float)value / 255;
+        CHECK(off < 1e-6f && off > -1e-6f, "%d: off by %g", value, (double)off);
+        lom_free_volume(volume);
+    }
+    lom_free_image(image);
+}
+
 static void test_bad_images_are_refused(void)
 {
     lom_error error = { 0 };
@@ -224,6 +241,7 @@ int main(int argc, char **argv)
     RUN(test_samples_agree_with_double);
     RUN(test_skipping_changes_no_byte);
     RUN(test_extreme_rays_are_safe);
+    RUN(test_gray_is_the_density_of_white);
     RUN(test_bad_images_are_refused);
     return check_result();
 }

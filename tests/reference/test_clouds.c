@@ -46,6 +46,20 @@ static void absorbing_clouds_follow_beer_and_lambert(void)
     CHECK(beside.x == 0.5 && beside.y == 0.25 && beside.z == 1);
 }
 
+/* A cloud that is not visible is not there; another that shares its file is. */
+static void invisible_clouds_are_not_there(void)
+{
+    const char *text =
+        SKY "[clouds]\nalbedo = 0\n" CLOUD "visible = false\n" CLOUD "yaw = 90\n" CLOUD "visible = false\n";
+    lom_vec3 one = trace_ray(text, (lom_vec3){ 3, 90, 500 }, (lom_vec3){ 0, 0, -1 }, 0);
+    CHECK(is_near(one.z, lom_double_exp(-1.0)), "%.17g", one.z);
+    const char *two =
+        SKY "[clouds]\nalbedo = 0\n" CLOUD "yaw = 90\n[[cloud]]\nfile = \"full.raw\"\nvoxels = [2, 2, 2]\n"
+            "position = [0, 50, -300]\nsize = [100, 80, 60]\nextinction = 0.01\ndetail = 0\n";
+    lom_vec3 both = trace_ray(two, (lom_vec3){ 3, 90, 500 }, (lom_vec3){ 0, 0, -1 }, 0);
+    CHECK(is_near(both.z, lom_double_exp(-1.6)), "%.17g", both.z);
+}
+
 /* The sun overhead through 80 m of cloud: exp(-0.8) of its light is left on the ground, all where the cloud is not. */
 static void clouds_shadow_the_ground(void)
 {
@@ -117,6 +131,7 @@ int main(int argc, char **argv)
         return 1;
     }
     RUN(absorbing_clouds_follow_beer_and_lambert);
+    RUN(invisible_clouds_are_not_there);
     RUN(clouds_shadow_the_ground);
     RUN(furnace_in_a_scene);
     RUN(clouds_go_with_the_wind);

@@ -178,8 +178,8 @@ static void v4_v9_what_is_refused(void)
     lom_image image = { 1, 1, 1, LOM_FORMAT_R8, &voxel };
     const double nan = INFINITE - INFINITE;
     const lom_reference_volume_desc good = { .density = &image, .high = { 1, 1, 1 }, .extinction = 1 };
-    lom_reference_volume_desc bad[9];
-    for (int i = 0; i < 9; i++)
+    lom_reference_volume_desc bad[10];
+    for (int i = 0; i < 10; i++)
         bad[i] = good;
     bad[0].high.x = 0; /* no thickness */
     bad[1].low.y = 2;  /* inverted */
@@ -190,7 +190,10 @@ static void v4_v9_what_is_refused(void)
     bad[6].albedo[0] = nan;
     bad[7].density = NULL;
     bad[8].high.x = INFINITE;
-    for (int i = 0; i < 9; i++) {
+    uint8_t rgb[3] = { 255, 255, 255 };
+    lom_image colors = { 1, 1, 1, LOM_FORMAT_RGB8, rgb };
+    bad[9].density = &colors;
+    for (int i = 0; i < 10; i++) {
         lom_error error = { .code = LOM_OK };
         CHECK(lom_create_reference_volume(&bad[i], &error) == NULL && error.code == LOM_ERROR_USAGE, "case %d", i);
     }
