@@ -27,6 +27,7 @@ built=$(cd "$BUILD" && pwd)
 root=$(pwd)
 cd "$folder" || exit 1
 sanitize=${SAN:+-fsanitize=$SAN}
+[ -z "${COVERAGE:-}" ] || sanitize=--coverage
 archive="$prefix/lib/liblom.a -lm -lpthread $sanitize"
 
 lom-cc --help | grep -q '^usage: lom-cc' || fail lom_cc_says_what_it_takes "lom-cc --help"
@@ -47,7 +48,7 @@ one=$(./single)
 echo "PASS one_width_is_enough"
 
 if [ -n "$sanitize" ]; then
-    echo "SKIP lines_of_the_readme_work: a sanitizer's library would have to be linked, too"
+    echo "SKIP lines_of_the_readme_work: a library of the compiler's would have to be linked, too"
 elif command -v pkg-config >/dev/null 2>&1; then
     [ "$(pkg-config --modversion lom)" = "$("$built/lom" version | sed -n '1s/^lom \([0-9.]*\).*/\1/p')" ] ||
         fail lines_of_the_readme_work "pkg-config's version is $(pkg-config --modversion lom)"

@@ -30,7 +30,7 @@ static inline uint8_t texel_code(int x, int y, int channel)
 }
 
 /* quad.obj: 2 x 2 m in the plane z = 0 around the origin, facing +z, with texels.png over it once; ground.obj: 200 x
- * 200 m at y = 0, facing +y; heights.png: a hill. */
+ * 200 m at y = 0, facing +y; bare.obj: a triangle whose picture is not there; heights.png: a hill. */
 static inline bool write_files(void)
 {
     if (mkdtemp(scene_folder) == NULL)
@@ -49,6 +49,8 @@ static inline bool write_files(void)
         write_text("quad.mtl", "newmtl paint\nKa 1 1 1\nKd 1 1 1\nmap_Kd texels.png\n") &&
         write_text("quad.obj", "mtllib quad.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
                                "vt 0 1\nvn 0 0 1\nusemtl paint\nf 1/1/1 2/2/1 3/3/1 4/4/1\n") &&
+        write_text("bare.mtl", "newmtl bare\nmap_Kd absent.png\n") &&
+        write_text("bare.obj", "mtllib bare.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl bare\nf 1 2 3\n") &&
         write_text("ground.obj", "v -100 0 100\nv 100 0 100\nv 100 0 -100\nv -100 0 -100\nvn 0 1 0\n"
                                  "f 1//1 2//1 3//1 4//1\n");
     lom_free_image(image);
@@ -58,7 +60,8 @@ static inline bool write_files(void)
 
 static inline void remove_files(void)
 {
-    static const char *const names[] = { "texels.png", "heights.png", "quad.mtl", "quad.obj", "ground.obj" };
+    static const char *const names[] = { "texels.png", "heights.png", "quad.mtl",  "quad.obj",
+                                         "bare.mtl",   "bare.obj",    "ground.obj" };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         remove(scene_path(names[i]));
     rmdir(scene_folder);

@@ -163,6 +163,85 @@ static void the_renderer_shows_it(void)
     lom_free_scene(scene);
 }
 
+static lom_image *render_as(const char *water, const char *format, const char *transfer, lom_rect crop)
+{
+    char text[3000];
+    lom_frame frame = { .image = NULL };
+    snprintf(text, sizeof text, THINGS "[output]\nformat = \"%s\"\ntransfer = \"%s\"\n%s[water]\nlevel = 0.2\n", format,
+             transfer, water);
+    lom_scene *scene = make_scene(text);
+    lom_renderer *renderer =
+        scene != NULL ? lom_create_renderer(scene, &(lom_device_desc){ .lanes = 4, .threads = 1 }, NULL) : NULL;
+    CHECK(renderer != NULL &&
+              lom_render_frame(renderer, &(lom_frame_desc){ .width = WIDTH, .height = HEIGHT, .crop = crop }, &frame,
+                               NULL),
+          "%s", text);
+    lom_free_renderer(renderer);
+    lom_free_scene(scene);
+    return frame.image;
+}
+
+/* IEC 61966-2-1 */
+static double encode(double x, bool srgb)
+{
+    x = x > 0 ? x < 1 ? x : 1 : 0;
+    return !srgb ? x : x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+}
+
+/* 8 and 16 bits are the floats, encoded and rounded once, of the reference's picture and, in 16 bits, of the
+ * pipeline's; a crop is the cut-out. */
+static void formats_hold_the_same_picture(void)
+{
+    static const char *const waters[2] = {
+        "[quality]\nwater = \"reference\"\n[quality.reference]\nsamples = 1\ndepth = 2\n", "[quality]\nmipmaps = true\n"
+    };
+    static const char *const transfers[2] = { "srgb", "naive" };
+    const lom_rect all = { 0, 0, 0, 0 }, part = { 37, 20, 30, 21 };
+    for (int w = 0; w < 2; w++)
+        for (int t = 0; t < 2; t++) {
+            lom_image *floats = render_as(waters[w], "rgb32f", transfers[t], all);
+            lom_image *deep = render_as(waters[w], "rgb16", transfers[t], all);
+            lom_image *bytes = render_as(waters[w], "rgb8", transfers[t], all);
+            lom_image *cut = render_as(waters[w], "rgb16", transfers[t], part);
+            if (floats == NULL || deep == NULL || bytes == NULL || cut == NULL)
+                return;
+            CHECK(same_rectangle(deep, cut, part.x, part.y), "water %d, %s: a crop is another picture", w,
+                  transfers[t]);
+            double most = 0, mean = 0;
+            for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+                double value = encode((double)((const float *)(const void *)floats->pixels)[i], t == 0);
+                double of_deep = fabs(value * 65535 - ((const uint16_t *)(const void *)deep->pixels)[i]);
+                most = of_deep > most ? of_deep : most;
+                mean += fabs(value * 255 - bytes->pixels[i]) / (3 * WIDTH * HEIGHT);
+            }
+            CHECK(most < 0.51, "water %d, %s: 16 bits are off by %g", w, transfers[t], most);
+            CHECK(mean < 0.3, "water %d, %s: 8 bits are off by %g on average", w, transfers[t], mean);
+            lom_free_image(floats);
+            lom_free_image(deep);
+            lom_free_image(bytes);
+            lom_free_image(cut);
+        }
+}
+
+/* What the meshes' pictures lack is told by the reference as by the renderer. */
+static void warnings_are_the_renderers(void)
+{
+    lom_scene *scene = make_scene(THINGS "[[entity]]\nmesh = \"bare.obj\"\n");
+    lom_reference *reference = scene != NULL ? lom_create_reference(scene, NULL) : NULL;
+    lom_renderer *renderer = scene != NULL ? lom_create_renderer(scene, NULL, NULL) : NULL;
+    CHECK(reference != NULL && renderer != NULL, "not loaded");
+    if (reference != NULL && renderer != NULL) {
+        const lom_warnings *warnings = lom_reference_warnings(reference);
+        CHECK(warnings->count == 1 && lom_renderer_warning_count(renderer) == 1 &&
+                  strcmp(warnings->text, lom_renderer_warning(renderer)) == 0 &&
+                  strstr(warnings->text, "absent.png") != NULL,
+              "\"%s\", \"%s\"", warnings->text, lom_renderer_warning(renderer));
+    }
+    lom_free_renderer(renderer);
+    lom_free_reference(reference);
+    lom_free_scene(scene);
+}
+
 /* More samples come closer to many: the mean over a pixel's area is what they are after. */
 static void samples_converge(void)
 {
@@ -213,6 +292,8 @@ int main(int argc, char **argv)
     RUN(the_planar_reflection_is_the_mirrored_scene);
     RUN(threads_and_crops_change_no_byte);
     RUN(the_renderer_shows_it);
+    RUN(formats_hold_the_same_picture);
+    RUN(warnings_are_the_renderers);
     RUN(samples_converge);
     RUN(bad_frames_are_refused);
     remove_files();

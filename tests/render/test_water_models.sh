@@ -46,6 +46,23 @@ for model in tinted planar normal_map displaced marched; do
     verdict no_water_in_view_costs_no_pass_$model "$why"
 done
 
+# Schlick's approximation is near the exact reflectance, the mix of the reference works is not, in each of them.
+for model in normal_map displaced marched; do
+    for fresnel in exact schlick dot; do draw --set water.optics.fresnel=$fresnel -o "$folder/$fresnel.ppm"; done
+    error() { "$lom" compare "$folder/exact.ppm" "$folder/$1.ppm" --json | sed 's/.*"rmse": \([0-9.]*\).*/\1/'; }
+    why=$(awk -v near="$(error schlick)" -v far="$(error dot)" 'BEGIN { if (!(near > 0 && near < 3 && far > 2 * near)) print near " and " far }')
+    verdict reflectances_differ_as_they_should_$model "$why"
+done
+
+# What nothing focuses is no pass, and the plan says why.
+model=displaced
+optics='--set water.optics.caustics=1'
+case $(plan $optics) in *'*  caustics'*) why= ;; *) why='no caustics under waves' ;; esac
+case $(plan $optics --set water.waves.kind=none) in *'still water focuses no light'*) ;; *) why='caustics of still water' ;; esac
+case $(plan $optics --set light.elevation=1) in *'the sun is too low'*) ;; *) why='caustics of a low sun' ;; esac
+case $(plan --set water.optics.caustics=0) in *'water.optics.caustics is 0'*) ;; *) why='caustics of factor 0' ;; esac
+verdict caustics_only_where_light_is_focused "$why"
+
 for model in normal_map displaced marched; do
     frame_alone a_frame_alone_is_the_frame_of_a_run_$model
     below="--set camera.position=[-3,-1,14]"
