@@ -124,6 +124,25 @@ checks() {
         exits 0 "$lom" render scene.toml --set output.format=rgb32f --check -o out.pfm
 }
 
+# Limits that show when a scene's files are read or its water moves: the sentence names the keys.
+limits() {
+    printf 'P2 3 3 255\n0 100 0 100 255 100 0 100 0\n' >heights.pgm
+    ground='terrain={height_map="heights.pgm",size=[100,100]'
+    layer='{map="skin.ppm"}'
+    nine="$layer,$layer,$layer,$layer,$layer,$layer,$layer,$layer,$layer"
+    refuses "at most 8 layers, and this one has 9" render scene.toml -o out.png --set "$ground,layer=[$nine]}" &&
+        refuses "not within 1e9 seconds" render scene.toml -o out.png --frame 1000000000 --set output.fps=0.5 &&
+        refuses "shallow.size over shallow.cells" render scene.toml -o out.png --set quality.water=displaced \
+            --set 'shallow={size=0.001,cells=1024}' &&
+        refuses "more than 10000000 steps (shallow.step)" render scene.toml -o out.png --set quality.water=displaced \
+            --set 'shallow={start=-1000000,step=0.0005}' &&
+        refuses "[shallow] at water.level over the terrain: Cell (0, 0)" render scene.toml -o out.png \
+            --set quality.water=displaced --set 'terrain={height_map="heights.pgm",size=1e6,height=1e6}' \
+            --set 'shallow={cells=8,size=1e5}' || return 1
+    exits 0 "$lom" plan scene.toml --set quality.water=displaced --set "$ground,base=-60}" --set surf.height=0.5 &&
+        says "none breaks"
+}
+
 # Frame N at F frames a second is the moment of frame 2 N at 2 F.
 frames_a_second() {
     printf '[[entity.key]]\ntime = 0\nposition = [0, 0, 0]\n[[entity.key]]\ntime = 1\nposition = [1, 2, 0]\n' | cat scene.toml - >moving.toml
@@ -155,6 +174,7 @@ check damaged_scenes damaged_scenes
 check wrong_files wrong_files
 check wrong_arguments wrong_arguments
 check check_refuses_one_colour checks
+check limits_name_their_keys limits
 check frames_a_second_are_moments frames_a_second
 check a_bar_on_a_terminal bar
 exit $failures
