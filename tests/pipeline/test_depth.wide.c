@@ -35,6 +35,7 @@ static void write_depth(lom_fragment *out, const lom_varyings *in, const void *u
 LOM_SHADER(counter, place, add_one, .attributes = 1, .colors = 1)
 LOM_SHADER(writer, place, write_depth, .attributes = 2, .varyings = 1, .reads = 1, .writes_depth = true, .colors = 1,
            .uniforms_size = sizeof(struct settings))
+LOM_SHADER(numbers, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
 LOM_DEPTH_SHADER(depth_only, place, .attributes = 1)
 
 static const lom_format formats[] = { LOM_FORMAT_DEPTH16, LOM_FORMAT_DEPTH24, LOM_FORMAT_DEPTH32F };
@@ -425,6 +426,39 @@ static void z4_what_has_no_bias(void)
     }
 }
 
+/* Depths that a second pass keeps are those that the first one left: two passes of half the triangles each are one of
+ * all. */
+static void kept_depths_are_those_of_one_pass(void)
+{
+    static vertex triangles[60];
+    for (int f = 0; f < FORMATS; f++) {
+        lom_image *once[2] = { NULL, NULL };
+        stage s = open_stage((lom_device_desc){ .threads = 1 }, 75, 43, LOM_FORMAT_R32F, formats[f]);
+        for (int k = 0; k < 60; k++)
+            triangles[k] =
+                (vertex){ .position = { random_float(-1.5f, 1.5f), random_float(-1.5f, 1.5f), random_float(0, 1), 1 },
+                          .value = { (float)(k / 3) } };
+        for (int passes = 1; passes <= 2; passes++) {
+            for (int p = 0; p < passes; p++) {
+                const lom_load_action load = p > 0 ? LOM_LOAD_KEEP : LOM_LOAD_CLEAR;
+                begin(&s, (lom_pass_desc){ .color_load = { load }, .depth_load = load });
+                lom_draw_desc desc = draw_of(&numbers, triangles + 60 / passes * p, 60 / (size_t)passes);
+                lom_draw(s.device, &desc);
+                finish(&s);
+            }
+            if (passes == 1) {
+                once[0] = s.image;
+                once[1] = s.depths;
+                s.image = s.depths = NULL;
+            }
+        }
+        CHECK(same_images(once[0], s.image) && same_images(once[1], s.depths), "format %d", (int)formats[f]);
+        lom_free_image(once[0]);
+        lom_free_image(once[1]);
+        close_stage(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     RUN(z3_depths_are_rounded_to_nearest);
@@ -439,5 +473,6 @@ int main(int argc, char **argv)
     RUN(z4_edge_on_slopes_are_limited);
     RUN(z4_a_biased_decal_lies_above);
     RUN(z4_what_has_no_bias);
+    RUN(kept_depths_are_those_of_one_pass);
     return check_result();
 }

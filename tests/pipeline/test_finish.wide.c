@@ -1,6 +1,8 @@
 /* Proves that the levels and aprons which workers make of an attachment together are those that one makes of a texture
- * of the same pixels, texel by texel, beyond the edges too: odd and even sizes, every storage, every wrap. */
+ * of the same pixels, texel by texel, beyond the edges too: odd and even sizes, every storage, every wrap; and that
+ * stores past the caches change no byte. */
 #include "image/texture.h"
+#include "pipeline/device.h"
 #include "stage.h"
 
 LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
@@ -63,8 +65,78 @@ static void levels_and_aprons_are_those_of_a_texture(void)
     }
 }
 
+/* A texture that was made of pixels keeps them decoded: after a pass has drawn into it, what it drew. */
+static void what_is_drawn_is_decoded_again(void)
+{
+    static uint8_t pixels[37 * 20 * 4];
+    lom_device *device = open_device((lom_device_desc){ .threads = 2 });
+    lom_texture_desc desc = {
+        .width = 37, .height = 20, .format = LOM_FORMAT_RGBA8_SRGB, .pixels = pixels, .mips = LOM_MIPS_ALL
+    };
+    lom_texture *target = lom_make_texture(device, &desc);
+    draw_scene(device, target);
+    lom_image *drawn = lom_read_texture(target, 0, 0, NULL);
+    desc.pixels = drawn->pixels;
+    lom_texture *copy = lom_create_texture(&desc, NULL);
+    size_t size = target->texel_count * 4 * sizeof *target->decoded;
+    CHECK(memcmp(drawn->pixels, pixels, sizeof pixels) != 0, "nothing was drawn");
+    CHECK(target->decoded != NULL && memcmp(target->decoded, copy->decoded, size) == 0,
+          "it shows what was there before");
+    for (int level = 0; level < target->level_count; level++)
+        compare_levels(target, copy, level);
+    lom_free_texture(copy);
+    lom_free_image(drawn);
+    lom_close_device(device);
+}
+
+/* The colours and depths of a scene, on a device whose caches hold so many bytes. */
+static void draw_with_caches(size_t bytes, lom_format color, int width, lom_image *images[2])
+{
+    lom_device *device = open_device((lom_device_desc){ .threads = 2 });
+    lom_texture *target =
+        lom_make_texture(device, &(lom_texture_desc){ .width = width, .height = 150, .format = color });
+    lom_texture *depth =
+        lom_make_texture(device, &(lom_texture_desc){ .width = width, .height = 150, .format = LOM_FORMAT_DEPTH24 });
+    device->cache_bytes = bytes;
+    random_draws = 77;
+    for (int k = 0; k < 12; k++) {
+        corners[k] = (vertex){ .position = { random_float(-2, 2), random_float(-2, 2), random_float(0, 1), 1 } };
+        for (int i = 0; i < 4; i++)
+            corners[k].value[i] = random_float(0, 1);
+    }
+    lom_begin_pass(device,
+                   &(lom_pass_desc){ .color = { target }, .depth = depth, .clear_color = { { 0.1f, 0.6f, 0.9f, 1 } } });
+    lom_draw_desc draw = draw_of(&values, corners, 12);
+    lom_draw(device, &draw);
+    CHECK(lom_end_pass(device), "%s", lom_device_error(device)->text);
+    images[0] = lom_read_texture(target, 0, 0, NULL);
+    images[1] = lom_read_texture(depth, 0, 0, NULL);
+    lom_close_device(device);
+}
+
+/* What is larger than the caches is stored past them: the same bytes. */
+static void stores_past_the_caches_change_no_byte(void)
+{
+    static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_RGB8, LOM_FORMAT_R32F,
+                                          LOM_FORMAT_RGBA32F };
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++)
+        for (int width = 191; width <= 192; width++) {
+            lom_image *within[2], *past[2];
+            draw_with_caches((size_t)1 << 30, formats[f], width, within);
+            draw_with_caches(1, formats[f], width, past);
+            for (int i = 0; i < 2; i++) {
+                CHECK(same_images(within[i], past[i]), "format %d, %d pixels wide, attachment %d", (int)formats[f],
+                      width, i);
+                lom_free_image(within[i]);
+                lom_free_image(past[i]);
+            }
+        }
+}
+
 int main(int argc, char **argv)
 {
     RUN(levels_and_aprons_are_those_of_a_texture);
+    RUN(what_is_drawn_is_decoded_again);
+    RUN(stores_past_the_caches_change_no_byte);
     return check_result();
 }
