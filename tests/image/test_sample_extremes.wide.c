@@ -230,6 +230,38 @@ static void s11_edges_of_the_picture(void)
     expect_at(LOM_WRAP_CLAMP, LOM_FILTER_NEAREST, 1.0f, 40);
 }
 
+/* A fetch is the nearest sample at a texel's centre, of every storage and level. */
+static void fetches_are_nearest_samples(void)
+{
+    static const lom_format formats[] = { LOM_FORMAT_R8,      LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_R32F,
+                                          LOM_FORMAT_RGBA32F, LOM_FORMAT_RGB16, LOM_FORMAT_DEPTH16 };
+    static uint8_t pixels[5 * 4 * 16];
+    for (size_t i = 0; i < sizeof pixels; i++) /* no exponent of all ones, so no NaN */
+        pixels[i] = (uint8_t)(lom_random_bits(4, i) & 0x3f);
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
+        lom_texture *t = lom_create_texture(
+            &(lom_texture_desc){ .width = 5,
+                                 .height = 4,
+                                 .format = formats[f],
+                                 .pixels = pixels,
+                                 .mips = LOM_MIPS_ALL,
+                                 .sampler = { LOM_FILTER_NEAREST_MIPMAP_NEAREST, LOM_FILTER_NEAREST } },
+            &error);
+        CHECK(t != NULL && lom_texture_format(t) == formats[f] && lom_texture_depth(t) == 1, "format %zu: %s", f,
+              error.text);
+        for (int level = 0; t != NULL && level < 2; level++)
+            for (int y = 0; y < 4 >> level; y++)
+                for (int x = 0; x < 5 >> level; x++) {
+                    float s = ((float)x + 0.5f) / (float)(5 >> level), r = ((float)y + 0.5f) / (float)(4 >> level);
+                    lom_float4 a = lom_fetch(t, lom_splat_int(x), lom_splat_int(y), level);
+                    lom_float4 b = lom_sample(t, lom_splat(s), lom_splat(r), lom_splat((float)level));
+                    CHECK(memcmp(&a, &b, sizeof a) == 0, "format %zu, level %d, texel %d,%d: %g, not %g", f, level, x,
+                          y, (double)a.x[0], (double)b.x[0]);
+                }
+        lom_free_texture(t);
+    }
+}
+
 static void depth_and_fetch_read_one_channel(void)
 {
     static const float pixels[4] = { 0.25f, 0.5f, 1, 0 };
@@ -438,6 +470,7 @@ int main(int argc, char **argv)
     RUN(s11_edges_of_the_picture);
     RUN(srgb_by_table_and_decoded_agree);
     RUN(depth_and_fetch_read_one_channel);
+    RUN(fetches_are_nearest_samples);
     RUN(the_same_bits_at_every_width);
     return check_result();
 }
