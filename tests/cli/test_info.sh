@@ -87,5 +87,16 @@ else
     echo "SKIP info_json: there is no python3"
 fi
 check info_scene scene
+# Names are bytes: what is no UTF-8 in them is replaced, a byte at a time, and the rest stays.
+broken_names() {
+    command -v iconv >/dev/null || { echo "no iconv here"; return 0; }
+    for bytes in '\377' '\303(' '\342\202(' '\360\237\230(' '\355\240\200' '\300\200' '\364\220\200\200' '\342\202\254' '"\\'; do
+        name=$(printf "a${bytes}z.pgm")
+        printf 'P5 1 1 255\n7' >"$name" || return 1
+        exits 0 "$lom" info --json "$name" && iconv -f UTF-8 -t UTF-8 "$folder/out" >/dev/null && says 'z.pgm"' && says '"a' || return 1
+        rm "$name"
+    done
+}
+check info_json_is_utf8_whatever_the_name broken_names
 check info_goes_on_after_a_bad_file bad_files
 exit $failures
