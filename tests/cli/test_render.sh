@@ -85,6 +85,21 @@ wrong_files() {
     refuses 'bad.toml:11:8: ' render bad.toml -o out.png
 }
 
+# As many warnings as there is room for are told, and how many more there are: here one a picture that is not there.
+many_warnings() {
+    : >many.mtl
+    printf 'mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n' >many.obj
+    for i in $(seq 1 60); do
+        printf 'newmtl m%d\nmap_Kd a-picture-that-is-not-there-%d.png\n' "$i" "$i" >>many.mtl
+        printf 'usemtl m%d\nf 1 2 3\n' "$i" >>many.obj
+    done
+    sed 's/box.obj/many.obj/' scene.toml >many.toml
+    exits 0 "$lom" render many.toml --hash && complains "a-picture-that-is-not-there-1.png" || return 1
+    told=$(grep -c 'that-is-not-there' "$folder/err")
+    [ "$told" -gt 2 ] && [ "$told" -lt 60 ] && complains "warning: $((60 - told)) more warnings are not shown." &&
+        exits 0 "$lom" render many.toml --hash --quiet && [ ! -s "$folder/err" ]
+}
+
 # Each line: what is said | arguments behind `lom`.
 wrong_arguments() {
     while IFS='|' read -r text arguments; do
@@ -173,6 +188,7 @@ check good_scene good_scene
 check wrong_scenes wrong_scenes
 check damaged_scenes damaged_scenes
 check wrong_files wrong_files
+check many_warnings_are_counted many_warnings
 check wrong_arguments wrong_arguments
 check check_refuses_one_colour checks
 check limits_name_their_keys limits

@@ -121,7 +121,8 @@ static bool same_rectangle(const lom_image *whole, const lom_image *part, int x0
 
 static void threads_and_crops_change_no_byte(void)
 {
-    lom_scene *scene = make_scene(THINGS "[water]\nlevel = 0.2\nnormal_map = \"texels.png\"\n");
+    lom_scene *scene =
+        make_scene(THINGS "[water]\nlevel = 0.2\nnormal_map = \"texels.png\"\nflow_map = \"texels.png\"\n");
     if (scene == NULL)
         return;
     lom_image *whole = trace(scene, 1.33, (lom_reference_frame){ .samples = 3, .depth = 3, .threads = 1 });
