@@ -218,13 +218,28 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
     }
 }
 
-void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet)
+void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in)
 {
     const struct lom_draw *draw = tile->draw;
-    const struct lom_chunk *chunk = tile->chunk;
     const lom_shader *shader = draw->desc.shader;
-    lom_varyings in;
     lom_fragment out;
+    if (shader->reads_depth)
+        in->target_depth = lom_depth_of_units(
+            tile->pass, lom_as_float(lom_load_places((const int32_t *)tile->depth, tile, &packet->places)));
+    in->covered = packet->covered;
+    out.depth = packet->depth;
+    out.discard = (lom_mask){ 0 };
+    shader->fragment[draw->variant](&out, in, draw->uniforms);
+    tile->packets++;
+    lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
+    LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
+}
+
+void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet)
+{
+    const struct lom_chunk *chunk = tile->chunk;
+    const lom_shader *shader = tile->draw->desc.shader;
+    lom_varyings in;
     if (shader->reads != 0 || shader->reads_position) {
         struct rows rows;
         find_rows(chunk, packet, &rows);
@@ -237,14 +252,5 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
         if (shader->reads_position)
             find_position(tile, packet, &p, &in);
     }
-    if (shader->reads_depth)
-        in.target_depth = lom_depth_of_units(
-            tile->pass, lom_as_float(lom_load_places((const int32_t *)tile->depth, tile, &packet->places)));
-    in.covered = packet->covered;
-    out.depth = packet->depth;
-    out.discard = (lom_mask){ 0 };
-    shader->fragment[draw->variant](&out, &in, draw->uniforms);
-    tile->packets++;
-    lom_mask mask = shader->discards ? in.covered & ~out.discard : in.covered;
-    LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
+    LOM_WIDE(lom_run_shader)(tile, packet, &in);
 }

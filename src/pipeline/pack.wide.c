@@ -6,13 +6,6 @@
 #include "lanes/pair_products.h"
 #include "pipeline/slots.h"
 
-/* LOM_LANES entries of the list. */
-struct packed {
-    lom_int code, which; /* which: of the slots from `first` on */
-    int first, triangles;
-    int count; /* lanes that are entries; the others repeat the last one */
-};
-
 LOM_INLINE int slot_of(int32_t code)
 {
     return (int)((uint32_t)code >> CODE_TRIANGLE);
@@ -143,11 +136,15 @@ static void shade(struct lom_tile *tile, const struct packed *p)
         packet.depth = find_depth_lanes(list, p, packet.l);
     packet.which = p->which;
     packet.triangles = p->triangles;
-    for (int i = 0; i < p->triangles; i++)
-        packet.triangle[i] = (int32_t)list->number[p->first + i];
     packet.covered = lom_lane_index() < p->count;
     packet.places.block = false;
     lom_store_int(packet.places.pixel, pixel_of(p->code));
+    if (SLOTS_BY_WORD) {
+        LOM_WIDE(lom_shade_slots)(tile, p, &packet);
+        return;
+    }
+    for (int i = 0; i < p->triangles; i++)
+        packet.triangle[i] = (int32_t)list->number[p->first + i];
     LOM_WIDE(lom_shade_packet)(tile, &packet);
 }
 
@@ -189,6 +186,8 @@ void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
     if (tile->queue.count > 0 && shades)
         LOM_WIDE(lom_flush)(tile);
     LOM_WIDE(lom_fill_slots)(tile);
+    if (SLOTS_BY_WORD && shades)
+        LOM_WIDE(lom_fill_values)(tile);
     int slot = list->kept;
     while (slot < list->triangles) {
         int tested = list->count;

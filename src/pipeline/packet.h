@@ -38,6 +38,9 @@ void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *fragment
 void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
+/* Its second half: the shader on varyings that are found, and what follows; of the packet: places, depth, triangles and
+ * covered. */
+void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in);
 /* The lanes of mask, whose fragments are shaded, through the late depth test and the output stage, in lane order;
  * `apart`: they are different pixels. */
 void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,

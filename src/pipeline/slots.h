@@ -59,10 +59,20 @@ LOM_INLINE lom_float4 load_slots(const float *slots, int word, int first, lom_in
                          lom_permute(lom_load(from + 3 * SLOT_PITCH), which) };
 }
 
+/* LOM_LANES entries of the list. */
+struct packed {
+    lom_int code, which; /* which: of the slots from `first` on */
+    int first, triangles;
+    int count; /* lanes that are entries; the others repeat the last one */
+};
+
 /* Codes of the pixels that the tile's slots from `from` on cover, in order, after those that the list holds; stops
  * where the list is full and returns the slot that is next. */
 int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from);
-/* Fills the slots of the list's triangles. */
+/* Fills the slots of the list's triangles; and, for slots by word, what the fragment stage needs of them. */
 void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile);
+void LOM_WIDE(lom_fill_values)(struct lom_tile *tile);
+/* lom_shade_packet from the slots; of the packet: places, l, depth, triangles and covered. */
+void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet);
 
 #endif

@@ -187,12 +187,15 @@ enum {
     LIST_TRIANGLES = 64, /* of which some may be left from the last time */
     LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
     SLOT_PITCH = LIST_TRIANGLES + 16,
-    SLOT_WORDS = 16 /* slots.h */
+    SLOT_WORDS = 16, /* slots.h */
+    LIST_HEADER = 8, /* interpolate.wide.c */
+    LIST_VALUE = 5
 };
 struct lom_list {
     int32_t code[LIST_ROOM];
     uint32_t number[SLOT_PITCH];          /* of the triangles, in the chunk's */
     float slots[SLOT_WORDS * SLOT_PITCH]; /* what was found of them */
+    float value[(LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS) * SLOT_PITCH];
     int count, triangles;
     int kept; /* triangles of which only the fragments that are there are left */
 };

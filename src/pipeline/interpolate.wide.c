@@ -1,0 +1,163 @@
+/* Stage 6 of 7 for small triangles that are drawn together. In: their slots, and fragments of them. Out: shaded colours,
+ * on to the output stage. What fragments need of a triangle's vertices is found once a slot, for LOM_LANES triangles at
+ * a time: fragment.wide.c, which is plainer, finds it again for each packet.
+ *
+ * Invariant: varyings are those of fragment.wide.c, by the same arithmetic. */
+#include "pipeline/slots.h"
+
+/* Words of a slot; then, for each varying that is read, VALUE_WORDS. */
+enum { ONE_OVER_W = 0, FACING = 3, STEPS = 4, VALUES = LIST_HEADER };
+enum { VALUE = 0, DELTA1, DELTA2, LOWEST, HIGHEST, VALUE_WORDS = LIST_VALUE };
+
+LOM_INLINE void store_value(struct lom_list *list, int word, int slot, lom_float x)
+{
+    lom_store(list->value + word * SLOT_PITCH + slot, x);
+}
+
+LOM_INLINE lom_float load_value(const struct lom_list *list, const struct packed *p, int word)
+{
+    return lom_permute(lom_load(list->value + word * SLOT_PITCH + p->first), p->which);
+}
+
+/* Where the rows of the vertices of LOM_LANES triangles begin, and that of the provoking one. */
+struct vertex_rows {
+    lom_int row[3], provoking;
+};
+
+static void fill_varying(struct lom_list *list, int word, int slot, const lom_float f[3], bool flat,
+                         lom_float provoking)
+{
+    if (flat) {
+        store_value(list, word + VALUE, slot, provoking);
+        return;
+    }
+    store_value(list, word + VALUE, slot, f[0]);
+    store_value(list, word + DELTA1, slot, f[1] - f[0]);
+    store_value(list, word + DELTA2, slot, f[2] - f[0]);
+    store_value(list, word + LOWEST, slot, lom_min(f[0], lom_min(f[1], f[2])));
+    store_value(list, word + HIGHEST, slot, lom_max(f[0], lom_max(f[1], f[2])));
+}
+
+/* The varyings that are read, four of a row at a time. */
+static void fill_varyings(struct lom_tile *tile, const struct vertex_rows *v, int slot)
+{
+    const lom_shader *shader = tile->draw->desc.shader;
+    int word = VALUES;
+    for (int first = 0; first < shader->varyings; first += 4) {
+        uint32_t reads = shader->reads >> first & 15, flat = shader->flat >> first & reads;
+        const float *from = tile->chunk->rows + ROW_HEADER + first;
+        if (reads == 0)
+            continue;
+        lom_float4 a = lom_gather_rows(from, v->row[0]), b = lom_gather_rows(from, v->row[1]),
+                   c = lom_gather_rows(from, v->row[2]), last = { a.x, a.y, a.z, a.w };
+        if (flat != 0)
+            last = lom_gather_rows(from, v->provoking);
+        const lom_float f[4][3] = { { a.x, b.x, c.x }, { a.y, b.y, c.y }, { a.z, b.z, c.z }, { a.w, b.w, c.w } };
+        const lom_float provoking[4] = { last.x, last.y, last.z, last.w };
+        for (int k = 0; k < 4; k++)
+            if (reads >> k & 1) {
+                fill_varying(&tile->list, word, slot, f[k], flat >> k & 1, provoking[k]);
+                word += VALUE_WORDS;
+            }
+    }
+}
+
+/* LOM_LANES slots; the records' words are those of lom_triangle. */
+static void fill_packet(struct lom_tile *tile, int slot)
+{
+    struct lom_list *list = &tile->list;
+    const lom_shader *shader = tile->draw->desc.shader;
+    const float *words = (const float *)(const void *)tile->chunk->triangles;
+    lom_int at = lom_load_int((const int32_t *)list->number + slot) * (int32_t)(sizeof(lom_triangle) / 4);
+    lom_float4 last = lom_gather_rows(words + 12, at);
+    struct vertex_rows v = { .row = { lom_as_int(last.x), lom_as_int(last.y), lom_as_int(last.z) } };
+    lom_int state = lom_as_int(last.w), provoking = state >> TRIANGLE_PROVOKING & 3;
+    v.provoking = lom_select_int(provoking == 0, v.row[0], lom_select_int(provoking == 1, v.row[1], v.row[2]));
+    for (int k = 0; k < 3; k++)
+        store_value(list, ONE_OVER_W + k, slot, lom_gather_rows(tile->chunk->rows, v.row[k]).w);
+    store_value(list, FACING, slot, lom_as_float(-(state >> TRIANGLE_FRONT & 1)));
+    if (shader->differentiates != 0) {
+        lom_float4 step = lom_gather_rows(words, at);
+        lom_float inverse = lom_gather_rows(words + 4, at).x;
+        store_value(list, STEPS, slot, step.x * inverse);
+        store_value(list, STEPS + 1, slot, step.y * inverse);
+        store_value(list, STEPS + 2, slot, step.z * inverse);
+        store_value(list, STEPS + 3, slot, step.w * inverse);
+    }
+    fill_varyings(tile, &v, slot);
+}
+
+void LOM_WIDE(lom_fill_values)(struct lom_tile *tile)
+{
+    for (int slot = 0; slot < tile->list.triangles; slot += LOM_LANES)
+        fill_packet(tile, slot);
+}
+
+struct weights { /* of the three vertices, screen-space times 1/w; b1 and b2 perspective-correct */
+    lom_float one_over_w[3], sum, b1, b2;
+};
+
+LOM_INLINE struct weights find_weights(const struct lom_list *list, const struct packed *p, const lom_float l[3])
+{
+    struct weights w;
+    for (int k = 0; k < 3; k++)
+        w.one_over_w[k] = load_value(list, p, ONE_OVER_W + k);
+    lom_float p1 = l[1] * w.one_over_w[1], p2 = l[2] * w.one_over_w[2];
+    w.sum = l[0] * w.one_over_w[0] + p1 + p2;
+    w.b1 = p1 / w.sum;
+    w.b2 = p2 / w.sum;
+    return w;
+}
+
+/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. */
+LOM_INLINE void find_slope(lom_float step1, lom_float step2, const struct weights *w, lom_float slope[2])
+{
+    lom_float a = step1 * w->one_over_w[1], b = step2 * w->one_over_w[2];
+    lom_float sum = a + b - (step1 + step2) * w->one_over_w[0];
+    slope[0] = (a - w->b1 * sum) / w->sum;
+    slope[1] = (b - w->b2 * sum) / w->sum;
+}
+
+LOM_INLINE void interpolate(const struct lom_list *list, const struct packed *p, const lom_shader *shader,
+                            const struct weights *w, lom_varyings *in)
+{
+    int word = VALUES;
+    uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
+    for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, word += VALUE_WORDS) {
+        int v = __builtin_ctz(reads);
+        lom_float f = load_value(list, p, word + VALUE);
+        if (shader->flat >> v & 1) {
+            in->varying[v] = f;
+            in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
+            continue;
+        }
+        lom_float d1 = load_value(list, p, word + DELTA1), d2 = load_value(list, p, word + DELTA2);
+        in->varying[v] = lom_clamp(f + w->b1 * d1 + w->b2 * d2, load_value(list, p, word + LOWEST),
+                                   load_value(list, p, word + HIGHEST));
+        if (shader->differentiates >> v & 1) {
+            in->delta[0][v] = d1;
+            in->delta[1][v] = d2;
+        }
+    }
+}
+
+void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet)
+{
+    const struct lom_list *list = &tile->list;
+    const lom_shader *shader = tile->draw->desc.shader;
+    lom_varyings in;
+    struct weights w = find_weights(list, p, packet->l);
+    interpolate(list, p, shader, &w, &in);
+    if (shader->differentiates != 0) {
+        find_slope(load_value(list, p, STEPS), load_value(list, p, STEPS + 2), &w, in.dx);
+        find_slope(load_value(list, p, STEPS + 1), load_value(list, p, STEPS + 3), &w, in.dy);
+    }
+    if (shader->reads_position) {
+        in.x = lom_to_float((p->code >> CODE_X & 63) + tile->x) + 0.5f;
+        in.y = lom_to_float((p->code >> CODE_Y & 63) + tile->y) + 0.5f;
+        in.z = packet->depth;
+        in.w = 1.0f / w.sum;
+        in.front = lom_as_int(load_value(list, p, FACING));
+    }
+    LOM_WIDE(lom_run_shader)(tile, packet, &in);
+}
