@@ -20,7 +20,7 @@ trap 'exit 2' INT TERM
 
 field() { sed -n 's/.*"'"$1"'": *\([^,}]*\).*/\1/p' "$work/stats"; }
 least() { field "$1" | sort -n | awk 'NR == 1 { printf "%.2f", $1 }'; }
-draw() { "$lom" render "$@" --quiet --stats "$work/stats" >/dev/null || exit 2; }
+draw() { "$lom" render "$@" --set quality.filtering=float --set quality.march=float --quiet --stats "$work/stats" >/dev/null || exit 2; }
 plot() { # name, kind, title, x, y
     grep -v '^reference' "$results/clouds-$1.csv" | awk -F, -v kind="$2" -v title="$3" -v x="$4" -v y="$5" -f bench/plot.awk \
         >"$pictures/clouds-$1.svg"

@@ -27,7 +27,7 @@ field() { sed -n 's/.*"'"$1"'": *"\{0,1\}\([^",}]*\).*/\1/p'; }
 draw() { # model, picture, other arguments: a line of statistics for each frame
     model=$1 picture=$2
     shift 2
-    "$lom" render "$scene" --size "$size" --set "quality.water=\"$model\"" --set water.optics.caustics=0 \
+    "$lom" render "$scene" --size "$size" --set "quality.water=\"$model\"" --set quality.filtering=float --set water.optics.caustics=0 \
         --set water.foam.amount=0 --set water.foam.shore_depth=0 --set quality.spray=false --quiet --stats - -o "$picture" "$@"
 }
 # Pictures of one size (P6) in rows of three: the rows of pixels of each three are laid behind one another.

@@ -12,7 +12,7 @@
 
 typedef struct bench_options {
     lom_option_integers size, frames, warm_up, threads;
-    const char *lanes, *output;
+    const char *lanes, *filtering, *march, *output;
     bool plain, json, list;
 } bench_options;
 
@@ -28,6 +28,10 @@ static const lom_option options[] = {
       "values side by side (the widest the processor has)" },
     { "plain", 0, LOM_OPTION_FLAG, offsetof(bench_options, plain), NULL, 0, 0,
       "lower the lanes to the processor's baseline instructions" },
+    { "filtering", 0, LOM_OPTION_CHOICE, offsetof(bench_options, filtering), "float|fixed", 0, 0,
+      "arithmetic in which textures are filtered (fixed)" },
+    { "march", 0, LOM_OPTION_CHOICE, offsetof(bench_options, march), "float|fixed", 0, 0,
+      "arithmetic of the march through the cloud (float)" },
     { "output", 'o', LOM_OPTION_TEXT, offsetof(bench_options, output), "OUT", 0, 0,
       "keep the last frame; with one workload only" },
     { "json", 0, LOM_OPTION_FLAG, offsetof(bench_options, json), NULL, 0, 0, "one JSON object a line" },
@@ -88,11 +92,19 @@ static void report(const bench_options *o, const char *name, const lom_image *pi
     fflush(stdout);
 }
 
+static lom_filtering filtering_of(const char *word, lom_filtering otherwise)
+{
+    if (word == NULL)
+        return otherwise;
+    return strcmp(word, "fixed") == 0 ? LOM_FILTERING_FIXED : LOM_FILTERING_FLOAT;
+}
+
 static bool run_one(const bench_options *o, const char *name, lom_device *device, lom_error *error)
 {
     int width = o->size.given ? (int)o->size.value[0] : 1280, height = o->size.given ? (int)o->size.value[1] : 720;
     lom_timing timing;
-    lom_workload *workload = lom_create_workload(name, width, height, error);
+    lom_workload *workload = lom_create_workload(name, width, height, filtering_of(o->filtering, LOM_FILTERING_FIXED),
+                                                 filtering_of(o->march, LOM_FILTERING_FLOAT), error);
     bool done = workload != NULL && lom_time_workload(workload, device, (int)given_or(&o->warm_up, 2),
                                                       (int)given_or(&o->frames, 20), &timing, error);
     lom_image *picture = done ? lom_workload_picture(workload, device, error) : NULL;

@@ -25,9 +25,11 @@ const char *lom_workload_name(int index);
 /* One line that says what is drawn. */
 const char *lom_workload_summary(int index);
 
-/* Sets up a workload at a size of 1..16384 pixels a side: meshes, textures, targets. NULL on failure; freed with
+/* Sets up a workload at a size of 1..16384 pixels a side: meshes, textures, targets; `filtering` is that of textures,
+ * `march` that of the cloud. NULL on failure; freed with
  * lom_free_workload. It belongs to no device: devices of any threads and lanes may draw it, one at a time. */
-lom_workload *lom_create_workload(const char *name, int width, int height, lom_error *error);
+lom_workload *lom_create_workload(const char *name, int width, int height, lom_filtering filtering, lom_filtering march,
+                                  lom_error *error);
 void lom_free_workload(lom_workload *workload);
 
 /* Draws one frame, every time the same; complete when it returns. */

@@ -140,14 +140,22 @@ static const lom_workload_kind *find_kind(const char *name, lom_error *error)
 }
 
 /* A texture with all its levels, repeated; takes the image. */
-static lom_texture *tile_texture(lom_image *image, lom_error *error)
+static lom_texture *tile_texture(const lom_workload *w, lom_image *image, lom_error *error)
 {
-    lom_texture *texture = image != NULL ? lom_texture_of_image(image, false, LOM_MIPS_ALL, error) : NULL;
+    if (image == NULL)
+        return NULL;
+    lom_texture_desc desc = { .width = image->width,
+                              .height = image->height,
+                              .format = image->format,
+                              .pixels = image->pixels,
+                              .mips = LOM_MIPS_ALL,
+                              .sampler = { .filtering = w->filtering } };
+    lom_texture *texture = lom_create_texture(&desc, error);
     lom_free_image(image);
     return texture;
 }
 
-static lom_texture *sky_texture(lom_error *error)
+static lom_texture *sky_texture(const lom_workload *w, lom_error *error)
 {
     lom_image *image = lom_peer_sky(error);
     if (image == NULL)
@@ -156,7 +164,8 @@ static lom_texture *sky_texture(lom_error *error)
                               .width = image->width,
                               .height = image->height,
                               .format = LOM_FORMAT_RGBA8,
-                              .pixels = image->pixels };
+                              .pixels = image->pixels,
+                              .sampler = { .filtering = w->filtering } };
     lom_texture *texture = lom_create_texture(&desc, error);
     lom_free_image(image);
     return texture;
@@ -164,7 +173,7 @@ static lom_texture *sky_texture(lom_error *error)
 
 static bool make_albedo(lom_workload *w, lom_error *error)
 {
-    w->albedo = tile_texture(lom_peer_albedo(error), error);
+    w->albedo = tile_texture(w, lom_peer_albedo(error), error);
     return w->albedo != NULL;
 }
 
@@ -172,15 +181,15 @@ static bool make_ground(lom_workload *w, lom_error *error)
 {
     if (!make_albedo(w, error))
         return false;
-    w->normals = tile_texture(lom_peer_normals(512, 16, 21, 12, error), error);
-    w->sky = sky_texture(error);
+    w->normals = tile_texture(w, lom_peer_normals(512, 16, 21, 12, error), error);
+    w->sky = sky_texture(w, error);
     return w->normals != NULL && w->sky != NULL && lom_peer_terrain(&w->terrain, error);
 }
 
 static bool make_lake(lom_workload *w, lom_error *error)
 {
-    w->dudv = tile_texture(lom_peer_dudv(error), error);
-    w->ripples = tile_texture(lom_peer_normals(512, 16, 31, 12, error), error);
+    w->dudv = tile_texture(w, lom_peer_dudv(error), error);
+    w->ripples = tile_texture(w, lom_peer_normals(512, 16, 31, 12, error), error);
     return w->dudv != NULL && w->ripples != NULL && lom_peer_water(&w->water, error);
 }
 
@@ -198,7 +207,7 @@ static bool make_scattered(lom_workload *w, lom_error *error)
         return false;
     if (w->kind->card == NULL)
         return true;
-    w->card = tile_texture(w->kind->card(error), error);
+    w->card = tile_texture(w, w->kind->card(error), error);
     return w->card != NULL;
 }
 
@@ -215,7 +224,8 @@ static bool make_target(lom_workload *w, int target, lom_error *error)
     lom_texture_desc color = { .width = w->width,
                                .height = w->height,
                                .format = LOM_FORMAT_RGBA8,
-                               .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+                               .sampler = {
+                                   .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP, .filtering = w->filtering } };
     lom_texture_desc depth = color;
     depth.format = LOM_FORMAT_DEPTH24;
     depth.sampler.minify = LOM_FILTER_NEAREST;
@@ -270,7 +280,8 @@ static void set_view(lom_workload *w)
     w->mirrored_to_clip = lom_peer_mirror(&w->to_clip);
 }
 
-lom_workload *lom_create_workload(const char *name, int width, int height, lom_error *error)
+lom_workload *lom_create_workload(const char *name, int width, int height, lom_filtering filtering, lom_filtering march,
+                                  lom_error *error)
 {
     const lom_workload_kind *kind = find_kind(name, error);
     if (kind == NULL)
@@ -284,6 +295,8 @@ lom_workload *lom_create_workload(const char *name, int width, int height, lom_e
     if (w == NULL)
         return NULL;
     w->kind = kind;
+    w->filtering = filtering;
+    w->march = march;
     w->width = kind->task != NULL ? kind->size : width;
     w->height = kind->task != NULL ? kind->size : height;
     set_view(w);

@@ -51,6 +51,7 @@ typedef struct lom_workload_task {
 struct lom_workload {
     const lom_workload_kind *kind;
     int width, height;
+    lom_filtering filtering, march; /* of textures; of the cloud */
     lom_texture *color[LOM_TARGETS], *depth[LOM_TARGETS];
     lom_peer_mesh torus, cube, terrain, water, scattered;
     lom_peer_box *boxes;

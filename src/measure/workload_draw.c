@@ -205,7 +205,8 @@ void lom_draw_cloud(lom_workload *w, lom_device *device)
                                       .absorption = 0.15f,
                                       .shade = 0.6f,
                                       .opaque = 0.9f,
-                                      .walk = !w->kind->skip } };
+                                      .walk = !w->kind->skip,
+                                      .filtering = w->march } };
     memcpy(puff.to_clip, w->to_clip.m, sizeof puff.to_clip);
     for (int k = 0; k < 3; k++) {
         puff.eye[k] = w->kind->view->eye[k] + 0.5f;

@@ -115,6 +115,7 @@ static const lom_key quality[] = {
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),
       .choices = { "trilinear", "bilinear", "nearest" }, .text = "How textures are sampled." },
     { "filtering", LOM_KEY_CHOICE, AT(lom_quality, filtering), .choices = { "float", "fixed" },
+      .initial = { LOM_FILTERING_FIXED },
       .text = "Arithmetic in which 8-bit textures are filtered: 24 bits, or 15 (docs/filtering.md). What is compared "
               "with a reference is drawn in float." },
     { "march", LOM_KEY_CHOICE, AT(lom_quality, march), .choices = { "float", "fixed" },

@@ -36,7 +36,7 @@ static uint64_t hash_of(lom_workload *workload, const lom_device_desc *desc, con
 static void check_one_hash(const char *name)
 {
     lom_error error = { 0 };
-    lom_workload *workload = lom_create_workload(name, WIDTH, HEIGHT, &error);
+    lom_workload *workload = lom_create_workload(name, WIDTH, HEIGHT, LOM_FILTERING_FLOAT, LOM_FILTERING_FLOAT, &error);
     CHECK(workload != NULL, "%s", error.text);
     if (workload == NULL)
         return;
@@ -59,7 +59,7 @@ static void test_one_hash_for_every_device(void)
 
 static lom_image *draw(const char *name, lom_device *device, int width, int height, lom_error *error)
 {
-    lom_workload *workload = lom_create_workload(name, width, height, error);
+    lom_workload *workload = lom_create_workload(name, width, height, LOM_FILTERING_FLOAT, LOM_FILTERING_FLOAT, error);
     lom_image *picture = NULL;
     if (workload != NULL && lom_draw_workload(workload, device, error))
         picture = lom_workload_picture(workload, device, error);
@@ -146,12 +146,17 @@ static void test_clear_is_the_colour(void)
 static void test_wrong_workloads_are_refused(void)
 {
     lom_error error = { 0 };
-    CHECK(lom_create_workload("terain", 8, 8, &error) == NULL && strstr(error.text, "\"terrain\"") != NULL, "%s",
-          error.text);
+    CHECK(lom_create_workload("terain", 8, 8, LOM_FILTERING_FLOAT, LOM_FILTERING_FLOAT, &error) == NULL &&
+              strstr(error.text, "\"terrain\"") != NULL,
+          "%s", error.text);
     error.code = LOM_OK;
-    CHECK(lom_create_workload("fill", 0, 8, &error) == NULL && error.code == LOM_ERROR_USAGE, "%s", error.text);
+    CHECK(lom_create_workload("fill", 0, 8, LOM_FILTERING_FLOAT, LOM_FILTERING_FLOAT, &error) == NULL &&
+              error.code == LOM_ERROR_USAGE,
+          "%s", error.text);
     error.code = LOM_OK;
-    CHECK(lom_create_workload("fill", 8, 16385, &error) == NULL && error.code == LOM_ERROR_USAGE, "%s", error.text);
+    CHECK(lom_create_workload("fill", 8, 16385, LOM_FILTERING_FLOAT, LOM_FILTERING_FLOAT, &error) == NULL &&
+              error.code == LOM_ERROR_USAGE,
+          "%s", error.text);
     lom_free_workload(NULL);
 }
 
@@ -160,7 +165,7 @@ static void test_timing(void)
     lom_error error = { 0 };
     lom_timing timing = { 0 };
     lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
-    lom_workload *workload = lom_create_workload("fill", 64, 64, &error);
+    lom_workload *workload = lom_create_workload("fill", 64, 64, LOM_FILTERING_FLOAT, LOM_FILTERING_FLOAT, &error);
     CHECK(lom_time_workload(workload, device, 1, 4, &timing, &error), "%s", error.text);
     CHECK(timing.frames == 4 && timing.min_ms > 0 && timing.min_ms <= timing.median_ms, "%d frames, %g, %g",
           timing.frames, timing.min_ms, timing.median_ms);
