@@ -164,7 +164,7 @@ LOM_INLINE void march(bool fixed, lom_float4 *out, const lom_march_rays *rays, c
         lom_volume_place at = lom_find_in_volume(desc->volume, p);
         lom_float density;
         lom_float3 color;
-        if (skips) {
+        if (skips && was_empty) { /* what follows what is not empty seldom is: then both at once */
             density = sample_density(from, at);
             was_empty = !lom_any((density > 0.0f) & alive);
             if (was_empty)
@@ -172,6 +172,7 @@ LOM_INLINE void march(bool fixed, lom_float4 *out, const lom_march_rays *rays, c
             color = sample_color(from, at);
         } else {
             color = sample_all(from, at, &density);
+            was_empty = !lom_any((density > 0.0f) & alive);
         }
         lom_float above = sample_density(from, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
         lom_float seen = (1.0f - sum.w) * (density * desc->absorption);
