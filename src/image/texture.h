@@ -56,6 +56,10 @@ struct lom_texture {
 
 /* Level `level` from tightly packed pixels of the texture's format (texture_pixels.c). */
 void lom_store_level(lom_texture *texture, int level, const void *pixels);
+/* The same for some of its rows, counted through all layers. */
+void lom_store_rows(lom_texture *texture, int level, const void *pixels, int first, int end);
+/* Whether level 0 can be renewed from `size` bytes of such pixels; false with a sentence. */
+bool lom_check_update(const lom_texture *texture, const void *pixels, size_t size, lom_error *error);
 /* Level 0 from `size` bytes of such pixels, and what is made of it. False, and nothing is changed, when that is not
  * their size. */
 bool lom_store_texture(lom_texture *texture, const void *pixels, size_t size, lom_error *error);

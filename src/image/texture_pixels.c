@@ -95,14 +95,19 @@ static void read_row(const lom_texture *texture, const void *row, int width, uin
 
 /* ---- a level ---- */
 
-void lom_store_level(lom_texture *texture, int level, const void *pixels)
+void lom_store_rows(lom_texture *texture, int level, const void *pixels, int first, int end)
 {
     const lom_level *l = &texture->level[level];
     const uint8_t *from = pixels;
     size_t step = (size_t)l->width * lom_format_size(texture->format);
-    for (int z = 0; z < lom_level_layers(texture, level); z++)
-        for (int y = 0; y < l->height; y++, from += step)
-            store_row(texture, from, l->width, lom_texel(texture, level, 0, y, z));
+    for (int row = first; row < end; row++)
+        store_row(texture, from + (size_t)row * step, l->width,
+                  lom_texel(texture, level, 0, row % l->height, row / l->height));
+}
+
+void lom_store_level(lom_texture *texture, int level, const void *pixels)
+{
+    lom_store_rows(texture, level, pixels, 0, texture->level[level].height * lom_level_layers(texture, level));
 }
 
 static lom_image *read_level(const lom_texture *texture, int level, int layer, lom_error *error)
@@ -178,7 +183,7 @@ static uint64_t pixel_bytes(const lom_texture *texture)
            lom_format_size(texture->format);
 }
 
-bool lom_store_texture(lom_texture *texture, const void *pixels, size_t size, lom_error *error)
+bool lom_check_update(const lom_texture *texture, const void *pixels, size_t size, lom_error *error)
 {
     if (texture == NULL || pixels == NULL)
         return lom_fail(error, LOM_ERROR_USAGE, "An update needs a texture and the pixels of its level 0.");
@@ -187,6 +192,13 @@ bool lom_store_texture(lom_texture *texture, const void *pixels, size_t size, lo
     if (size != pixel_bytes(texture))
         return lom_fail(error, LOM_ERROR_USAGE, "Level 0 of the texture has %llu bytes of pixels, not %zu.",
                         (unsigned long long)pixel_bytes(texture), size);
+    return true;
+}
+
+bool lom_store_texture(lom_texture *texture, const void *pixels, size_t size, lom_error *error)
+{
+    if (!lom_check_update(texture, pixels, size, error))
+        return false;
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_store_level(texture, 0, pixels);

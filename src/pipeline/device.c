@@ -148,6 +148,19 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
     return texture;
 }
 
+enum { ROWS = 64 }; /* of a texture that a worker stores at a time */
+
+struct update {
+    lom_texture *texture;
+    const void *pixels;
+};
+
+static void store_rows(void *context, size_t first, size_t end)
+{
+    const struct update *u = context;
+    lom_store_rows(u->texture, 0, u->pixels, (int)first, (int)end);
+}
+
 bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pixels, size_t size)
 {
     if (!lom_check_device(device, NULL))
@@ -156,7 +169,15 @@ bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pi
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A texture cannot be updated within a pass.");
     if (texture != NULL && texture->owner != NULL && texture->owner != device)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A device was asked to update a texture of another device.");
-    return lom_store_texture(texture, pixels, size, &device->error);
+    if (!lom_check_update(texture, pixels, size, &device->error))
+        return false;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    size_t rows = (size_t)texture->level[0].height * (size_t)lom_level_layers(texture, 0);
+    lom_share_work(device, rows, ROWS, store_rows, &(struct update){ texture, pixels });
+    lom_finish_attachment(device, texture);
+    lom_leave_float_state(&state);
+    return true;
 }
 
 bool lom_renew_texture(lom_device *device, lom_texture **texture, const lom_texture_desc *desc)

@@ -1,5 +1,5 @@
-/* The end of a pass: what lies around and above level 0 of an attachment. In: its texels. Out: the aprons, and the
- * other levels where it has them. Bands of rows are handed out by a counter, with a barrier from level to level.
+/* The end of a pass, and of an update: what lies around and above level 0 of a texture. In: its texels. Out: the
+ * aprons, and the other levels where it has them. Bands of rows are handed out by a counter, with a barrier from level to level.
  * Invariant: a texel is what lom_finish_texture makes it, whoever does. */
 #include "pipeline/device.h"
 
@@ -32,7 +32,7 @@ static void finish_bands(void *context, int worker)
 
 void lom_finish_attachment(lom_device *device, lom_texture *texture)
 {
-    if (texture->decoded != NULL) { /* made from pixels: no target of the usual kind */
+    if (texture->kind != LOM_TEXTURE_2D || texture->decoded != NULL) { /* made from pixels: no usual target */
         lom_finish_texture(texture);
         return;
     }

@@ -29,7 +29,7 @@ struct lom_gathered_light {
 bool lom_make_gathered_light(struct lom_gathered_light *light, int size, lom_error *error);
 void lom_free_gathered_light(struct lom_gathered_light *light);
 /* Each photon (of a texture of RGBA32F with light->size texels along an edge) spread over 3 x 3 texels by the quadratic
- * B-spline, in units of 2^-16. */
-void lom_gather_photons(struct lom_gathered_light *light, const lom_texture *photons);
+ * B-spline, in units of 2^-16: what of that comes to the rows first .. end - 1, and nothing of other rows. */
+void lom_gather_photons(struct lom_gathered_light *light, const lom_texture *photons, int first, int end);
 
 #endif

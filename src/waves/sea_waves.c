@@ -2,6 +2,7 @@
  * derivatives, and second moments with the foam of a fixed window. Any frame alone has the same. */
 #include "pipeline/check_device.h"
 #include "pipeline/renew_texture.h"
+#include "pipeline/share_work.h"
 #include "waves/sea_desc.h"
 #include "waves/wave_field.h"
 
@@ -60,15 +61,50 @@ static bool fill_field(const struct state *state, lom_texture **field, int size,
     return lom_renew_texture(state->device, field, &desc);
 }
 
+/* Moments of the samples of a cascade, by all workers. */
+struct moments {
+    float *moments;
+    lom_sea_cascade cascade;
+    float threshold, fresh;
+};
+
+enum { SAMPLES = 8192 }; /* that a worker takes at a time */
+
 /* Adds to the fourth of each four what breaks at this moment, in parts `fresh`; the largest stays. */
-static void add_foam(float *moments, const lom_sea_cascade *c, float threshold, float fresh)
+static void add_foam(void *context, size_t first, size_t end)
 {
-    for (int i = 0; i < c->size * c->size; i++) {
-        float below = (threshold - c->jacobian[i]) * 4 * fresh;
-        float bounded = below < 0 ? 0 : below < fresh ? below : fresh;
-        if (bounded > moments[4 * i + 3])
-            moments[4 * i + 3] = bounded;
+    const struct moments *m = context;
+    for (size_t i = first; i < end; i++) {
+        float below = (m->threshold - m->cascade.jacobian[i]) * 4 * m->fresh;
+        float bounded = below < 0 ? 0 : below < m->fresh ? below : m->fresh;
+        if (bounded > m->moments[4 * i + 3])
+            m->moments[4 * i + 3] = bounded;
     }
+}
+
+static void add_slopes(void *context, size_t first, size_t end)
+{
+    const struct moments *m = context;
+    for (size_t i = first; i < end; i++) {
+        float sx = m->cascade.derivatives[4 * i], sz = m->cascade.derivatives[4 * i + 1];
+        m->moments[4 * i] = sx * sx;
+        m->moments[4 * i + 1] = sz * sz;
+        m->moments[4 * i + 2] = sx * sz;
+    }
+}
+
+static void clear(void *context, size_t first, size_t end)
+{
+    const struct moments *m = context;
+    memset(m->moments + 4 * first, 0, (end - first) * 4 * sizeof *m->moments);
+}
+
+/* One of these for all samples; `fresh`: how much of the foam of this moment is left. */
+static void run_samples(const struct state *state, int cascade, lom_range_work *work, float fresh)
+{
+    lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
+    struct moments m = { state->moments, c, (float)state->site->foam->threshold, fresh };
+    lom_share_work(state->device, (size_t)c.size * (size_t)c.size, SAMPLES, work, &m);
 }
 
 static bool find_foam(struct state *state, int cascade, double time, lom_error *error)
@@ -78,8 +114,7 @@ static bool find_foam(struct state *state, int cascade, double time, lom_error *
         double then = time - foam->window * m / (MOMENTS + 1);
         if (!lom_advance_cascade(state->sea, state->device, cascade, LOM_SEA_JACOBIAN, then, error))
             return false;
-        lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
-        add_foam(state->moments, &c, (float)foam->threshold, 1 - (float)m / (MOMENTS + 1));
+        run_samples(state, cascade, add_foam, 1 - (float)m / (MOMENTS + 1));
     }
     return true;
 }
@@ -88,22 +123,15 @@ static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int
 {
     struct lom_cascade_uniform *u = &out->cascade[cascade];
     lom_texture **held = state->field[cascade];
-    float *moments = state->moments;
-    size_t size = (size_t)lom_view_cascade(state->sea, cascade).size;
-    memset(moments, 0, size * size * 4 * sizeof *moments);
+    run_samples(state, cascade, clear, 0);
     if (!find_foam(state, cascade, time, error) ||
         !lom_advance_cascade(state->sea, state->device, cascade, LOM_SEA_ALL & ~(unsigned)places, time, error))
         return false;
     lom_sea_cascade c = lom_view_cascade(state->sea, cascade);
     if (state->site->foam->amount > 0)
-        add_foam(moments, &c, (float)state->site->foam->threshold, 1);
-    for (int i = 0; i < c.size * c.size; i++) {
-        float sx = c.derivatives[4 * i], sz = c.derivatives[4 * i + 1];
-        moments[4 * i] = sx * sx;
-        moments[4 * i + 1] = sz * sz;
-        moments[4 * i + 2] = sx * sz;
-    }
-    const float *const pixels[3] = { c.displacement, c.derivatives, moments };
+        run_samples(state, cascade, add_foam, 1);
+    run_samples(state, cascade, add_slopes, 1);
+    const float *const pixels[3] = { c.displacement, c.derivatives, state->moments };
     for (int i = 0; i < 3; i++)
         if (!fill_field(state, &held[i], c.size, pixels[i]))
             return lom_check_device(state->device, error);

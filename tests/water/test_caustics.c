@@ -1,5 +1,5 @@
-/* Proves of the light gathered on the bed: still water gives 1 everywhere, nothing is lost inside the square, the order
- * of the photons does not matter, and places that are no numbers are dropped. */
+/* Proves of the light gathered on the bed: still water gives 1 everywhere, nothing is lost inside the square, neither
+ * the order of the photons nor that of the rows matters, and places that are no numbers are dropped. */
 #include "check.h"
 
 #include "image/texture.h"
@@ -31,14 +31,29 @@ static struct lom_gathered_light gather(const lom_texture *photons)
 {
     struct lom_gathered_light light = { 0 };
     CHECK(lom_make_gathered_light(&light, SIZE, NULL), "no memory");
-    lom_gather_photons(&light, photons);
-    lom_gather_photons(&light, photons); /* what was there is gone */
+    lom_gather_photons(&light, photons, 0, SIZE);
+    lom_gather_photons(&light, photons, 0, SIZE); /* what was there is gone */
     return light;
 }
 
 static double texel(const struct lom_gathered_light *light, int x, int y)
 {
     return (double)light->texel[y * SIZE + x];
+}
+
+/* In an order that no row knows of. */
+static void rows_can_be_gathered_by_any_worker(void)
+{
+    lom_texture *p = photons(0, 9);
+    struct lom_gathered_light whole = gather(p), parts = { 0 };
+    CHECK(lom_make_gathered_light(&parts, SIZE, NULL), "no memory");
+    static const int ranges[][2] = { { 13, 14 }, { 0, 13 }, { 31, SIZE }, { 14, 31 } };
+    for (int i = 0; i < 4; i++)
+        lom_gather_photons(&parts, p, ranges[i][0], ranges[i][1]);
+    CHECK(memcmp(whole.texel, parts.texel, SIZE * SIZE * sizeof(float)) == 0, "the ranges show");
+    lom_free_texture(p);
+    lom_free_gathered_light(&whole);
+    lom_free_gathered_light(&parts);
 }
 
 static void still_water_gives_one(void)
@@ -98,6 +113,7 @@ static void what_is_no_place_is_dropped(void)
 
 int main(int argc, char **argv)
 {
+    RUN(rows_can_be_gathered_by_any_worker);
     RUN(still_water_gives_one);
     RUN(light_is_kept_in_any_order);
     RUN(what_is_no_place_is_dropped);

@@ -3,6 +3,7 @@
  * never of a crop. */
 #include "pipeline/check_device.h"
 #include "pipeline/renew_texture.h"
+#include "pipeline/share_work.h"
 #include "render/water/passes.h"
 #include "water/caustics.h"
 
@@ -61,10 +62,18 @@ static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
     return lom_draw_pass(r->device, &pass, &draw, 1);
 }
 
+static void gather_rows(void *context, size_t first, size_t end)
+{
+    lom_renderer *r = context;
+    lom_gather_photons(&r->water.light, r->water.photons, (int)first, (int)end);
+}
+
+/* Rows for each worker, since for each range all photons are looked at. */
 static bool gather(lom_renderer *r)
 {
     struct lom_gathered_light *light = &r->water.light;
-    lom_gather_photons(light, r->water.photons);
+    size_t size = (size_t)light->size, workers = (size_t)lom_describe_device(r->device).threads;
+    lom_share_work(r->device, size, (size + workers - 1) / workers, gather_rows, r);
     const lom_texture_desc desc = { .width = light->size,
                                     .height = light->size,
                                     .format = LOM_FORMAT_R32F,

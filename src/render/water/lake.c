@@ -58,7 +58,8 @@ static bool draw_picture(struct frame *f, lom_step *step, lom_texture *color, lo
     lom_rect all = { 0, 0, width, height };
     double reach = water->flow ? water->flow_strength : 0;
     return lom_draw_picture(f, step, color, depth, view, clear,
-                            water->projection ? lom_water_reach(f, &lom_whole_view, reach, width, height) : all, error);
+                            water->projection ? lom_water_reach(f, &lom_whole_view, reach, width, height) : all,
+                            !view->mirrored, error);
 }
 
 /* Step 1: the view times a mirror in the plane; nothing below the plane (less the offset). */

@@ -17,9 +17,11 @@ void lom_find_water(struct frame *f);
 /* The part of a picture of the scene (scaled to width x height) that lookups from the visible water can reach: `reach`
  * parts of the picture away, and a texel of filtering. The whole picture when quality.scissor is off. */
 lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window, double reach, int width, int height);
-/* Draws the scene into a picture of its own. */
+/* Draws the scene into a picture of its own; `is_shown`: the frame shows the same scene, so that what lies inside the
+ * view's plane there need not be drawn again. */
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
-                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor, lom_error *error);
+                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor, bool is_shown,
+                      lom_error *error);
 /* Makes the caustics of f->waves and points f->view at them; or says in the plan why there are none. */
 bool lom_draw_caustics(struct frame *f, lom_error *error);
 /* Adds "left out" to the plan for every pass of the water, for this reason. True. */

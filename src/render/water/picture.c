@@ -2,28 +2,67 @@
  * a view. Out: a rectangle, a picture with depth. Invariant: cutting a picture to what lookups can reach changes no
  * byte. */
 #include "image/texture.h"
+#include "pipeline/share_work.h"
 #include "render/water/passes.h"
+#include "water/scene_copy.h"
 
 #include <assert.h>
 
 const struct lom_window lom_whole_view = { { -1, -1 }, { 1, 1 } };
 
+enum { ROWS = 32, BANDS = LOM_MAX_SIZE / ROWS };
+
+/* Where the mask is set, in each band of rows: first and last column and row; x1 < x0: nowhere. */
+struct bands {
+    const lom_texture *mask;
+    struct {
+        int x0, y0, x1, y1;
+    } of[BANDS];
+};
+
+static bool is_set(uint32_t texel) /* the lowest byte is red */
+{
+    return (texel & 255) != 0;
+}
+
+static void look_through_rows(void *context, size_t first, size_t end)
+{
+    struct bands *bands = context;
+    int width = lom_texture_width(bands->mask), x0 = width, x1 = -1, y0 = (int)first, y1 = -1;
+    for (int y = (int)first; y < (int)end; y++) {
+        const uint32_t *row = lom_texel(bands->mask, 0, 0, y, 0);
+        int left = 0, right = width - 1;
+        while (left < width && !is_set(row[left]))
+            left++;
+        if (left == width)
+            continue;
+        while (!is_set(row[right]))
+            right--;
+        y0 = x1 < 0 ? y : y0;
+        y1 = y;
+        x0 = left < x0 ? left : x0;
+        x1 = right > x1 ? right : x1;
+    }
+    bands->of[first / ROWS].x0 = x0;
+    bands->of[first / ROWS].y0 = y0;
+    bands->of[first / ROWS].x1 = x1;
+    bands->of[first / ROWS].y1 = y1;
+}
+
 void lom_find_water(struct frame *f)
 {
-    const lom_texture *mask = f->renderer->targets.of[LOM_TARGET_MASK];
-    assert(mask->storage == LOM_STORAGE_RGBA8);
-    int width = lom_texture_width(mask), height = lom_texture_height(mask);
+    struct bands bands = { .mask = f->renderer->targets.of[LOM_TARGET_MASK] };
+    assert(bands.mask->storage == LOM_STORAGE_RGBA8);
+    int width = lom_texture_width(bands.mask), height = lom_texture_height(bands.mask);
     int x0 = width, y0 = height, x1 = -1, y1 = -1;
-    for (int y = 0; y < height; y++) {
-        const uint32_t *row = lom_texel(mask, 0, 0, y, 0); /* the lowest byte of a texel is red */
-        for (int x = 0; x < width; x++) {
-            if ((row[x] & 255) == 0)
-                continue;
-            x0 = x < x0 ? x : x0;
-            x1 = x > x1 ? x : x1;
-            y0 = y < y0 ? y : y0;
-            y1 = y;
-        }
+    lom_share_work(f->renderer->device, (size_t)height, ROWS, look_through_rows, &bands);
+    for (int i = 0; i * ROWS < height; i++) {
+        if (bands.of[i].x1 < 0)
+            continue;
+        x0 = bands.of[i].x0 < x0 ? bands.of[i].x0 : x0;
+        x1 = bands.of[i].x1 > x1 ? bands.of[i].x1 : x1;
+        y0 = bands.of[i].y0 < y0 ? bands.of[i].y0 : y0;
+        y1 = bands.of[i].y1;
     }
     if (x1 >= 0)
         f->water = (lom_rect){ f->crop.x + x0, f->crop.y + y0, x1 - x0 + 1, y1 - y0 + 1 };
@@ -53,8 +92,36 @@ lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window,
     return r;
 }
 
+/* Begins a picture of the frame's size with what the frame shows of it: a surface that is seen there and lies inside the
+ * view's plane is the nearest of those inside. The margin, a part of the eye's height over the plane, is far more than
+ * floats round. */
+static void copy_scene(struct frame *f, const struct lom_scene_view *view)
+{
+    const lom_renderer *r = f->renderer;
+    const double(*v)[4] = view->view.m;
+    double x = 2 / (view->projection.m[0][0] * f->width), y = -2 / (view->projection.m[1][1] * f->height);
+    double over = view->plane[1] * view->eye.y + view->plane[3];
+    double middle = v[0][1] * x * -f->width / 2 + v[1][1] * y * -f->height / 2 - v[2][1];
+    const struct lom_scene_copy_uniforms u = { .height = { (float)(v[0][1] * x), (float)(v[1][1] * y), (float)middle },
+                                               .side = (float)view->plane[1],
+                                               .over = (float)over,
+                                               .margin = (float)(0x1p-8 * (over < 0 ? -over : over)),
+                                               .near_plane = (float)f->camera.near_plane,
+                                               .origin = { (float)f->crop.x, (float)f->crop.y },
+                                               .color = r->targets.of[LOM_TARGET_COLOR],
+                                               .depth = r->targets.of[LOM_TARGET_DEPTH] };
+    lom_draw(r->device, &(lom_draw_desc){ .shader = &lom_scene_copy_shader,
+                                          .uniforms = &u,
+                                          .count = 4,
+                                          .vertex_count = 4,
+                                          .topology = LOM_TRIANGLE_STRIP,
+                                          .depth_compare = LOM_COMPARE_ALWAYS,
+                                          .scissor = f->crop });
+}
+
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
-                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor, lom_error *error)
+                      const struct lom_scene_view *view, const float clear[4], lom_rect scissor, bool is_shown,
+                      lom_error *error)
 {
     lom_renderer *r = f->renderer;
     lom_pass_desc pass = { .color = { color }, .depth = depth, .scissor = scissor };
@@ -64,6 +131,8 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->height = lom_texture_height(color);
     step->scissor = scissor;
     lom_begin_pass(r->device, &pass);
+    if (is_shown && step->width == f->width && step->height == f->height)
+        copy_scene(f, view);
     lom_draw_scene(r, view);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
     size_t seen;

@@ -118,7 +118,8 @@ static bool draw_mirrored(struct surface *surface, struct frame *f, lom_error *e
     set_picture(&surface->uniforms.mirrored, f, &lom_whole_view, &clip, r->targets.of[LOM_TARGET_REFLECTION],
                 r->targets.of[LOM_TARGET_REFLECTION_DEPTH]);
     return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFLECTION], r->targets.of[LOM_TARGET_REFLECTION_DEPTH],
-                            &view, nothing, lookups(f, &lom_whole_view, r->targets.of[LOM_TARGET_REFLECTION]), error);
+                            &view, nothing, lookups(f, &lom_whole_view, r->targets.of[LOM_TARGET_REFLECTION]), false,
+                            error);
 }
 
 static bool draw_behind(struct surface *surface, struct frame *f, lom_error *error)
@@ -138,7 +139,7 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
     set_picture(&surface->uniforms.behind, f, &window, &clip, r->targets.of[LOM_TARGET_REFRACTION],
                 r->targets.of[LOM_TARGET_REFRACTION_DEPTH]);
     return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFRACTION], r->targets.of[LOM_TARGET_REFRACTION_DEPTH],
-                            &view, nothing, lookups(f, &window, r->targets.of[LOM_TARGET_REFRACTION]), error);
+                            &view, nothing, lookups(f, &window, r->targets.of[LOM_TARGET_REFRACTION]), false, error);
 }
 
 bool lom_draw_surface_pictures(struct surface *surface, struct frame *f, lom_error *error)
