@@ -184,6 +184,49 @@ static void refusals(void)
 }
 
 /* Well under a second, also on a loaded machine: processor time. */
+/* Every coast that has a name is made, another from another seed, with land and water; what has none is refused. */
+static void coasts_by_name(void)
+{
+    size_t count = 0;
+    for (; lom_coast_name(count) != NULL; count++) {
+        const char *name = lom_coast_name(count);
+        lom_error error = { 0 };
+        lom_image *map = lom_make_coast(name, 33, 1, &error), *other = lom_make_coast(name, 33, 2, &error);
+        CHECK(map != NULL && other != NULL && map->format == LOM_FORMAT_R16, "%s: %s", name, error.text);
+        if (map == NULL || other == NULL)
+            return;
+        const uint16_t *heights = (const uint16_t *)(const void *)map->pixels;
+        uint16_t low = 65535, high = 0;
+        for (int i = 0; i < 33 * 33; i++) {
+            low = heights[i] < low ? heights[i] : low;
+            high = heights[i] > high ? heights[i] : high;
+        }
+        CHECK(high > low + 3000, "%s is flat: %d to %d", name, low, high);
+        CHECK(memcmp(map->pixels, other->pixels, lom_image_size(map)) != 0, "%s does not follow its seed", name);
+        lom_free_image(map);
+        lom_free_image(other);
+    }
+    CHECK(count >= 4, "%zu coasts", count);
+    static const struct {
+        const char *name;
+        int size;
+    } bad[] = { { "coast", 33 }, { "", 33 }, { "cove", 1 }, { "cove", -5 }, { "cove", 4097 } };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        lom_error error = { 0 };
+        CHECK(lom_make_coast(bad[i].name, bad[i].size, 1, &error) == NULL && error.code == LOM_ERROR_USAGE,
+              "case %zu: %s", i, error.text);
+    }
+    static const lom_albedo_desc pictures[] = { { .name = "gras", .size = 64 },
+                                                { .name = "grass", .size = 63 },
+                                                { .name = "grass", .size = 4097 },
+                                                { .size = 64 } };
+    for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++) {
+        lom_error error = { 0 };
+        CHECK(lom_make_albedo(&pictures[i], &error) == NULL && error.code == LOM_ERROR_USAGE, "picture %zu: %s", i,
+              error.text);
+    }
+}
+
 static void speed(void)
 {
     lom_image *map = make_map(1024, 1024, LOM_FORMAT_R16);
@@ -202,6 +245,7 @@ int main(int argc, char **argv)
     RUN(normals);
     RUN(heights);
     RUN(refusals);
+    RUN(coasts_by_name);
     RUN(speed);
     return check_result();
 }
