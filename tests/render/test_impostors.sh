@@ -102,11 +102,30 @@ near_the_marched() {
     exits 0 "$lom" compare "$folder/marched.png" "$folder/plate12.png" --min-psnr 36
 }
 
+# The rule of the reference work: clouds whose plates are small are left out, unless plates are always the largest; and
+# what a still camera sees is kept.
+rule_of_the_reference() {
+    for dials in 'lod=true --set quality.impostor.smallest=0' 'lod=true --set quality.impostor.smallest=40' \
+        'lod=false --set quality.impostor.smallest=40'; do
+        # shellcheck disable=SC2086
+        "$lom" render "$scene" --frames 0:1 --hash --stats "$folder/stats" --set quality.impostors=reference \
+            --set quality.impostor.largest_reference=48 --set quality.impostor.$dials >"$folder/hash" || return 1
+        [ "$(($(facts impostors_shown | head -n 1) + $(facts impostors_skipped | head -n 1)))" -eq 10 ] || return 1
+        echo "$(facts impostors_skipped | head -n 1) $(head -n 1 "$folder/hash" | cut -d' ' -f1)"
+    done >"$folder/rule"
+    cat "$folder/rule"
+    [ "$(cut -d' ' -f2 "$folder/rule" | sort -u | wc -l)" -eq 3 ] &&
+        awk 'NR == 2 ? $1 == 0 : $1 != 0 { bad = 1 } END { exit bad }' "$folder/rule" || return 1
+    "$lom" render "$folder/still.toml" --frames 0:3 --hash --stats "$folder/stats" --set quality.impostors=reference >"$folder/still" &&
+        [ "$(facts impostors_refreshed | tail -n 3 | sort -u)" = 0 ] && [ "$(sed 's/ .*//' "$folder/still" | sort -u | wc -l)" -eq 1 ]
+}
+
 check impostors_same_over_lanes_threads_and_runs same_everywhere
 check impostors_crop_is_a_cut_out crops
 check impostors_alone_are_afresh alone_is_afresh
 check impostors_are_reused_inside_the_bound reuse
 check impostors_of_a_still_camera_are_kept still_camera
+check impostors_by_the_rule_of_the_reference rule_of_the_reference
 check impostors_off_is_any_frame_alone off_is_any_frame_alone
 check impostors_without_tolerance_are_marched no_tolerance
 check impostors_are_near_what_is_marched near_the_marched
