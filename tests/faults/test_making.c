@@ -4,6 +4,9 @@
 #include "faults.h"
 
 #include "cloud/cloud_draw.h"
+#include "pipeline/check_device.h"
+#include "spray/make_foam.h"
+#include "waves/surf.h"
 #include "world/world.h"
 
 #include <lom/lom.h>
@@ -137,6 +140,8 @@ static bool make_picture(const char *name, uint64_t *hash, lom_error *error)
         return hash_picture(lom_make_flow_map(color, error), hash);
     if (strcmp(name, "cove") == 0)
         return hash_picture(lom_make_coast(name, 9, 1, error), hash);
+    if (strcmp(name, "foam") == 0)
+        return hash_picture(lom_make_foam(8, 1, error), hash);
     if (strcmp(name, "sun") == 0)
         return hash_picture(lom_make_sun_picture(8, 0.5, error), hash);
     if (strcmp(name, "flat-cloud") == 0)
@@ -169,19 +174,83 @@ static bool make_blue_noise(const char *name, uint64_t *hash, lom_error *error)
 static bool make_volumes(const char *name, uint64_t *hash, lom_error *error)
 {
     (void)name;
+    static const float linear[256];
     lom_image *density = lom_create_image(4, 4, 4, LOM_FORMAT_R8, error);
     lom_medium *medium = density != NULL ? lom_create_medium(density, error) : NULL;
     lom_detail *detail = medium != NULL ? lom_create_detail(density, error) : NULL;
+    lom_volume *colors = detail != NULL ? lom_create_volume(density, error) : NULL;
+    lom_light_grid *grid = colors != NULL ? lom_create_light_grid(density, 1, linear, error) : NULL;
     lom_reference_volume *volume =
-        detail != NULL ? lom_create_reference_volume(
-                             &(lom_reference_volume_desc){ .density = density, .high = { 1, 1, 1 } }, error)
-                       : NULL;
+        grid != NULL ? lom_create_reference_volume(
+                           &(lom_reference_volume_desc){ .density = density, .high = { 1, 1, 1 } }, error)
+                     : NULL;
     *hash = 1;
     lom_free_reference_volume(volume);
+    lom_free_light_grid(grid);
+    lom_free_volume(colors);
     lom_free_detail(detail);
     lom_free_medium(medium);
     lom_free_image(density);
     return volume != NULL;
+}
+
+/* A sea of two cascades, advanced and frozen; the waves are of no interest here. */
+static bool make_sea(const char *name, uint64_t *hash, lom_error *error)
+{
+    const lom_sea_desc desc = { .cascade_count = 2, .cascade = { { .size = 16 }, { .size = 16 } } };
+    (void)name;
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    lom_sea *sea = lom_check_device(device, error) ? lom_create_sea(&desc, device, error) : NULL;
+    lom_sea_moment *moment =
+        sea != NULL && lom_advance_sea(sea, device, 1, error) ? lom_freeze_sea(sea, 1, error) : NULL;
+    *hash = moment != NULL ? (uint64_t)lom_view_cascade(sea, 0).waves : 0;
+    lom_free_sea_moment(moment);
+    lom_free_sea(sea);
+    lom_close_device(device);
+    return moment != NULL;
+}
+
+static bool make_shallow(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    static const double bed[20];
+    lom_shallow *water =
+        lom_create_shallow(&(lom_shallow_desc){ .columns = 5, .rows = 4, .cell = 1, .bed = bed, .level = 1 }, error);
+    lom_shallow *copy = water != NULL ? lom_copy_shallow(water, error) : NULL;
+    *hash = copy != NULL ? (uint64_t)lom_view_shallow(copy).columns : 0;
+    lom_free_shallow(copy);
+    lom_free_shallow(water);
+    return copy != NULL;
+}
+
+static bool make_surf(const char *name, uint64_t *hash, lom_error *error)
+{
+    static double depth[8 * 8];
+    for (int k = 0; k < 64; k++)
+        depth[k] = 4 - 0.5 * (k / 8);
+    const struct lom_surf_desc desc = { .width = 8,
+                                        .height = 8,
+                                        .spacing = { 2, 2 },
+                                        .depth = depth,
+                                        .surf = { .height = 0.3, .period = 3, .direction = 1.5 } };
+    struct lom_surf_map map;
+    (void)name;
+    bool made = lom_make_surf_map(&map, &desc, error);
+    *hash = made ? lom_hash_bytes(LOM_HASH_START, map.cells, 64 * sizeof *map.cells) : 0;
+    if (made)
+        lom_free_surf_map(&map);
+    return made;
+}
+
+/* The scene as the reference sees it. */
+static bool make_reference(const char *name, uint64_t *hash, lom_error *error)
+{
+    lom_scene *scene = lom_read_scene(small_path(name), NULL, 0, error);
+    lom_reference *reference = scene != NULL ? lom_create_reference(scene, error) : NULL;
+    *hash = 1;
+    lom_free_reference(reference);
+    lom_free_scene(scene);
+    return reference != NULL;
 }
 
 /* The scene at two moments; its box moves. */
@@ -222,18 +291,23 @@ static void listing_and_placing(void)
 {
     fail_memory(list_files, "box.obj", 5, 0, 0);
     fail_memory(place, "scene.toml", 10, 0, 0);
+    fail_memory(make_reference, "scene.toml", 10, 0, 0);
 }
 
 static void making(void)
 {
-    static const char *const pictures[] = { "normal-map", "flow-map", "cove",       "sun",
-                                            "flat-cloud", "rock",     "hemisphere", "cumulus_humilis",
-                                            "automaton",  "puffs",    "wyvill",     "cirrus" };
+    static const char *const pictures[] = {
+        "foam",       "normal-map",      "flow-map",  "cove",  "sun",    "flat-cloud", "rock",
+        "hemisphere", "cumulus_humilis", "automaton", "puffs", "wyvill", "cirrus"
+    };
     for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++)
         fail_memory(make_picture, pictures[i], 1, 0, 4);
     fail_memory(make_sky, "sky", 6, 0, 8);
     fail_memory(make_blue_noise, "blue noise", 2, 0, 0);
     fail_memory(make_volumes, "volumes", 5, 0, 0);
+    fail_memory(make_sea, "sea", 10, 0, 0);
+    fail_memory(make_shallow, "shallow", 8, 0, 0);
+    fail_memory(make_surf, "surf", 4, 0, 0);
     fail_memory(copy_mesh, "mesh", 5, 0, 0);
     fail_memory(make_entity, "boat", 10, 0, 8);
     fail_memory(make_entity, "stones", 5, 0, 8);
