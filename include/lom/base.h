@@ -40,12 +40,13 @@ LOM_API_BEGIN
 
 typedef enum lom_code {
     LOM_OK = 0,
-    LOM_ERROR_USAGE,  /* an argument or a call that is out of its range */
-    LOM_ERROR_INPUT,  /* a file or text that is malformed */
-    LOM_ERROR_FILE,   /* the system could not open, read or write */
-    LOM_ERROR_LIMIT,  /* well formed, but larger than a stated limit */
-    LOM_ERROR_MEMORY, /* the system gave no memory */
-    LOM_ERROR_THREAD  /* the system gave no thread */
+    LOM_ERROR_USAGE,    /* an argument or a call that is out of its range */
+    LOM_ERROR_INPUT,    /* a file or text that is malformed */
+    LOM_ERROR_FILE,     /* the system could not open, read or write */
+    LOM_ERROR_LIMIT,    /* well formed, but larger than a stated limit */
+    LOM_ERROR_MEMORY,   /* the system gave no memory */
+    LOM_ERROR_THREAD,   /* the system gave no thread */
+    LOM_ERROR_ABANDONED /* who watched it asked to leave off */
 } lom_code;
 
 typedef struct lom_error {

@@ -79,13 +79,14 @@ lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3
                        double time, int depth);
 
 typedef struct lom_reference_frame {
-    int width, height; /* of the whole frame */
-    lom_rect crop;     /* the part that is traced and returned; width 0: all of it */
-    double time;       /* seconds */
-    int samples;       /* of a pixel, 1..65536: Hammersley points, turned by an amount that belongs to the pixel; 1: its
+    int width, height;             /* of the whole frame */
+    lom_rect crop;                 /* the part that is traced and returned; width 0: all of it */
+    double time;                   /* seconds */
+    const lom_camera_view *camera; /* the eye, instead of the scene's at that time; NULL: the scene's */
+    int samples; /* of a pixel, 1..65536: Hammersley points, turned by an amount that belongs to the pixel; 1: its
                           middle */
-    int depth;         /* as in lom_trace_ray, 0..64 */
-    int threads;       /* 0: as many as the machine allows */
+    int depth;   /* as in lom_trace_ray, 0..64 */
+    int threads; /* 0: as many as the machine allows */
 } lom_reference_frame;
 
 /* The picture, linear RGB32F: every pixel the mean of its samples over its area. Rows are shared out to threads. NULL

@@ -19,15 +19,31 @@ lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc 
 void lom_free_renderer(lom_renderer *renderer); /* NULL is allowed */
 
 /* Called by the thread that draws, before each pass that runs and at last before the "output": its name as in the plan,
- * and the share (0..1) of the frame's stages that are done, which never falls. */
-typedef void lom_frame_progress(void *context, const char *pass, double done);
+ * and the share (0..1) of the frame's stages that are done, which never falls. False abandons the frame: what is left
+ * of it is not drawn, lom_render_frame fails with LOM_ERROR_ABANDONED, and the renderer is as good as before (a run of
+ * impostors begins anew). */
+typedef bool lom_frame_progress(void *context, const char *pass, double done);
+
+/* The bytes of a pixel in the caller's memory. */
+typedef enum lom_pixel_order {
+    LOM_ORDER_OUTPUT = 0, /* the scene's output format: 3 samples of 8, 16 or 32 bits */
+    LOM_ORDER_RGBX,       /* 8 bits each, x is 255: for output.format "rgb8" alone */
+    LOM_ORDER_BGRX        /* likewise */
+} lom_pixel_order;
 
 typedef struct lom_frame_desc {
-    int width, height;            /* of the whole frame; 0: the scene's */
-    int frame;                    /* its time is frame / fps seconds */
-    lom_rect crop;                /* the part that is drawn and returned; width 0: all of it */
-    double memory;                /* GiB that its targets may take; 0: what the machine has */
-    lom_frame_progress *progress; /* NULL: nobody looks */
+    int width, height; /* of the whole frame; 0: the scene's */
+    int frame;         /* its time is frame / fps seconds */
+    bool has_time;     /* its time is `time` seconds, within +-1e9, instead */
+    bool continues;    /* a run goes on from the frame before of the same size, whatever its number was */
+    double time;
+    const lom_camera_view *camera; /* the eye, instead of the scene's at that time; NULL: the scene's */
+    void *pixels;                  /* the crop's rows are written here, instead of to a new image; NULL: an image */
+    size_t pitch;                  /* bytes from a row to the next */
+    lom_pixel_order order;         /* of them */
+    lom_rect crop;                 /* the part that is drawn and returned; width 0: all of it */
+    double memory;                 /* GiB that its targets may take; 0: what the machine has */
+    lom_frame_progress *progress;  /* NULL: nobody looks */
     void *progress_context;
 } lom_frame_desc;
 
@@ -76,7 +92,8 @@ typedef struct lom_stage_time {
 } lom_stage_time;
 
 typedef struct lom_frame {
-    lom_image *image;      /* the picture, in the scene's output format; freed with lom_free_image */
+    lom_image *image;      /* the picture, in the scene's output format; freed with lom_free_image; NULL when it was
+                              written to the caller's pixels */
     lom_plan plan;         /* what was done for it */
     lom_counters counters; /* work of this frame */
     lom_impostor_counters impostors;
@@ -91,7 +108,8 @@ bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_err
 
 /* Draws one frame; any frame alone gives the bytes that it has in a run, unless quality.impostors is on: then a plate
  * depends on the frames of the run before. A run goes on when the frame is the one after the last frame that this
- * renderer drew, at the same size; else every cloud is drawn afresh. False on failure (image is then NULL). */
+ * renderer drew, at the same size, or says so (`continues`); else every cloud is drawn afresh. The targets of two sizes
+ * are kept: going back and forth between them allocates nothing. False on failure (image is then NULL). */
 bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *frame, lom_error *error);
 
 /* Empty, or sentences about what was passed over while loading, such as a material file that is not there or a mesh's

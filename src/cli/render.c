@@ -107,10 +107,11 @@ struct moving {
     int before;
 };
 
-static void move_bar(void *context, const char *pass, double done)
+static bool move_bar(void *context, const char *pass, double done)
 {
     const struct moving *moving = context;
     lom_show_progress(&moving->bar, moving->before + done, pass);
+    return true;
 }
 
 static bool draw_frame(struct run *run, int number, struct moving *moving, lom_error *error)

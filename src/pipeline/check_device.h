@@ -8,4 +8,9 @@
  * already. A NULL device is one that there was no memory for. */
 bool lom_check_device(const lom_device *device, lom_error *error);
 
+/* The device fails with LOM_ERROR_ABANDONED, so passes, draws and textures do nothing from now on, until that failure is
+ * forgotten. A device that has failed otherwise keeps that failure. */
+void lom_abandon_passes(lom_device *device);
+void lom_resume_passes(lom_device *device);
+
 #endif

@@ -107,6 +107,17 @@ bool lom_check_device(const lom_device *device, lom_error *error)
     return lom_pass_error(lom_device_error(device), error);
 }
 
+void lom_abandon_passes(lom_device *device)
+{
+    lom_fail(&device->error, LOM_ERROR_ABANDONED, "The frame was abandoned by who watched it.");
+}
+
+void lom_resume_passes(lom_device *device)
+{
+    if (device->error.code == LOM_ERROR_ABANDONED)
+        device->error = (lom_error){ .code = LOM_OK };
+}
+
 lom_device_desc lom_describe_device(const lom_device *device)
 {
     return device != NULL ? device->desc : (lom_device_desc){ .threads = 0 };

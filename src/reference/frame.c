@@ -111,7 +111,7 @@ static bool move(struct frame *f, const lom_reference *loaded, lom_error *error)
 /* The camera and the waves around it. */
 static bool look(struct frame *f, lom_error *error)
 {
-    f->camera = lom_scene_camera_at(f->reference.scene, f->desc.time);
+    f->camera = f->desc.camera != NULL ? *f->desc.camera : lom_scene_camera_at(f->reference.scene, f->desc.time);
     f->view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
     f->projection =
         lom_perspective(f->camera.field_of_view, (double)f->desc.width / f->desc.height, f->camera.near_plane);

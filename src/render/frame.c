@@ -47,7 +47,7 @@ bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw
 
 static void look(struct frame *f)
 {
-    f->camera = f->renderer->moment.camera;
+    f->camera = f->desc->camera != NULL ? *f->desc->camera : f->renderer->moment.camera;
     f->view.projection = lom_perspective(f->camera.field_of_view, (double)f->width / f->height, f->camera.near_plane);
     f->view.view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
     f->view.eye = f->camera.position;
@@ -138,6 +138,31 @@ bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_err
     return drawable;
 }
 
+/* The picture, as an image or in the caller's memory. */
+static bool put_out(struct frame *f, bool drawn, lom_image *traced, lom_frame *out, lom_error *error)
+{
+    const lom_frame_desc *desc = f->desc;
+    const lom_texture *color = f->renderer->targets.of[LOM_TARGET_COLOR];
+    if (!drawn && traced == NULL)
+        return false;
+    if (desc->pixels == NULL) {
+        out->image = drawn ? lom_output_target(f->scene, f->renderer->device, color, error)
+                           : lom_output_image(f->scene, traced, error);
+        return out->image != NULL;
+    }
+    if (!drawn)
+        return lom_output_traced(f->scene, traced, desc->order, desc->pixels, desc->pitch, error);
+    lom_output_rows(f->scene, f->renderer->device, color, desc->order, desc->pixels, desc->pitch);
+    return true;
+}
+
+/* A renderer whose frame was abandoned goes on with the next one; a run of impostors begins anew. */
+static void leave_abandoned(struct frame *f)
+{
+    lom_resume_passes(f->renderer->device);
+    f->renderer->clouds.impostors.width = 0;
+}
+
 static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
 {
     lom_renderer *renderer = f->renderer;
@@ -150,13 +175,14 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
     lom_image *traced = placed && renderer->reference != NULL ? lom_draw_reference(f, &failed) : NULL;
     bool drawn = placed && renderer->reference == NULL && draw_stages(f, out->stage, &failed);
     struct moment start = look_at_clock(renderer);
-    out->image = drawn ? lom_output_target(f->scene, renderer->device, renderer->targets.of[LOM_TARGET_COLOR], &failed)
-                       : lom_output_image(f->scene, traced, &failed);
+    bool done = lom_check_device(renderer->device, &failed) && put_out(f, drawn, traced, out, &failed);
     if (drawn || traced != NULL)
         out->stage[sizeof stages / sizeof stages[0]] = time_since(renderer, &start, "output");
     out->shallow_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) - f->wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);
-    assert((out->image != NULL) == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
+    if (f->abandoned)
+        leave_abandoned(f);
+    assert(done == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
     return lom_pass_error(&failed, error);
 }
 
@@ -170,7 +196,7 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
                        .plan = &out->plan,
                        .desc = desc,
                        .number = desc->frame,
-                       .time = desc->frame / renderer->scene->output.fps,
+                       .time = desc->has_time ? desc->time : desc->frame / renderer->scene->output.fps,
                        .impostors = &out->impostors,
                        .spray = &out->spray };
     *out = (lom_frame){ .image = NULL };

@@ -23,6 +23,7 @@ struct frame {
     lom_plan *plan;
     const lom_frame_desc *desc;
     double done; /* the share of the stages behind this one */
+    bool abandoned;
     lom_impostor_counters *impostors;
     lom_spray_counters *spray;
 };

@@ -3,6 +3,7 @@
 #include "render/frame.h"
 
 #include "base/cpu.h"
+#include "base/numbers.h"
 
 /* The picture is read back with alpha as one image, and those have a limit. */
 static bool check_picture(const struct frame *f, lom_error *error)
@@ -33,11 +34,46 @@ static bool check_memory(const struct frame *f, lom_error *error)
 static bool check_time(const struct frame *f, lom_error *error)
 {
     static const double most = 1e9;
-    double fps = f->scene->output.fps, time = f->desc->frame / fps;
+    double fps = f->scene->output.fps, time = f->desc->has_time ? f->desc->time : f->desc->frame / fps;
+    if (f->desc->has_time && !(time >= -most && time <= most))
+        return lom_fail(error, LOM_ERROR_LIMIT, "A time of %g seconds is not within 1e9 of the first frame.", time);
     return (time >= -most && time <= most) ||
            lom_fail(error, LOM_ERROR_LIMIT,
                     "Frame %d is not within 1e9 seconds of the first at %g a second (output.fps).", f->desc->frame,
                     fps);
+}
+
+static bool check_pixels(const struct frame *f, lom_error *error)
+{
+    const lom_frame_desc *desc = f->desc;
+    if (desc->pixels == NULL)
+        return true;
+    if (desc->order != LOM_ORDER_OUTPUT && f->scene->output.format != LOM_OUTPUT_RGB8)
+        return lom_fail(error, LOM_ERROR_USAGE, "Pixels of 4 bytes are for output.format \"rgb8\" alone.");
+    static const size_t sample[] = { [LOM_OUTPUT_RGB8] = 1, [LOM_OUTPUT_RGB16] = 2, [LOM_OUTPUT_RGB32F] = 4 };
+    size_t pixel = desc->order == LOM_ORDER_OUTPUT ? 3 * sample[f->scene->output.format] : 4;
+    return desc->pitch >= pixel * (size_t)f->crop.width ||
+           lom_fail(error, LOM_ERROR_USAGE, "Rows %zu bytes apart do not hold %d pixels of %zu bytes.", desc->pitch,
+                    f->crop.width, pixel);
+}
+
+/* What a scene's camera is checked for when it is read. */
+static bool check_camera(const struct frame *f, lom_error *error)
+{
+    const lom_camera_view *c = f->desc->camera;
+    if (c == NULL)
+        return true;
+    const lom_vec3 ahead = lom_vec3_subtract(c->target, c->position);
+    const double most = 1e12, wide = lom_vec3_length(lom_vec3_cross(ahead, c->up));
+    const double numbers[9] = { c->position.x, c->position.y, c->position.z, c->target.x, c->target.y,
+                                c->target.z,   c->up.x,       c->up.y,       c->up.z };
+    bool good =
+        wide > 0 && c->field_of_view > 1e-6 && c->field_of_view < lom_pi && c->near_plane > 0 && c->near_plane < most;
+    for (int i = 0; i < 9; i++)
+        good = good && numbers[i] > -most && numbers[i] < most;
+    return good || lom_fail(error, LOM_ERROR_USAGE,
+                            "A camera needs a target apart from its position, an up that is not along the line between "
+                            "them, an angle of view between 0 and 180 degrees and a near plane before it.");
 }
 
 bool lom_find_frame_sizes(struct frame *f, lom_error *error)
@@ -51,5 +87,6 @@ bool lom_find_frame_sizes(struct frame *f, lom_error *error)
         f->crop.y > f->height - f->crop.height)
         return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
                         f->crop.x, f->crop.y, f->crop.width, f->crop.height, f->width, f->height);
-    return check_time(f, error) && check_picture(f, error) && check_memory(f, error);
+    return check_time(f, error) && check_camera(f, error) && check_pixels(f, error) && check_picture(f, error) &&
+           check_memory(f, error);
 }

@@ -1,7 +1,10 @@
-/* The finished picture. In: what was drawn. Out: an image in the scene's output format, encoded once. */
+/* The finished picture. In: what was drawn. Out: an image in the scene's output format, or rows in the caller's memory,
+ * encoded once. */
 #include "image/texture.h"
 #include "pipeline/share_work.h"
 #include "render/targets.h"
+
+#include <string.h>
 
 /* IEC 61966-2-1 of linear light, in double. */
 static double encode_srgb(double x)
@@ -37,45 +40,55 @@ static lom_format output_format(const lom_output *output)
     return output->transfer == LOM_TRANSFER_SRGB ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8;
 }
 
-/* A row of four bytes a pixel without its alpha. */
-static void drop_alpha(const uint8_t *restrict from, int count, uint8_t *restrict to)
+/* A row of texels, red in the lowest byte. */
+static void copy_row(const uint32_t *restrict from, int count, lom_pixel_order order, uint8_t *restrict to)
 {
-    for (int i = 0; i < count; i++, from += 4, to += 3) {
-        to[0] = from[0];
-        to[1] = from[1];
-        to[2] = from[2];
+    const int step = order == LOM_ORDER_OUTPUT ? 3 : 4, red = order == LOM_ORDER_BGRX ? 2 : 0;
+    for (int i = 0; i < count; i++, to += step) {
+        to[red] = (uint8_t)from[i];
+        to[1] = (uint8_t)(from[i] >> 8);
+        to[2 - red] = (uint8_t)(from[i] >> 16);
+        if (step == 4)
+            to[3] = 255;
     }
 }
 
 struct writing {
     const lom_output *output;
     const lom_texture *drawn;
-    lom_image *image;
+    lom_pixel_order order;
+    uint8_t *pixels;
+    size_t pitch;
 };
 
 static void write_rows(void *context, size_t first, size_t end)
 {
     const struct writing *w = context;
-    int width = w->image->width;
+    const int width = lom_texture_width(w->drawn);
     for (size_t y = first; y < end; y++) {
         const void *from = lom_texel(w->drawn, 0, 0, (int)y, 0);
-        void *to = lom_image_pixel(w->image, 0, (int)y, 0);
         if (w->output->format == LOM_OUTPUT_RGB8)
-            drop_alpha(from, width, to);
+            copy_row(from, width, w->order, w->pixels + y * w->pitch);
         else
-            encode_row(w->output, from, 4, width, to);
+            encode_row(w->output, from, 4, width, w->pixels + y * w->pitch);
     }
+}
+
+void lom_output_rows(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_pixel_order order,
+                     void *pixels, size_t pitch)
+{
+    enum { ROWS = 16 };
+    struct writing writing = { &scene->output, drawn, order, pixels, pitch };
+    lom_share_work(device, (size_t)lom_texture_height(drawn), ROWS, write_rows, &writing);
 }
 
 lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error)
 {
-    enum { ROWS = 16 };
-    const lom_output *output = &scene->output;
-    int width = lom_texture_width(drawn), height = lom_texture_height(drawn);
-    lom_image *image = lom_create_image(width, height, 1, output_format(output), error);
-    struct writing writing = { output, drawn, image };
+    const lom_format format = output_format(&scene->output);
+    lom_image *image = lom_create_image(lom_texture_width(drawn), lom_texture_height(drawn), 1, format, error);
     if (image != NULL)
-        lom_share_work(device, (size_t)height, ROWS, write_rows, &writing);
+        lom_output_rows(scene, device, drawn, LOM_ORDER_OUTPUT, image->pixels,
+                        (size_t)image->width * lom_format_size(format));
     return image;
 }
 
@@ -95,4 +108,28 @@ lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error 
         encode_row(output, lom_image_pixel(drawn, 0, y, 0), 3, image->width, lom_image_pixel(image, 0, y, 0));
     lom_free_image(drawn);
     return image;
+}
+
+bool lom_output_traced(const lom_scene *scene, lom_image *drawn, lom_pixel_order order, void *pixels, size_t pitch,
+                       lom_error *error)
+{
+    lom_image *image = lom_output_image(scene, drawn, error);
+    if (image == NULL)
+        return false;
+    const size_t bytes = (size_t)image->width * lom_format_size(image->format);
+    uint8_t *row = pixels;
+    for (int y = 0; y < image->height; y++, row += pitch) {
+        const uint8_t *from = lom_image_pixel(image, 0, y, 0);
+        if (order == LOM_ORDER_OUTPUT) {
+            memcpy(row, from, bytes);
+            continue;
+        }
+        const int red = order == LOM_ORDER_BGRX ? 2 : 0;
+        for (int x = 0; x < image->width; x++, from += 3) {
+            const uint8_t texel[4] = { from[red], from[1], from[2 - red], 255 };
+            memcpy(row + 4 * (size_t)x, texel, 4);
+        }
+    }
+    lom_free_image(image);
+    return true;
 }

@@ -1,14 +1,17 @@
 /* The plan of a frame, made while it is drawn. In: which passes run or are left out, and why. Out: the steps, each told to
  * whoever watches the frame when it begins. */
+#include "pipeline/check_device.h"
 #include "render/frame.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
-void lom_report_progress(const struct frame *f, const char *pass)
+void lom_report_progress(struct frame *f, const char *pass)
 {
-    if (f->desc->progress != NULL)
-        f->desc->progress(f->desc->progress_context, pass, f->done);
+    if (f->desc->progress != NULL && !f->abandoned && !f->desc->progress(f->desc->progress_context, pass, f->done)) {
+        f->abandoned = true;
+        lom_abandon_passes(f->renderer->device);
+    }
 }
 
 lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)

@@ -11,7 +11,8 @@ struct frame;
 lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Tells whoever watches the frame what is drawn now, and the share that is done. */
-void lom_report_progress(const struct frame *f, const char *pass);
+/* Tells whoever watches the frame what is drawn now, and the share that is done. Told to abandon it, the device draws
+ * nothing more until the frame has ended. */
+void lom_report_progress(struct frame *f, const char *pass);
 
 #endif

@@ -29,7 +29,7 @@ struct lom_renderer {
     struct lom_drawn_water water;
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
-    struct lom_targets targets;
+    struct lom_targets targets, other_targets; /* of this frame; of the size before */
 };
 
 #endif

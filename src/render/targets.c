@@ -93,21 +93,37 @@ static bool shares(const lom_scene *scene, const lom_texture_desc desc[LOM_TARGE
            desc[i].height == desc[row->with].height;
 }
 
-static void release_targets(lom_renderer *r)
+static void release_targets(lom_device *device, struct lom_targets *targets)
 {
-    for (size_t i = 0; i < r->targets.made_count; i++)
-        lom_release_texture(r->device, r->targets.made[i]);
-    r->targets = (struct lom_targets){ .made_count = 0 };
+    for (size_t i = 0; i < targets->made_count; i++)
+        lom_release_texture(device, targets->made[i]);
+    *targets = (struct lom_targets){ .made_count = 0 };
+}
+
+static bool are_of(const struct lom_targets *t, int width, int height, int drawn_width, int drawn_height)
+{
+    return t->made_count != 0 && t->width == width && t->height == height && t->drawn_width == drawn_width &&
+           t->drawn_height == drawn_height;
+}
+
+/* The targets of this frame and those of the size before change places. */
+static void exchange(lom_renderer *r)
+{
+    struct lom_targets before = r->targets;
+    r->targets = r->other_targets;
+    r->other_targets = before;
 }
 
 bool lom_make_targets(lom_renderer *r, int width, int height, int drawn_width, int drawn_height, lom_error *error)
 {
     struct lom_targets *t = &r->targets;
     lom_texture_desc desc[LOM_TARGETS];
-    if (t->made_count != 0 && t->width == width && t->height == height && t->drawn_width == drawn_width &&
-        t->drawn_height == drawn_height)
+    if (are_of(t, width, height, drawn_width, drawn_height))
         return true;
-    release_targets(r);
+    exchange(r);
+    if (are_of(t, width, height, drawn_width, drawn_height))
+        return true;
+    release_targets(r->device, t);
     *t = (struct lom_targets){
         .width = width, .height = height, .drawn_width = drawn_width, .drawn_height = drawn_height
     };

@@ -31,6 +31,12 @@ bool lom_make_targets(lom_renderer *renderer, int width, int height, int drawn_w
                       lom_error *error);
 /* What was drawn into the colour target, in the scene's output format: the caller's. NULL on failure. */
 lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error);
+/* A picture of the reference in rows of the caller's, as below; frees it. False on failure, or when it is NULL. */
+bool lom_output_traced(const lom_scene *scene, lom_image *drawn, lom_pixel_order order, void *pixels, size_t pitch,
+                       lom_error *error);
+/* The same into rows of the caller's, `pitch` bytes apart; the orders of 4 bytes are for output.format "rgb8" alone. */
+void lom_output_rows(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_pixel_order order,
+                     void *pixels, size_t pitch);
 /* The same of a picture of the reference (RGB32F), which is freed; NULL stays NULL. */
 lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error);
 

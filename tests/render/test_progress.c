@@ -10,13 +10,14 @@ struct told {
     bool fell;
 };
 
-static void listen(void *context, const char *pass, double done)
+static bool listen(void *context, const char *pass, double done)
 {
     struct told *told = context;
     if (told->count < LOM_MAX_STEPS)
         snprintf(told->pass[told->count++], sizeof told->pass[0], "%s", pass);
     told->fell |= !(done >= told->done && done < 1);
     told->done = done;
+    return true;
 }
 
 static struct told told;

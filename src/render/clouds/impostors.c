@@ -67,7 +67,8 @@ bool lom_begin_impostors(struct frame *f, lom_error *error)
     if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF || f->renderer->clouds.set == NULL)
         return true;
     state->swept = 0;
-    state->continues = state->width == f->width && state->height == f->height && state->frame + 1 == f->number;
+    state->continues =
+        state->width == f->width && state->height == f->height && (f->desc->continues || state->frame + 1 == f->number);
     state->frame = f->number;
     state->width = f->width;
     state->height = f->height;
