@@ -6,22 +6,24 @@
 
 #include <stdio.h>
 
+enum { RED, GREEN, BLUE, VARYINGS };
+
 static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     (void)uniforms;
     out->position = in->attribute[0];
-    out->varying[0] = in->attribute[1].x;
-    out->varying[1] = in->attribute[1].y;
-    out->varying[2] = in->attribute[1].z;
+    out->varying[RED] = in->attribute[1].x;
+    out->varying[GREEN] = in->attribute[1].y;
+    out->varying[BLUE] = in->attribute[1].z;
 }
 
 static void paint(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     (void)uniforms;
-    out->color[0] = (lom_float4){ in->varying[0], in->varying[1], in->varying[2], lom_splat(1) };
+    out->color[0] = (lom_float4){ in->varying[RED], in->varying[GREEN], in->varying[BLUE], lom_splat(1) };
 }
 
-LOM_SHADER(triangle, place, paint, .attributes = 2, .varyings = 3, .reads = 7, .colors = 1)
+LOM_SHADER(triangle, place, paint, .attributes = 2, .varyings = VARYINGS, .reads = LOM_VARYINGS(RED, 3), .colors = 1)
 
 #if LOM_LANES == 4 /* the rest of the file is compiled once */
 

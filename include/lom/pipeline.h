@@ -128,6 +128,10 @@ typedef struct lom_fragment {
 typedef void lom_vertex_function(lom_vertex *out, const lom_attributes *in, const void *uniforms);
 typedef void lom_fragment_function(lom_fragment *out, const lom_varyings *in, const void *uniforms);
 
+/* `count` varyings (1..LOM_MAX_VARYINGS) from `first` on, as a mask of bits: what reads, differentiates and flat are made
+ * of. */
+#define LOM_VARYINGS(first, count) (0xffffffffu >> (32 - (count)) << (first))
+
 /* A shader and what it needs; what it does not declare it cannot do. Made with LOM_SHADER. */
 typedef struct lom_shader {
     const char *name;
@@ -136,9 +140,9 @@ typedef struct lom_shader {
     int attributes;                                /* read by the vertex shader: 0 .. attributes - 1 */
     int varyings;                                  /* written by the vertex shader */
     int clip_distances, cull_distances;
-    uint32_t reads;          /* bit v: the fragment shader reads varying v */
-    uint32_t differentiates; /* bit v: it takes the derivative of varying v; part of reads */
-    uint32_t flat;           /* bit v: varying v is the provoking (last) vertex's, not interpolated */
+    uint32_t reads;          /* LOM_VARYINGS: the fragment shader reads them */
+    uint32_t differentiates; /* it takes their derivatives; part of reads */
+    uint32_t flat;           /* they are the provoking (last) vertex's, not interpolated */
     bool reads_position;     /* x, y, z, w, front */
     bool discards, writes_depth;
     bool quads; /* general derivatives: packets of whole 2x2 quads aligned to even frame coordinates */

@@ -5,6 +5,8 @@
 #include "cloud/cloud_rays.h"
 #include "cloud/phase.h"
 
+enum { SHADOW_X, SHADOW_Z, SHADOW_VARYINGS };
+
 static lom_float jitter_of(const struct lom_cloud_uniforms *cloud, const lom_varyings *in)
 {
     if (cloud->jitter == NULL)
@@ -45,15 +47,15 @@ static void shadow_vertex(lom_vertex *out, const lom_attributes *in, const void 
     lom_float s = shadow->quad[0] + lom_to_float(in->vertex & 1) * shadow->quad[2];
     lom_float t = shadow->quad[1] + lom_to_float(in->vertex >> 1) * shadow->quad[3];
     out->position = (lom_float4){ 2.0f * s - 1.0f, 1.0f - 2.0f * t, { 0 }, lom_splat(1.0f) };
-    out->varying[0] = s * shadow->plane[2];
-    out->varying[1] = t * shadow->plane[3];
+    out->varying[SHADOW_X] = s * shadow->plane[2];
+    out->varying[SHADOW_Z] = t * shadow->plane[3];
 }
 
 /* What the cloud lets through of the light that meets the plane at x, z: exp(-optical depth). */
 static void shadow_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_shadow_uniforms *shadow = uniforms;
-    lom_float x = in->varying[0], z = in->varying[1], depth;
+    lom_float x = in->varying[SHADOW_X], z = in->varying[SHADOW_Z], depth;
     lom_medium_rays rays = { .start = { x * shadow->by_x[0] + z * shadow->by_z[0] + shadow->start[0],
                                         x * shadow->by_x[1] + z * shadow->by_z[1] + shadow->start[1],
                                         x * shadow->by_x[2] + z * shadow->by_z[2] + shadow->start[2] },
@@ -65,7 +67,7 @@ static void shadow_fragment(lom_fragment *out, const lom_varyings *in, const voi
     out->color[0] = (lom_float4){ through, through, through, lom_splat(1.0f) };
 }
 
-LOM_SHADER(lom_cloud_shadow_shader, shadow_vertex, shadow_fragment, .varyings = 2, .reads = 3, .colors = 1,
-           .uniforms_size = sizeof(struct lom_cloud_shadow_uniforms))
-LOM_SHADER(lom_cloud_shader, lom_cloud_vertex, fragment, .varyings = 3, .reads = 7, .reads_position = true, .colors = 1,
-           .uniforms_size = sizeof(struct lom_cloud_uniforms))
+LOM_SHADER(lom_cloud_shadow_shader, shadow_vertex, shadow_fragment, .varyings = SHADOW_VARYINGS,
+           .reads = LOM_VARYINGS(SHADOW_X, 2), .colors = 1, .uniforms_size = sizeof(struct lom_cloud_shadow_uniforms))
+LOM_SHADER(lom_cloud_shader, lom_cloud_vertex, fragment, .varyings = RAY_VARYINGS, .reads = LOM_VARYINGS(OFFSET, 3),
+           .reads_position = true, .colors = 1, .uniforms_size = sizeof(struct lom_cloud_uniforms))

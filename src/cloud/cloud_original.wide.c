@@ -84,19 +84,19 @@ static void picture_vertex(lom_vertex *out, const lom_attributes *in, const void
                           x * cloud->right[1] + y * cloud->up[1] + cloud->corner[0][1],
                           x * cloud->right[2] + y * cloud->up[2] + cloud->corner[0][2] };
     out->position = lom_transform4(&cloud->clip_from_offset, offset);
-    out->varying[0] = offset.x;
-    out->varying[1] = offset.y;
-    out->varying[2] = offset.z;
-    out->varying[3] = s;
-    out->varying[4] = t;
+    out->varying[OFFSET] = offset.x;
+    out->varying[OFFSET + 1] = offset.y;
+    out->varying[OFFSET + 2] = offset.z;
+    out->varying[S] = s;
+    out->varying[T] = t;
 }
 
 static void picture_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
-    lom_float3 offset = { in->varying[0], in->varying[1], in->varying[2] };
+    lom_float3 offset = { in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
     lom_float length = lom_sqrt(lom_dot3(offset, offset));
-    lom_float4 texel = lom_sample(cloud->picture, in->varying[3], in->varying[4], lom_lod(cloud->picture, in, 3, 4));
+    lom_float4 texel = lom_sample(cloud->picture, in->varying[S], in->varying[T], lom_lod(cloud->picture, in, S, T));
     lom_mask seen = lom_splat_int(-1);
     if (cloud->depth != NULL)
         seen = length < lom_scene_distance(cloud, in, length);
@@ -106,8 +106,9 @@ static void picture_fragment(lom_fragment *out, const lom_varyings *in, const vo
     out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
 }
 
-LOM_SHADER(lom_cloud_original_shader, lom_cloud_vertex, original_fragment, .varyings = 3, .reads = 7,
-           .reads_position = true, .colors = 1, .uniforms_size = sizeof(struct lom_cloud_uniforms))
-LOM_SHADER(lom_cloud_picture_shader, picture_vertex, picture_fragment, .varyings = 5, .reads = 0x1f,
-           .differentiates = 0x18, .reads_position = true, .colors = 1,
+LOM_SHADER(lom_cloud_original_shader, lom_cloud_vertex, original_fragment, .varyings = RAY_VARYINGS,
+           .reads = LOM_VARYINGS(OFFSET, 3), .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_cloud_uniforms))
+LOM_SHADER(lom_cloud_picture_shader, picture_vertex, picture_fragment, .varyings = PICTURE_VARYINGS,
+           .reads = LOM_VARYINGS(0, PICTURE_VARYINGS), .differentiates = 1u << S | 1u << T, .reads_position = true,
+           .colors = 1, .uniforms_size = sizeof(struct lom_cloud_uniforms))

@@ -4,6 +4,9 @@
 
 #include "cloud/cloud_uniforms.h"
 
+/* Varyings: an offset from the eye; where there is a picture, its coordinates. */
+enum { OFFSET = 0, RAY_VARYINGS = 3, S = 3, T, PICTURE_VARYINGS };
+
 LOM_INLINE void lom_cloud_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
@@ -13,9 +16,9 @@ LOM_INLINE void lom_cloud_vertex(lom_vertex *out, const lom_attributes *in, cons
     offset.y = lom_gather(&cloud->corner[0][0], first + 1);
     offset.z = lom_gather(&cloud->corner[0][0], first + 2);
     out->position = lom_transform4(&cloud->clip_from_offset, offset);
-    out->varying[0] = offset.x;
-    out->varying[1] = offset.y;
-    out->varying[2] = offset.z;
+    out->varying[OFFSET] = offset.x;
+    out->varying[OFFSET + 1] = offset.y;
+    out->varying[OFFSET + 2] = offset.z;
 }
 
 /* Metres along the ray to what is drawn there: near / z is its distance along the view axis, w that of the fragment. */
@@ -42,7 +45,7 @@ LOM_INLINE lom_float3 lom_cloud_haze(const struct lom_cloud_uniforms *cloud, lom
 LOM_INLINE lom_medium_rays lom_cloud_rays(const struct lom_cloud_uniforms *cloud, const lom_varyings *in,
                                           lom_float3 *direction)
 {
-    lom_float3 offset = { in->varying[0], in->varying[1], in->varying[2] };
+    lom_float3 offset = { in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
     lom_float length = lom_sqrt(lom_dot3(offset, offset));
     *direction = lom_scale3(offset, 1.0f / lom_max(length, lom_splat(1e-20f)));
     lom_medium_rays rays = { .start = lom_uniform3(cloud->eye_in_box),

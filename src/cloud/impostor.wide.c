@@ -2,6 +2,8 @@
  * texel that is 0 gives 0, so the empty parts of a plate leave the picture as it is. */
 #include "cloud/cloud_rays.h"
 
+enum { WHOLE_S, WHOLE_T, WHOLE_VARYINGS };
+
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_impostor_uniforms *impostor = uniforms;
@@ -9,17 +11,17 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     lom_float3 offset = { lom_gather(&impostor->corner[0][0], first), lom_gather(&impostor->corner[0][0], first + 1),
                           lom_gather(&impostor->corner[0][0], first + 2) };
     out->position = lom_transform4(&impostor->cloud.clip_from_offset, offset);
-    out->varying[0] = offset.x;
-    out->varying[1] = offset.y;
-    out->varying[2] = offset.z;
-    out->varying[3] = lom_to_float(in->vertex & 1);
-    out->varying[4] = lom_to_float(1 - (in->vertex >> 1));
+    out->varying[OFFSET] = offset.x;
+    out->varying[OFFSET + 1] = offset.y;
+    out->varying[OFFSET + 2] = offset.z;
+    out->varying[S] = lom_to_float(in->vertex & 1);
+    out->varying[T] = lom_to_float(1 - (in->vertex >> 1));
 }
 
 /* How much of what a ray meets of the box lies before what is drawn there. */
 static lom_float shown_part(const struct lom_cloud_uniforms *cloud, const lom_varyings *in)
 {
-    lom_float3 offset = { in->varying[0], in->varying[1], in->varying[2] };
+    lom_float3 offset = { in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
     lom_float length = lom_sqrt(lom_dot3(offset, offset));
     lom_float scene = lom_scene_distance(cloud, in, length);
     struct lom_cloud_uniforms open = { .depth = NULL };
@@ -42,7 +44,7 @@ static lom_float shown_part(const struct lom_cloud_uniforms *cloud, const lom_va
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_impostor_uniforms *impostor = uniforms;
-    lom_float4 texel = lom_sample(impostor->plate, in->varying[3], in->varying[4], (lom_float){ 0 });
+    lom_float4 texel = lom_sample(impostor->plate, in->varying[S], in->varying[T], (lom_float){ 0 });
     lom_float factor = lom_splat(impostor->misting);
     if (impostor->cloud.depth != NULL && lom_any((texel.w > 0.0f) & in->covered)) {
         lom_float part = shown_part(&impostor->cloud, in);
@@ -61,17 +63,18 @@ static void whole_vertex(lom_vertex *out, const lom_attributes *in, const void *
     (void)uniforms;
     lom_float s = lom_to_float(in->vertex & 1), t = lom_to_float(in->vertex >> 1);
     out->position = (lom_float4){ 2.0f * s - 1.0f, 1.0f - 2.0f * t, { 0 }, lom_splat(1.0f) };
-    out->varying[0] = s;
-    out->varying[1] = t;
+    out->varying[WHOLE_S] = s;
+    out->varying[WHOLE_T] = t;
 }
 
 static void whole_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_impostor_uniforms *impostor = uniforms;
-    out->color[0] = lom_sample(impostor->plate, in->varying[0], in->varying[1], (lom_float){ 0 });
+    out->color[0] = lom_sample(impostor->plate, in->varying[WHOLE_S], in->varying[WHOLE_T], (lom_float){ 0 });
 }
 
-LOM_SHADER(lom_impostor_shader, vertex, fragment, .varyings = 5, .reads = 0x1f, .reads_position = true, .colors = 1,
+LOM_SHADER(lom_impostor_shader, vertex, fragment, .varyings = PICTURE_VARYINGS,
+           .reads = LOM_VARYINGS(0, PICTURE_VARYINGS), .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_impostor_uniforms))
-LOM_SHADER(lom_magnify_shader, whole_vertex, whole_fragment, .varyings = 2, .reads = 3, .colors = 1,
-           .uniforms_size = sizeof(struct lom_impostor_uniforms))
+LOM_SHADER(lom_magnify_shader, whole_vertex, whole_fragment, .varyings = WHOLE_VARYINGS,
+           .reads = LOM_VARYINGS(WHOLE_S, 2), .colors = 1, .uniforms_size = sizeof(struct lom_impostor_uniforms))

@@ -2,6 +2,8 @@
  * bench/peers/README.md defines them. */
 #include "peer_shaders.h"
 
+enum { NORMAL = 0, POSITION = 3, LIT_VARYINGS = 6 };
+
 static lom_float4 window_corner(lom_int vertex, float z)
 {
     lom_float x = lom_to_float((vertex & 1) * 2 - 1), y = lom_to_float((vertex >> 1) * 2 - 1);
@@ -45,8 +47,8 @@ static void depth_vertex(lom_vertex *out, const lom_attributes *in, const void *
 static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const lom_peer_lit *lit = uniforms;
-    lom_peer_write3(out->varying, in->attribute[1]);
-    lom_peer_write3(out->varying + 3, in->attribute[0]);
+    lom_peer_write3(out->varying + NORMAL, in->attribute[1]);
+    lom_peer_write3(out->varying + POSITION, in->attribute[0]);
     out->position = lom_peer_transform(lit->to_clip, in->attribute[0], 1);
 }
 
@@ -54,8 +56,8 @@ static void lit_fragment(lom_fragment *out, const lom_varyings *in, const void *
 {
     const lom_peer_lit *lit = uniforms;
     lom_float3 light = lom_peer_vector(lit->light);
-    lom_float3 n = lom_normalize3(lom_peer_read3(in->varying));
-    lom_float3 v = lom_normalize3(lom_sub3(lom_peer_vector(lit->eye), lom_peer_read3(in->varying + 3)));
+    lom_float3 n = lom_normalize3(lom_peer_read3(in->varying + NORMAL));
+    lom_float3 v = lom_normalize3(lom_sub3(lom_peer_vector(lit->eye), lom_peer_read3(in->varying + POSITION)));
     lom_float3 half = lom_normalize3(lom_add3(light, v));
     lom_float diffuse = 0.15f + 0.85f * lom_peer_positive(lom_dot3(n, light));
     lom_float specular = 0.5f * lom_peer_square(lom_peer_positive(lom_dot3(n, half)), 5);
@@ -66,6 +68,6 @@ static void lit_fragment(lom_fragment *out, const lom_varyings *in, const void *
 LOM_SHADER(lom_peer_flat_shader, flat_vertex, flat_fragment, .colors = 1, .uniforms_size = sizeof(lom_peer_flat))
 LOM_SHADER(lom_peer_show_shader, show_vertex, show_fragment, .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(lom_peer_show))
-LOM_SHADER(lom_peer_lit_shader, lit_vertex, lit_fragment, .attributes = 2, .varyings = 6, .reads = 0x3f, .colors = 1,
-           .uniforms_size = sizeof(lom_peer_lit))
+LOM_SHADER(lom_peer_lit_shader, lit_vertex, lit_fragment, .attributes = 2, .varyings = LIT_VARYINGS,
+           .reads = LOM_VARYINGS(0, LIT_VARYINGS), .colors = 1, .uniforms_size = sizeof(lom_peer_lit))
 LOM_DEPTH_SHADER(lom_peer_depth_shader, depth_vertex, .attributes = 1, .uniforms_size = sizeof(lom_peer_depth))

@@ -2,7 +2,7 @@
  * colours as bench/peers/README.md defines them. */
 #include "peer_shaders.h"
 
-enum { NORMAL = 0, POSITION = 3, S = 6, T = 7, GROUND_VARYINGS = 8 };
+enum { NORMAL = 0, POSITION = 3, S = 6, T = 7, GROUND_VARYINGS = 8, DOME_VARYINGS = 3 };
 
 static void ground_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
@@ -59,9 +59,10 @@ static void dome_fragment(lom_fragment *out, const lom_varyings *in, const void 
 }
 
 LOM_SHADER(lom_peer_ground_shader, ground_vertex, ground_fragment, .attributes = 3, .varyings = GROUND_VARYINGS,
-           .reads = 0xff, .differentiates = 1u << S | 1u << T, .colors = 1, .uniforms_size = sizeof(lom_peer_ground))
+           .reads = LOM_VARYINGS(0, GROUND_VARYINGS), .differentiates = 1u << S | 1u << T, .colors = 1,
+           .uniforms_size = sizeof(lom_peer_ground))
 LOM_SHADER(lom_peer_clipped_ground_shader, clipped_ground_vertex, ground_fragment, .attributes = 3,
-           .varyings = GROUND_VARYINGS, .clip_distances = 1, .reads = 0xff, .differentiates = 1u << S | 1u << T,
-           .colors = 1, .uniforms_size = sizeof(lom_peer_ground))
-LOM_SHADER(lom_peer_dome_shader, dome_vertex, dome_fragment, .attributes = 1, .varyings = 3, .reads = 7, .colors = 1,
-           .uniforms_size = sizeof(lom_peer_dome))
+           .varyings = GROUND_VARYINGS, .clip_distances = 1, .reads = LOM_VARYINGS(0, GROUND_VARYINGS),
+           .differentiates = 1u << S | 1u << T, .colors = 1, .uniforms_size = sizeof(lom_peer_ground))
+LOM_SHADER(lom_peer_dome_shader, dome_vertex, dome_fragment, .attributes = 1, .varyings = DOME_VARYINGS,
+           .reads = LOM_VARYINGS(0, DOME_VARYINGS), .colors = 1, .uniforms_size = sizeof(lom_peer_dome))

@@ -79,6 +79,6 @@ static void lake_fragment(lom_fragment *out, const lom_varyings *in, const void 
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_saturate(depth * 2.0f) };
 }
 
-LOM_SHADER(lom_peer_lake_shader, lake_vertex, lake_fragment, .attributes = 2, .varyings = LAKE_VARYINGS, .reads = 0x1f,
-           .differentiates = 1u << S | 1u << T, .reads_position = true, .quads = true, .colors = 1,
-           .uniforms_size = sizeof(lom_peer_lake))
+LOM_SHADER(lom_peer_lake_shader, lake_vertex, lake_fragment, .attributes = 2, .varyings = LAKE_VARYINGS,
+           .reads = LOM_VARYINGS(0, LAKE_VARYINGS), .differentiates = 1u << S | 1u << T, .reads_position = true,
+           .quads = true, .colors = 1, .uniforms_size = sizeof(lom_peer_lake))

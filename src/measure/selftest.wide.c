@@ -2,15 +2,16 @@
  * functions and every kind of texture. Invariant: finite input, so that nothing but defined values is stored. */
 #include "measure/selftest.h"
 
-enum { WORLD = 0, NORMAL = 3, UV = 6, COLOR = 8, SHADE = 11 };
+enum { WORLD = 0, NORMAL = 3, UV = 6, COLOR = 8, SHADE = 11, VARYINGS = 12 };
+enum { X, Y, STRIP_VARYINGS };
 
 static void strip_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_selftest_uniforms *u = uniforms;
     lom_float x = lom_to_float((in->vertex & 1) * 2 - 1), y = lom_to_float((in->vertex >> 1) * 2 - 1);
     out->position = (lom_float4){ x, y, lom_splat(u->depth), lom_splat(1) };
-    out->varying[0] = x;
-    out->varying[1] = y;
+    out->varying[X] = x;
+    out->varying[Y] = y;
 }
 
 static void functions_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -78,7 +79,7 @@ static void cut_fragment(lom_fragment *out, const lom_varyings *in, const void *
 static void samples_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_selftest_uniforms *u = uniforms;
-    lom_float s = in->varying[0] * 1.7f, t = in->varying[1] * 1.3f;
+    lom_float s = in->varying[X] * 1.7f, t = in->varying[Y] * 1.3f;
     lom_float swirl = lom_sin(s * 3.0f) * t;
     lom_float lod = lom_log2(lom_abs(lom_quad_dx(swirl)) + lom_abs(lom_quad_dy(swirl)) + 0.01f) + 5.0f;
     lom_float3 direction = { s, t, lom_cos(s + t) };
@@ -88,12 +89,14 @@ static void samples_fragment(lom_fragment *out, const lom_varyings *in, const vo
     out->depth = lom_saturate(0.5f + 0.5f * lom_sin(s + t));
 }
 
-LOM_SHADER(lom_selftest_functions, strip_vertex, functions_fragment, .varyings = 2, .reads_position = true, .colors = 4,
+LOM_SHADER(lom_selftest_functions, strip_vertex, functions_fragment, .varyings = STRIP_VARYINGS, .reads_position = true,
+           .colors = 4, .uniforms_size = sizeof(struct lom_selftest_uniforms))
+LOM_SHADER(lom_selftest_textured, textured_vertex, textured_fragment, .attributes = 4, .varyings = VARYINGS,
+           .reads = LOM_VARYINGS(0, SHADE), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1,
            .uniforms_size = sizeof(struct lom_selftest_uniforms))
-LOM_SHADER(lom_selftest_textured, textured_vertex, textured_fragment, .attributes = 4, .varyings = 12, .reads = 0x7ff,
-           .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_selftest_uniforms))
-LOM_SHADER(lom_selftest_cut, textured_vertex, cut_fragment, .attributes = 4, .varyings = 12, .clip_distances = 2,
-           .reads = 0xfff, .differentiates = 3 << UV, .flat = 1 << SHADE, .reads_position = true, .discards = true,
-           .colors = 2, .uniforms_size = sizeof(struct lom_selftest_uniforms))
-LOM_SHADER(lom_selftest_samples, strip_vertex, samples_fragment, .varyings = 2, .reads = 3, .writes_depth = true,
-           .quads = true, .colors = 3, .uniforms_size = sizeof(struct lom_selftest_uniforms))
+LOM_SHADER(lom_selftest_cut, textured_vertex, cut_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 2,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .flat = 1u << SHADE,
+           .reads_position = true, .discards = true, .colors = 2, .uniforms_size = sizeof(struct lom_selftest_uniforms))
+LOM_SHADER(lom_selftest_samples, strip_vertex, samples_fragment, .varyings = STRIP_VARYINGS,
+           .reads = LOM_VARYINGS(X, 2), .writes_depth = true, .quads = true, .colors = 3,
+           .uniforms_size = sizeof(struct lom_selftest_uniforms))

@@ -4,7 +4,7 @@
  */
 #include "spray/spray.h"
 
-enum { RED, GREEN, BLUE, OPACITY, SOFT };
+enum { RED, GREEN, BLUE, OPACITY, SOFT, VARYINGS };
 
 LOM_INLINE lom_float3 gather3(const float *from, lom_int at)
 {
@@ -70,7 +70,8 @@ static void layer_fragment(lom_fragment *out, const lom_varyings *in, const void
     out->color[0] = lom_fetch(u->layer, x, y, 0);
 }
 
-LOM_SHADER(lom_spray_shader, vertex, fragment, .varyings = 5, .reads = 0x1f, .reads_position = true, .colors = 1,
-           .uniforms_size = sizeof(struct lom_spray_uniforms), .sprites = true, .round = true, .reads_depth = true)
+LOM_SHADER(lom_spray_shader, vertex, fragment, .varyings = VARYINGS, .reads = LOM_VARYINGS(0, VARYINGS),
+           .reads_position = true, .colors = 1, .uniforms_size = sizeof(struct lom_spray_uniforms), .sprites = true,
+           .round = true, .reads_depth = true)
 LOM_SHADER(lom_spray_layer_shader, layer_vertex, layer_fragment, .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_spray_layer_uniforms))

@@ -2,7 +2,7 @@
  * the scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
 #include "water/lake.h"
 
-enum { X, Y, Z };
+enum { X, Y, Z, VARYINGS };
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
@@ -133,9 +133,10 @@ static void tinted_fragment(lom_fragment *out, const lom_varyings *in, const voi
                                   lom_splat(lake->tint_color[2]), lom_splat(lake->opacity) };
 }
 
-LOM_SHADER(lom_lake_shader, vertex, fragment, .varyings = 3, .reads = 7, .differentiates = 5, .reads_position = true,
-           .colors = 1, .uniforms_size = sizeof(struct lom_lake_uniforms))
-LOM_SHADER(lom_lake_mask_shader, vertex, mask_fragment, .varyings = 3, .colors = 1,
+LOM_SHADER(lom_lake_shader, vertex, fragment, .varyings = VARYINGS, .reads = LOM_VARYINGS(X, 3),
+           .differentiates = 1u << X | 1u << Z, .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_lake_uniforms))
-LOM_SHADER(lom_lake_tinted_shader, vertex, tinted_fragment, .varyings = 3, .colors = 1,
+LOM_SHADER(lom_lake_mask_shader, vertex, mask_fragment, .varyings = VARYINGS, .colors = 1,
+           .uniforms_size = sizeof(struct lom_lake_uniforms))
+LOM_SHADER(lom_lake_tinted_shader, vertex, tinted_fragment, .varyings = VARYINGS, .colors = 1,
            .uniforms_size = sizeof(struct lom_lake_uniforms))

@@ -2,7 +2,7 @@
  * surface, opaque: what is seen through it is part of it. */
 #include "water/surface_radiance.h"
 
-enum { OFFSET = 0, REST_X = 3, REST_Z = 4 };
+enum { OFFSET = 0, FLAT_VARYINGS = 3, REST_X = 3, REST_Z = 4, VARYINGS = 5 };
 
 static void store3(lom_float *varying, lom_float3 v)
 {
@@ -207,11 +207,12 @@ static void bounds_fragment(lom_fragment *out, const lom_varyings *in, const voi
     out->color[0] = (lom_float4){ lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
 }
 
-LOM_SHADER(lom_surface_flat_shader, flat_vertex, flat_fragment, .varyings = 3, .reads = 7, .differentiates = 5,
+LOM_SHADER(lom_surface_flat_shader, flat_vertex, flat_fragment, .varyings = FLAT_VARYINGS,
+           .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = 1u << OFFSET | 1u << (OFFSET + 2),
            .reads_position = true, .colors = 1, .uniforms_size = sizeof(struct lom_surface_uniforms))
-LOM_SHADER(lom_surface_displaced_shader, displaced_vertex, displaced_fragment, .varyings = 5, .reads = 0x1f,
-           .differentiates = 0x18, .reads_position = true, .colors = 1,
-           .uniforms_size = sizeof(struct lom_surface_uniforms))
+LOM_SHADER(lom_surface_displaced_shader, displaced_vertex, displaced_fragment, .varyings = VARYINGS,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = 1u << REST_X | 1u << REST_Z, .reads_position = true,
+           .colors = 1, .uniforms_size = sizeof(struct lom_surface_uniforms))
 LOM_SHADER(lom_surface_marched_shader, screen_vertex, marched_fragment, .reads_position = true, .discards = true,
            .writes_depth = true, .colors = 1, .uniforms_size = sizeof(struct lom_surface_uniforms))
 LOM_SHADER(lom_surface_bounds_shader, bounds_vertex, bounds_fragment, .attributes = 1, .colors = 1,

@@ -59,13 +59,15 @@ static void everything(lom_fragment *out, const lom_varyings *in, const void *un
 }
 
 LOM_DEPTH_SHADER(fuzz_depth, place, .attributes = 2, .varyings = 4)
-LOM_SHADER(fuzz_show, place, show, .attributes = 2, .varyings = 4, .reads = 15, .flat = 8, .colors = 1)
-LOM_SHADER(fuzz_clipped, place, show, .attributes = 2, .varyings = 4, .reads = 15, .clip_distances = 2,
+LOM_SHADER(fuzz_show, place, show, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .flat = 1u << 3,
+           .colors = 1)
+LOM_SHADER(fuzz_clipped, place, show, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .clip_distances = 2,
            .cull_distances = 2, .colors = 1)
-LOM_SHADER(fuzz_lookup, place, lookup, .attributes = 2, .varyings = 4, .reads = 15, .differentiates = 3, .colors = 2,
-           .uniforms_size = sizeof(struct uniforms))
-LOM_SHADER(fuzz_everything, place, everything, .attributes = 2, .varyings = 4, .reads = 15, .differentiates = 2,
-           .reads_position = true, .discards = true, .writes_depth = true, .quads = true, .colors = 2)
+LOM_SHADER(fuzz_lookup, place, lookup, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .differentiates = LOM_VARYINGS(0, 2), .colors = 2, .uniforms_size = sizeof(struct uniforms))
+LOM_SHADER(fuzz_everything, place, everything, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .differentiates = 1u << 1, .reads_position = true, .discards = true, .writes_depth = true, .quads = true,
+           .colors = 2)
 
 static const lom_shader *const shaders[] = { &fuzz_show, &fuzz_depth, &fuzz_clipped, &fuzz_lookup, &fuzz_everything };
 enum { SHADERS = sizeof shaders / sizeof *shaders };

@@ -45,6 +45,10 @@ fi
 roads=$(grep -nE '\b(fopen|freopen|creat|rename|renameat|link|linkat|mkstemp|tmpfile|O_WRONLY|O_RDWR|O_CREAT)\b' $(ls src/*/*.c src/*/*/*.c) |
     grep -vE '^src/base/(writer|system)\.c:|^src/cli/main\.c:.*/dev/null|^[^:]*:[0-9]*: *(/\*|\*)|"[^"]*\b(link|rename)\b')
 [ -z "$roads" ] || found "a file is opened for writing beside lom_open_writer: $roads"
+# Masks of varyings are made of names and of LOM_VARYINGS, not of numbers that repeat an enum.
+numbers=$(grep -rnE '\.(reads|differentiates|flat) = ' include src tests docs --include='*.[ch]' --include='*.cpp' |
+    sed -E 's/LOM_VARYINGS\([^)]*\)//g; s/1u << (\([^)]*\)|[A-Za-z_0-9]+)//g' | grep -E '\.(reads|differentiates|flat) = [ |]*[0-9(]')
+[ -z "$numbers" ] || found "a mask of varyings is a number: $numbers"
 # A file of src/ has at most 400 lines, but for tables of numbers; a function 60, from the line of its name to its brace.
 number_tables='src/image/srgb_tables.c'
 long=$(wc -l src/*/*.[ch] src/*/*/*.[ch] | awk -v tables=" $number_tables " '

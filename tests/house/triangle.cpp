@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <initializer_list>
 
+enum { RED, GREEN, BLUE, VARYINGS };
+
 template <typename T> [[gnu::noinline]] T twice(T x)
 {
     return x + x;
@@ -13,9 +15,9 @@ template <typename T> [[gnu::noinline]] T twice(T x)
 static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     out->position = lom_multiply4(static_cast<const lom_matrix_uniform *>(uniforms), in->attribute[0]);
-    out->varying[0] = twice(in->attribute[1].x) * 0.5f;
-    out->varying[1] = in->attribute[1].y;
-    out->varying[2] = in->attribute[1].z;
+    out->varying[RED] = twice(in->attribute[1].x) * 0.5f;
+    out->varying[GREEN] = in->attribute[1].y;
+    out->varying[BLUE] = in->attribute[1].z;
 }
 
 // A struct of lanes has one name at every width: without care the linker would keep one copy of this for all.
@@ -29,10 +31,10 @@ struct paint {
 
 static void fill(lom_fragment *out, const lom_varyings *in, const void *)
 {
-    out->color[0] = paint{ { in->varying[0], in->varying[1], in->varying[2] } }.opaque();
+    out->color[0] = paint{ { in->varying[RED], in->varying[GREEN], in->varying[BLUE] } }.opaque();
 }
 
-LOM_SHADER(triangle, place, fill, .colors = 1, .attributes = 2, .varyings = 3, .reads = 7,
+LOM_SHADER(triangle, place, fill, .colors = 1, .attributes = 2, .varyings = VARYINGS, .reads = LOM_VARYINGS(RED, 3),
            .uniforms_size = sizeof(lom_matrix_uniform))
 
 #if LOM_LANES == 4 // the rest of the file is compiled once

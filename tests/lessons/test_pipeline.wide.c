@@ -71,10 +71,10 @@ static void show_stages(lom_fragment *out, const lom_varyings *in, const void *u
 }
 
 LOM_SHADER(painting, place, paint_lanes, .attributes = 3, .varyings = VARYINGS, .clip_distances = 1,
-           .reads = (1 << VARYINGS) - 1, .differentiates = 1 << S | 1 << T, .colors = 1,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = 1u << S | 1u << T, .colors = 1,
            .uniforms_size = sizeof(struct lane_uniforms))
 LOM_SHADER(stages, place, show_stages, .attributes = 3, .varyings = VARYINGS, .clip_distances = 1,
-           .reads = (1 << VARYINGS) - 1, .differentiates = 1 << S | 1 << T, .reads_position = true, .colors = 4,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = 1u << S | 1u << T, .reads_position = true, .colors = 4,
            .uniforms_size = sizeof(struct lane_uniforms))
 
 enum { STAGE_VALUES = 16 };

@@ -19,10 +19,11 @@ static void examine(lom_fragment *out, const lom_varyings *in, const void *unifo
                                   is_finite(lom_dx(in, 0)), is_finite(lom_dy(in, 0)) };
 }
 
-LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
-LOM_SHADER(flats, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .flat = 15, .colors = 1)
-LOM_SHADER(helpers, place_values, examine, .attributes = 2, .varyings = 4, .reads = 15, .differentiates = 1,
-           .quads = true, .colors = 1)
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
+LOM_SHADER(flats, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .flat = LOM_VARYINGS(0, 4), .colors = 1)
+LOM_SHADER(helpers, place_values, examine, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .differentiates = 1u << 0, .quads = true, .colors = 1)
 
 static vertex vertices[64];
 

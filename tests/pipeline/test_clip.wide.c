@@ -35,7 +35,7 @@ static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms
 LOM_SHADER(counter, place, count, .attributes = 5, .colors = 1, .uniforms_size = 32)
 LOM_SHADER(clipped, place, count, .attributes = 5, .clip_distances = 8, .colors = 1, .uniforms_size = 32)
 LOM_SHADER(culled, place, count, .attributes = 5, .cull_distances = 8, .colors = 1, .uniforms_size = 32)
-LOM_SHADER(values, place, show, .attributes = 5, .varyings = 1, .reads = 1, .reads_position = true, .colors = 1,
+LOM_SHADER(values, place, show, .attributes = 5, .varyings = 1, .reads = 1u << 0, .reads_position = true, .colors = 1,
            .uniforms_size = 32)
 
 static const float plus[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };

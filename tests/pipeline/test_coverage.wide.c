@@ -35,8 +35,8 @@ static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms
 
 LOM_SHADER(counter, place, count, .attributes = 2, .varyings = 2, .colors = 1, .uniforms_size = 32)
 LOM_SHADER(clipped, place, count, .attributes = 4, .varyings = 2, .clip_distances = 8, .colors = 1, .uniforms_size = 32)
-LOM_SHADER(values, place, show, .attributes = 2, .varyings = 2, .reads = 3, .reads_position = true, .colors = 1,
-           .uniforms_size = 32)
+LOM_SHADER(values, place, show, .attributes = 2, .varyings = 2, .reads = LOM_VARYINGS(0, 2), .reads_position = true,
+           .colors = 1, .uniforms_size = 32)
 
 static const float plus[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };
 

@@ -33,9 +33,9 @@ static void write_depth(lom_fragment *out, const lom_varyings *in, const void *u
 }
 
 LOM_SHADER(counter, place, add_one, .attributes = 1, .colors = 1)
-LOM_SHADER(writer, place, write_depth, .attributes = 2, .varyings = 1, .reads = 1, .writes_depth = true, .colors = 1,
-           .uniforms_size = sizeof(struct settings))
-LOM_SHADER(numbers, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(writer, place, write_depth, .attributes = 2, .varyings = 1, .reads = 1u << 0, .writes_depth = true,
+           .colors = 1, .uniforms_size = sizeof(struct settings))
+LOM_SHADER(numbers, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 LOM_DEPTH_SHADER(depth_only, place, .attributes = 1)
 
 static const lom_format formats[] = { LOM_FORMAT_DEPTH16, LOM_FORMAT_DEPTH24, LOM_FORMAT_DEPTH32F };

@@ -5,7 +5,7 @@
 #include "pipeline/device.h"
 #include "stage.h"
 
-LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 
 static vertex corners[12];
 

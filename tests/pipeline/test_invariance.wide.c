@@ -52,10 +52,12 @@ static void constant(lom_fragment *out, const lom_varyings *in, const void *unif
     out->color[0] = (lom_float4){ lom_splat(0.125f), lom_splat(0.25f), lom_splat(0.5f), lom_splat(0.75f) };
 }
 
-LOM_SHADER(opaque, place, show, .attributes = 4, .varyings = 8, .clip_distances = 1, .reads = 15, .colors = 1)
-LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 8, .clip_distances = 1, .reads = 0x1f,
-           .differentiates = 3, .flat = 16, .reads_position = true, .discards = true, .colors = 1)
-LOM_SHADER(in_quads, place, show_quads, .attributes = 4, .varyings = 8, .reads = 3, .quads = true,
+LOM_SHADER(opaque, place, show, .attributes = 4, .varyings = 8, .clip_distances = 1, .reads = LOM_VARYINGS(0, 4),
+           .colors = 1)
+LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 8, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, 5), .differentiates = LOM_VARYINGS(0, 2), .flat = 1u << 4, .reads_position = true,
+           .discards = true, .colors = 1)
+LOM_SHADER(in_quads, place, show_quads, .attributes = 4, .varyings = 8, .reads = LOM_VARYINGS(0, 2), .quads = true,
            .reads_position = true, .writes_depth = true, .colors = 1)
 LOM_SHADER(uniform_color, place, constant, .attributes = 4, .varyings = 8, .colors = 1)
 

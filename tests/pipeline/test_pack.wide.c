@@ -21,10 +21,12 @@ static void show_all(lom_fragment *out, const lom_varyings *in, const void *unif
     out->discard = in->varying[2] > 0.7f;
 }
 
-LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
-LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 5, .clip_distances = 1, .reads = 0x1f,
-           .differentiates = 2, .flat = 16, .reads_position = true, .discards = true, .colors = 1)
-LOM_SHADER(early, place, show_values, .attributes = 4, .varyings = 5, .clip_distances = 1, .reads = 15, .colors = 1)
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
+LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 5, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, 5), .differentiates = 1u << 1, .flat = 1u << 4, .reads_position = true,
+           .discards = true, .colors = 1)
+LOM_SHADER(early, place, show_values, .attributes = 4, .varyings = 5, .clip_distances = 1, .reads = LOM_VARYINGS(0, 4),
+           .colors = 1)
 LOM_DEPTH_SHADER(depth_only, place_values, .attributes = 2, .varyings = 4)
 
 static vertex vertices[3 * TRIANGLES];

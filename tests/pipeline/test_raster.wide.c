@@ -23,7 +23,7 @@ static void add_one(lom_fragment *out, const lom_varyings *in, const void *unifo
 
 LOM_SHADER(counter, place_values, count, .attributes = 1, .colors = 1)
 LOM_SHADER(whole_counter, place_values, add_one, .attributes = 1, .colors = 1)
-LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 
 static vertex vertices[3 * 65536];
 

@@ -3,7 +3,7 @@
 #include "render/entities/shaders.h"
 #include "shading/phong.h"
 
-enum { OFFSET = 0, NORMAL = 3, UV = 6, COLOR = 8, TEXTURED = 8, HIGHLIGHT = 11 };
+enum { OFFSET = 0, NORMAL = 3, UV = 6, COLOR = 8, VARYINGS = 11, TEXTURED = 8, HIGHLIGHT = 11, LIT_VARYINGS = 14 };
 
 struct corner {
     lom_float3 offset, normal;
@@ -97,13 +97,15 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
     finish(out, in, uniforms, load3(in, TEXTURED), load3(in, HIGHLIGHT));
 }
 
-LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1,
-           .reads = 0x7ff, .differentiates = 3 << UV, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
-LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = 11, .clip_distances = 1, .reads = 0x7ff,
-           .differentiates = 3 << UV | 7 << OFFSET, .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
-LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .varyings = 14, .clip_distances = 1,
-           .reads = 0x3f00 | 3 << UV | 7 << OFFSET, .differentiates = 3 << UV, .colors = 1,
+LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1,
            .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3),
+           .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .varyings = LIT_VARYINGS,
+           .clip_distances = 1, .reads = LOM_VARYINGS(TEXTURED, 6) | LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3),
+           .differentiates = LOM_VARYINGS(UV, 2), .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 
 static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {

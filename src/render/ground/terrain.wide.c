@@ -3,7 +3,7 @@
 #include "render/ground/shaders.h"
 #include "shading/phong.h"
 
-enum { OFFSET = 0, TEXTURED = 3, HIGHLIGHT = 6 };
+enum { OFFSET = 0, VARYINGS = 3, TEXTURED = 3, HIGHLIGHT = 6, LIT_VARYINGS = 9 };
 
 /* What the texture of vertices says of a place. */
 struct ground {
@@ -181,12 +181,12 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
     finish(out, in, terrain, (struct lom_lit){ load3(in, TEXTURED), load3(in, HIGHLIGHT) }, &g);
 }
 
-LOM_SHADER(lom_terrain_phong, vertex, phong_fragment, .attributes = 1, .varyings = 3, .clip_distances = 1,
-           .reads = 7 << OFFSET, .differentiates = 7 << OFFSET, .colors = 1,
+LOM_SHADER(lom_terrain_phong, vertex, phong_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
-LOM_SHADER(lom_terrain_flat, vertex, flat_fragment, .attributes = 1, .varyings = 3, .clip_distances = 1,
-           .reads = 7 << OFFSET, .differentiates = 7 << OFFSET, .colors = 1,
+LOM_SHADER(lom_terrain_flat, vertex, flat_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
-LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 1, .varyings = 9, .clip_distances = 1,
-           .reads = 0x1ff, .differentiates = 7 << OFFSET, .colors = 1,
-           .uniforms_size = sizeof(struct lom_terrain_uniforms))
+LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 1, .varyings = LIT_VARYINGS,
+           .clip_distances = 1, .reads = LOM_VARYINGS(0, LIT_VARYINGS), .differentiates = LOM_VARYINGS(OFFSET, 3),
+           .colors = 1, .uniforms_size = sizeof(struct lom_terrain_uniforms))
