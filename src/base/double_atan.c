@@ -1,5 +1,5 @@
-/* asin, acos, atan, atan2 in double. In: any doubles; out: within 1 ulp (0.52).
- * Invariant: the same bits on every machine (double_parts.h).
+/* asin, acos, atan, atan2 in double. In: any doubles; out: within 1 ulp (0.52). Invariant: the same bits on every
+ * machine (double_parts.h).
  *
  * All four are the angle of a point (d, n), 0 <= n <= d, in pairs: with c = i/16 the nearest to n/d,
  * atan(n/d) = atan c + atan t, t = (n - c d)/(d + c n), |t| <= 1/32 (the addition theorem); atan c comes from a table

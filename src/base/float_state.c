@@ -3,9 +3,8 @@
  * bit what was there.
  *
  * x86-64: MXCSR and, because libc looks at its rounding mode, the x87 control word (Intel SDM 1, 10.2.3 and 8.1.5:
- * defaults 0x1f80 and 0x37f). AArch64: FPCR and
- * FPSR (Arm ARM, C5.2.8; 0 is the default of both). Elsewhere C's fenv.h. The two functions are never inlined, so that
- * no arithmetic of the caller crosses them. */
+ * defaults 0x1f80 and 0x37f). AArch64: FPCR and FPSR (Arm ARM, C5.2.8; 0 is the default of both). Elsewhere C's fenv.h.
+ * The two functions are never inlined, so that no arithmetic of the caller crosses them. */
 #include <lom/base.h>
 
 #if defined __x86_64__

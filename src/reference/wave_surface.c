@@ -1,7 +1,7 @@
 /* A surface with waves in double. In: the sea, or the wave vectors, amplitudes and phases that the water stands for,
  * surf and shallow water. Out: its surface as triangles for rays, with exact normals. A point at rest at (x, z) is
- * displaced by
- * (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH 1986). */
+ * displaced by (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH
+ * 1986). */
 #include "base/numbers.h"
 #include "reference/wave_surface.h"
 

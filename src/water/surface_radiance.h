@@ -133,8 +133,7 @@ LOM_INLINE lom_float lom_clear_width(const struct lom_surface_uniforms *u, const
 }
 
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
- * one, at most `longest`. Where something nearer than the surface stands
- * there, the unbent ray answers. */
+ * one, at most `longest`. Where something nearer than the surface stands there, the unbent ray answers. */
 LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms *u,
                                                const struct lom_picture_uniform *picture,
                                                const struct lom_surface_point *p, lom_float3 d, lom_float longest)

@@ -1,9 +1,9 @@
 /* How shallow water flows along its lines. In: beds, depths and discharges; out: the same a step later. With t the
  * step, s the size of a cell, u the implicitness, and a face between cells L and R:
  *
- *   q' = (q - k (1 - u) e - k u e') / (1 + f t),  k = g H t / s,  e = surface of R less that of L,  f = friction
- * |q|/H^2 F  = (1 - u) q + u q'                         what flows through the face during the step d  = -(t / s) (F
- * right - F left)              by which the cell's surface rises
+ *   q' = (q - k (1 - u) e - k u e') / (1 + f t)   k = g H t / s, e = surface of R less that of L, f = friction |q|/H^2
+ *   F  = (1 - u) q + u q'                         what flows through the face during the step
+ *   d  = -(t / s) (F right - F left)              by which the cell's surface rises
  *
  * F is linear in the unknown d: F = F0 - B (d of R - d of L), B = u^2 k / (1 + f t). So d solves a tridiagonal system
  * that is diagonally dominant with negative off-diagonals at any t. It is solved for the rise and not for the surface:

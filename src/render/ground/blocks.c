@@ -1,6 +1,6 @@
 /* Terrain for drawing. In: a height map. Out: the vertices of every block at every level of detail, how far each level
- * is off, and a texture of normals and the sky's visibility.
- * Level n of a block has the vertices whose column and row within the block are multiples of 2^n or the last. */
+ * is off, and a texture of normals and the sky's visibility. Level n of a block has the vertices whose column and row
+ * within the block are multiples of 2^n or the last. */
 #include "base/numbers.h"
 #include "pipeline/check_device.h"
 #include "render/ground/ground.h"
