@@ -213,7 +213,6 @@ $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
 # The calls that tests/faults lets fail in turn.
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
-$(BUILD)/tests/faults/test_frame_allocations: private LDFLAGS += -Wl,--wrap=lom_reserve
 
 # Another system's answers.
 $(BUILD)/tests/base/test_cpu: private LDFLAGS += -Wl,--wrap=sysconf -Wl,--wrap=sched_getaffinity

@@ -1,4 +1,4 @@
-/* Growth by doubling. In: an array and how long it must be. Out: a longer copy. */
+/* Growth by doubling. In: an array and how long it must be. Out: a longer copy, or a longer array. */
 #include "base/reserve.h"
 
 #include <string.h>
@@ -22,4 +22,16 @@ bool lom_reserve(void *array, size_t *capacity, size_t needed, size_t size, lom_
     memcpy(array, &copy, sizeof copy);
     *capacity = larger;
     return true;
+}
+
+bool lom_renew(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error)
+{
+    if (needed <= *capacity)
+        return true;
+    void *items, *none = NULL;
+    memcpy(&items, array, sizeof items);
+    lom_release(items);
+    memcpy(array, &none, sizeof none);
+    *capacity = 0;
+    return lom_reserve(array, capacity, needed, size, error);
 }

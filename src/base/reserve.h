@@ -9,5 +9,8 @@
  * pointer to any type, which is NULL while *capacity is 0. False (and LOM_ERROR_MEMORY) without memory; the array and
  * *capacity are as before then. */
 bool lom_reserve(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error);
+/* The same for an array whose elements are of no use any more: where *capacity is less, it becomes `needed` zeros (at least
+ * 16). False without memory; the array is empty then. */
+bool lom_renew(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error);
 
 #endif

@@ -116,34 +116,40 @@ static void row_normals(const struct terrain *terrain, const double *upper, cons
     }
 }
 
+static void add(lom_vec3 *sum, const lom_vec3 *normal)
+{
+    sum->x += normal->x;
+    sum->y += normal->y;
+    sum->z += normal->z;
+}
+
 /* Adds the triangles of one row of quads that touch vertex i of its upper (side 0) or lower (side 1) row of vertices:
  * the first triangle of a quad is a, c, b and the second b, c, d. */
-static lom_vec3 add_normals(lom_vec3 sum, lom_vec3 (*normals)[2], int quads, int i, int side)
+static void add_normals(lom_vec3 *sum, const lom_vec3 (*normals)[2], int quads, int i, int side)
 {
     if (i > 0) { /* as b, or as d */
         if (side == 0)
-            sum = lom_vec3_add(sum, normals[i - 1][0]);
-        sum = lom_vec3_add(sum, normals[i - 1][1]);
+            add(sum, &normals[i - 1][0]);
+        add(sum, &normals[i - 1][1]);
     }
     if (i < quads) { /* as a, or as c */
-        sum = lom_vec3_add(sum, normals[i][0]);
+        add(sum, &normals[i][0]);
         if (side == 1)
-            sum = lom_vec3_add(sum, normals[i][1]);
+            add(sum, &normals[i][1]);
     }
-    return sum;
 }
 
-static void fill_row(const struct terrain *terrain, int j, const double *heights, lom_vec3 (*above)[2],
-                     lom_vec3 (*below)[2], lom_mesh_vertex *row)
+static void fill_row(const struct terrain *terrain, int j, const double *heights, const lom_vec3 (*above)[2],
+                     const lom_vec3 (*below)[2], lom_mesh_vertex *row)
 {
     int columns = terrain->map->width - 1, rows = terrain->map->height - 1;
     for (int i = 0; i <= columns; i++) {
         double u = (double)i / columns, v = (double)j / rows;
         lom_vec3 sum = { 0, 0, 0 };
         if (j > 0)
-            sum = add_normals(sum, above, columns, i, 1);
+            add_normals(&sum, above, columns, i, 1);
         if (j < rows)
-            sum = add_normals(sum, below, columns, i, 0);
+            add_normals(&sum, below, columns, i, 0);
         sum = lom_vec3_normalize(sum);
         row[i] = (lom_mesh_vertex){
             .position = { (float)((u - .5) * terrain->width), (float)heights[i], (float)((v - .5) * terrain->length) },
@@ -181,7 +187,7 @@ static bool visit_rows(const struct terrain *terrain, lom_terrain_row *visit, vo
         if (good && j + 1 < rows)
             row_normals(terrain, here, next, below);
         if (good) {
-            fill_row(terrain, j, here, above, below, row);
+            fill_row(terrain, j, here, (const lom_vec3(*)[2])above, (const lom_vec3(*)[2])below, row);
             visit(context, j, row);
         }
     }

@@ -1,15 +1,59 @@
 /* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
-#include "pipeline/stages.h"
+#include "pipeline/device.h"
 
 enum { GROUP = 16 }; /* triangles that are looked at together: a whole number of packets at every width */
 #define NO_VERTEX UINT32_MAX
 
+enum { PADDING = 16 }; /* rows: the vertex stage writes whole packets; as many hold the pieces of a triangle */
+
+static void raise_to(size_t *most, size_t needed, size_t part)
+{
+    if (needed > *most)
+        *most = needed + needed / part;
+}
+
+static size_t larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+/* A chunk keeps at most as many triangles as it has, and a few more of those that are cut; how many tiles they touch
+ * changes with every view, so there is room for half more. */
+void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const struct lom_chunk *chunk)
+{
+    enum { FEW = 64 };
+    size_t vertices = chunk->row_count + 2 * PADDING, tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    raise_to(&room->corners, 3 * chunk->count, FEW);
+    raise_to(&room->rows, vertices * (size_t)chunk->draw->row_floats, FEW);
+    raise_to(&room->vertices, vertices, FEW);
+    raise_to(&room->triangles, larger(chunk->count, chunk->triangle_count) + 1, FEW);
+    raise_to(&room->tiles, tiles + 2, FEW);
+    if (chunk->tile_count > 0)
+        raise_to(&room->listed, chunk->tile_first[chunk->tile_count], 2);
+}
+
+/* The arrays of a chunk that begins, as long at least as any before: frames that resemble those before them ask for no
+ * memory, whichever chunk has which triangles. */
+static bool make_room(const struct lom_room *room, struct lom_chunk *chunk)
+{
+    struct lom_assembly *assembly = chunk->assembly;
+    size_t needed = chunk->vertex_count + PADDING, vertices = larger(needed, room->vertices);
+    size_t rows = larger(needed * (size_t)chunk->draw->row_floats, room->rows);
+    return lom_renew(&chunk->rows, &chunk->rows_capacity, rows, sizeof(float), NULL) &&
+           lom_renew(&assembly->clip, &assembly->clip_capacity, vertices * 4, sizeof(float), NULL) &&
+           lom_renew(&assembly->codes, &assembly->codes_capacity, vertices, sizeof(uint16_t), NULL) &&
+           lom_renew(&chunk->triangles, &chunk->triangles_capacity, room->triangles, sizeof(lom_triangle), NULL) &&
+           lom_renew(&assembly->tile, &assembly->tile_capacity, room->triangles, sizeof(int32_t), NULL) &&
+           lom_renew(&chunk->tile_first, &chunk->tile_first_capacity, room->tiles, sizeof(uint32_t), NULL) &&
+           lom_renew(&chunk->tile_list, &chunk->tile_list_capacity, room->listed, sizeof(uint32_t), NULL);
+}
+
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
 {
     struct lom_assembly *assembly = chunk->assembly;
-    size_t padded = rows + 16; /* the vertex stage writes whole packets */
+    size_t padded = rows + PADDING;
     if (!lom_reserve(&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats, sizeof(float),
                      NULL) ||
         !lom_reserve(&assembly->clip, &assembly->clip_capacity, padded * 4, sizeof(float), NULL) ||
@@ -130,10 +174,11 @@ static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high
 }
 
 /* A list with a vertex for each corner, for triangles that are scattered over many vertices. */
-static bool list_vertices(struct lom_chunk *chunk)
+static bool list_vertices(const struct lom_room *room, struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_reserve(&assembly->vertex_list, &assembly->vertex_list_capacity, 3 * chunk->count, sizeof(uint32_t), NULL))
+    if (!lom_renew(&assembly->vertex_list, &assembly->vertex_list_capacity, larger(3 * chunk->count, room->corners),
+                   sizeof(uint32_t), NULL))
         return false;
     chunk->vertex_count = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
@@ -157,12 +202,13 @@ static void rebase_corners(struct lom_chunk *chunk)
 }
 
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
-static bool choose_vertices(struct lom_chunk *chunk)
+static bool choose_vertices(const struct lom_room *room, struct lom_chunk *chunk)
 {
     uint32_t low, high;
     struct lom_assembly *assembly = chunk->assembly;
     size_t corners = 3 * chunk->count;
-    if (!lom_reserve(&assembly->corners, &assembly->corners_capacity, corners, sizeof(uint32_t), NULL))
+    if (!lom_renew(&assembly->corners, &assembly->corners_capacity, larger(corners, room->corners), sizeof(uint32_t),
+                   NULL))
         return false;
     chunk->has_gaps = false;
     const uint32_t *plain = find_plain_indices(chunk, &low, &high);
@@ -177,7 +223,7 @@ static bool choose_vertices(struct lom_chunk *chunk)
         lom_stages_of(chunk->draw->variant)->rebase_indices(plain, corners, chunk->listed ? 0 : low, assembly->corners);
     else if (!chunk->listed)
         rebase_corners(chunk);
-    return !chunk->listed || list_vertices(chunk);
+    return !chunk->listed || list_vertices(room, chunk);
 }
 
 struct group { /* triangles on their way to set-up */
@@ -287,8 +333,9 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->any_code = 0;
     chunk->tile_count = 0;
     bool sprites = chunk->draw->desc.topology == LOM_SPRITES;
-    chunk->failed = !(sprites ? lom_choose_sprites(chunk) : choose_vertices(chunk)) ||
-                    !lom_reserve_rows(chunk, chunk->vertex_count);
+    const struct lom_room *room = &pass->device->room;
+    chunk->failed =
+        !(sprites ? lom_choose_sprites(room, chunk) : choose_vertices(room, chunk)) || !make_room(room, chunk);
     if (chunk->failed)
         return;
     chunk->row_count = chunk->vertex_count;

@@ -20,6 +20,7 @@ struct lom_device {
     struct lom_tile *worker_tiles;   /* one for each worker */
     struct lom_assembly *assemblies; /* likewise */
     struct lom_chunk *chunks;        /* desc.batch of them */
+    struct lom_room room;            /* of the batches before this one */
     uint8_t *tile_memory, *tile_touched;
     size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;

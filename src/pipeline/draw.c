@@ -115,9 +115,16 @@ static size_t count_triangles(const lom_draw_desc *desc)
     return desc->count < 3 ? 0 : desc->count - 2;
 }
 
+/* A draw whose uniforms are those of the draw before it shares their copy. */
 static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
 {
     size_t size = draw->desc.shader->uniforms_size;
+    const struct lom_draw *before = draw > device->draws ? draw - 1 : NULL;
+    if (before != NULL && size != 0 && before->desc.shader->uniforms_size == size &&
+        memcmp(device->uniforms + before->uniforms_offset, draw->desc.uniforms, size) == 0) {
+        draw->uniforms_offset = before->uniforms_offset;
+        return true;
+    }
     size_t offset = (device->uniforms_size + 63) & ~(size_t)63;
     if (!lom_reserve(&device->uniforms, &device->uniforms_capacity, offset + size, 1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw's uniforms.");

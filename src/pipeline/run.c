@@ -145,6 +145,7 @@ static bool run_batch(lom_device *device)
         if (chunk->failed)
             return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw of %s.",
                             chunk->draw->desc.shader->name);
+        lom_raise_room(&device->room, pass, chunk);
         device->counters.vertices += chunk->vertex_count;
         device->counters.triangles += chunk->count;
         device->counters.triangles_clipped += chunk->triangles_clipped;

@@ -20,13 +20,14 @@ static bool find_number(const struct lom_chunk *chunk, size_t i, uint32_t *numbe
     return vertex >= 0 && vertex < (int64_t)desc->vertex_count;
 }
 
-bool lom_choose_sprites(struct lom_chunk *chunk)
+bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
     chunk->vertex_base = 0;
     chunk->vertex_count = 0;
     chunk->listed = true;
-    if (!lom_reserve(&assembly->vertex_list, &assembly->vertex_list_capacity, chunk->count, sizeof(uint32_t), NULL))
+    size_t count = room->corners > chunk->count ? room->corners : chunk->count;
+    if (!lom_renew(&assembly->vertex_list, &assembly->vertex_list_capacity, count, sizeof(uint32_t), NULL))
         return false;
     for (size_t i = 0; i < chunk->count; i++)
         chunk->vertex_count += find_number(chunk, i, &assembly->vertex_list[chunk->vertex_count]);

@@ -141,6 +141,11 @@ struct lom_assembly {
     size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity, tile_capacity; /* in elements */
 };
 
+/* The most elements that an array of a chunk or of its assembly has needed in the batches before, and a part more. */
+struct lom_room {
+    size_t corners, rows, vertices, triangles, tiles, listed;
+};
+
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
 struct lom_chunk {
     const struct lom_draw *draw;
@@ -320,6 +325,8 @@ LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
 
 /* Room for `rows` vertex rows in the chunk (rows, clip, codes). */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
+/* Raises room to what the chunk has needed. */
+void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const struct lom_chunk *chunk);
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly);
@@ -329,7 +336,7 @@ enum { LOM_MAX_FAN = 10 };
 int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
                       uint32_t fan[LOM_MAX_FAN][3]);
 /* Stages 1 and 3 of a chunk of sprites: which vertices it needs; a record for each that may cover a pixel centre. */
-bool lom_choose_sprites(struct lom_chunk *chunk);
+bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk);
 void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk);
 /* Stage 4: sorts the chunk's triangles into its bins. */
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);

@@ -38,6 +38,22 @@ static void what_is_there_is_not_moved(void)
     lom_release(text);
 }
 
+static void what_is_renewed_is_zero_and_as_long_as_was_asked(void)
+{
+    char *text = NULL;
+    size_t capacity = 0;
+    CHECK(lom_renew(&text, &capacity, 100, 1, NULL) && capacity == 100, "room for %zu, not 100", capacity);
+    memset(text, 'x', 100);
+    CHECK(lom_renew(&text, &capacity, 100, 1, NULL) && text[99] == 'x', "an array that is long enough was renewed");
+    CHECK(lom_renew(&text, &capacity, 101, 1, NULL) && capacity == 101, "room for %zu, not 101", capacity);
+    for (int i = 0; i < 101; i++)
+        CHECK(text[i] == 0, "element %d is not zero", i);
+    lom_error error = { 0 };
+    CHECK(!lom_renew(&text, &capacity, SIZE_MAX, 1, &error) && error.code == LOM_ERROR_MEMORY && error.text[0] != 0,
+          "an array beyond memory");
+    CHECK(text == NULL && capacity == 0, "the array that was given up is still there");
+}
+
 static void what_cannot_be_had_is_an_error(void)
 {
     uint64_t *array = NULL;
@@ -60,6 +76,7 @@ int main(int argc, char **argv)
 {
     RUN(elements_stay_and_zeros_follow);
     RUN(what_is_there_is_not_moved);
+    RUN(what_is_renewed_is_zero_and_as_long_as_was_asked);
     RUN(what_cannot_be_had_is_an_error);
     return check_result();
 }

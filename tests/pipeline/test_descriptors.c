@@ -241,7 +241,7 @@ static void shaders_declare_what_a_shader_may_have(void)
                   { .clips = LOM_MAX_DISTANCES, .culls = 1 },
                   { .colors = -1 },
                   { .colors = LOM_MAX_COLORS + 1 },
-                  { .varyings = 2, .reads = 1, .differentiates = 2 },
+                  { .varyings = 2, .reads = 1u << 0, .differentiates = 1u << 1 },
                   { .uniforms_size = 4 } };
     lom_error error;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {

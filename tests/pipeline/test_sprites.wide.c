@@ -44,17 +44,17 @@ static void show_some(lom_fragment *out, const lom_varyings *in, const void *uni
     out->discard = in->st[0] * in->st[1] > 0.25f;
 }
 
-LOM_SHADER(sprite, place, show, .attributes = 4, .varyings = 4, .reads = 15, .reads_position = true, .colors = 1,
-           .sprites = true)
-LOM_SHADER(disc, place, show, .attributes = 4, .varyings = 4, .reads = 15, .reads_position = true, .colors = 1,
-           .sprites = true, .round = true)
-LOM_SHADER(holed, place, show_some, .attributes = 4, .varyings = 4, .reads = 15, .reads_position = true, .colors = 1,
-           .sprites = true, .discards = true)
-LOM_SHADER(soft, place, show_behind, .attributes = 4, .varyings = 4, .reads = 15, .reads_position = true, .colors = 1,
-           .sprites = true, .reads_depth = true)
-LOM_SHADER(ground, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
-LOM_SHADER(wrong, place, show, .attributes = 4, .varyings = 4, .reads = 15, .differentiates = 1, .colors = 1,
-           .sprites = true)
+LOM_SHADER(sprite, place, show, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .reads_position = true,
+           .colors = 1, .sprites = true)
+LOM_SHADER(disc, place, show, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .reads_position = true,
+           .colors = 1, .sprites = true, .round = true)
+LOM_SHADER(holed, place, show_some, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .reads_position = true,
+           .colors = 1, .sprites = true, .discards = true)
+LOM_SHADER(soft, place, show_behind, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .reads_position = true, .colors = 1, .sprites = true, .reads_depth = true)
+LOM_SHADER(ground, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
+LOM_SHADER(wrong, place, show, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .differentiates = 1u << 0,
+           .colors = 1, .sprites = true)
 
 static vertex sprites[SPRITES];
 static uint32_t order[SPRITES];

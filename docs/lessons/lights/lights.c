@@ -55,7 +55,7 @@ static void paint(lom_fragment *out, const lom_varyings *in, const void *uniform
     out->color[0] = (lom_float4){ sum.x, sum.y, sum.z, lom_splat(1) };
 }
 
-LOM_SHADER(lesson_lights, place, paint, .attributes = 2, .varyings = VARYINGS, .reads = (1 << VARYINGS) - 1,
+LOM_SHADER(lesson_lights, place, paint, .attributes = 2, .varyings = VARYINGS, .reads = LOM_VARYINGS(0, VARYINGS),
            .colors = 1, .uniforms_size = sizeof(struct uniforms))
 
 static bool draw_terms(lom_device *device, lom_texture *picture, const lom_mesh *torus)

@@ -37,7 +37,7 @@ static void paint(lom_fragment *out, const lom_varyings *in, const void *uniform
         out->color[0] = (lom_float4){ 0.5f + 0.5f * n.x, 0.5f + 0.5f * n.y, 0.5f + 0.5f * n.z, one };
 }
 
-LOM_SHADER(lesson_normals, place, paint, .attributes = 2, .varyings = VARYINGS, .reads = (1 << VARYINGS) - 1,
+LOM_SHADER(lesson_normals, place, paint, .attributes = 2, .varyings = VARYINGS, .reads = LOM_VARYINGS(0, VARYINGS),
            .colors = 1, .uniforms_size = sizeof(struct uniforms))
 
 static void draw_sphere(lom_device *device, const lom_mesh *sphere, bool inverse_transpose, bool shows_normals)

@@ -50,8 +50,8 @@ static void paint_outlines(lom_fragment *out, const lom_varyings *in, const void
     out->color[0] = (lom_float4){ tone.x * keep, tone.y * keep, tone.z * keep, lom_splat(1) };
 }
 
-LOM_SHADER(lesson_stage_tones, place, paint_tones, .attributes = 2, .varyings = 3, .reads = 7, .colors = 2,
-           .uniforms_size = sizeof(struct uniforms))
+LOM_SHADER(lesson_stage_tones, place, paint_tones, .attributes = 2, .varyings = 3, .reads = LOM_VARYINGS(0, 3),
+           .colors = 2, .uniforms_size = sizeof(struct uniforms))
 LOM_SHADER(lesson_stage, place, paint_outlines, .attributes = 2, .varyings = 3, .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct uniforms))
 

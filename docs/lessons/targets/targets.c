@@ -43,8 +43,8 @@ static void paint_mirror(lom_fragment *out, const lom_varyings *in, const void *
     out->color[0] = (lom_float4){ seen.x * 0.7f, seen.y * 0.8f, seen.z * 0.85f, lom_splat(1) };
 }
 
-LOM_SHADER(lesson_targets, place, paint, .attributes = 2, .varyings = 3, .clip_distances = 1, .reads = 7, .colors = 1,
-           .uniforms_size = sizeof(struct uniforms))
+LOM_SHADER(lesson_targets, place, paint, .attributes = 2, .varyings = 3, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, 3), .colors = 1, .uniforms_size = sizeof(struct uniforms))
 LOM_SHADER(lesson_targets_mirror, place, paint_mirror, .attributes = 2, .varyings = 3, .clip_distances = 1, .colors = 1,
            .reads_position = true, .uniforms_size = sizeof(struct uniforms))
 

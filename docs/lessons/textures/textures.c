@@ -30,8 +30,8 @@ static void paint(lom_fragment *out, const lom_varyings *in, const void *uniform
     out->color[0] = lom_sample(u->texture, in->varying[S], in->varying[T], lod);
 }
 
-LOM_SHADER(lesson_textures, place, paint, .attributes = 1, .varyings = 2, .reads = 1 << S | 1 << T,
-           .differentiates = 1 << S | 1 << T, .colors = 1, .uniforms_size = sizeof(struct uniforms))
+LOM_SHADER(lesson_textures, place, paint, .attributes = 1, .varyings = 2, .reads = 1u << S | 1u << T,
+           .differentiates = 1u << S | 1u << T, .colors = 1, .uniforms_size = sizeof(struct uniforms))
 
 /* Two light and two dark tiles with a thin seam around each. */
 static void make_pattern(uint8_t pixels[SIZE * SIZE][4])

@@ -61,9 +61,9 @@ static void paint_water(lom_fragment *out, const lom_varyings *in, const void *u
 }
 
 LOM_SHADER(lesson_water_stone, place, paint, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
-           .reads = (1 << VARYINGS) - 1, .colors = 1, .uniforms_size = sizeof(struct uniforms))
-LOM_SHADER(lesson_water, place, paint_water, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1, .reads = 7,
-           .colors = 1, .reads_position = true, .uniforms_size = sizeof(struct uniforms))
+           .reads = LOM_VARYINGS(0, VARYINGS), .colors = 1, .uniforms_size = sizeof(struct uniforms))
+LOM_SHADER(lesson_water, place, paint_water, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, 3), .colors = 1, .reads_position = true, .uniforms_size = sizeof(struct uniforms))
 
 static void draw(lom_device *device, const lom_mesh *mesh, int thing, struct uniforms u)
 {
