@@ -1,5 +1,6 @@
 /* TOML: a whole document, and the KEY=VALUE of an override. In: text. Out: the root table. Invariant: a header opens
  * a table that nothing defined before (TOML 1.0, "Table" and "Array of Tables"). */
+#include "base/utf8.h"
 #include "scene/toml/toml_parser.h"
 
 #include <stdarg.h>
@@ -26,7 +27,7 @@ void lom_toml_place(const lom_toml_source *source, size_t offset, size_t *line, 
 static void make_printable(char *text)
 {
     for (size_t left = strlen(text); left > 0;) {
-        size_t length = lom_toml_utf8_length((const unsigned char *)text, left);
+        size_t length = lom_utf8_length((const unsigned char *)text, left);
         if (length == 0 || (unsigned char)*text < 0x20 || *text == 0x7f)
             *text = '?';
         length += length == 0;

@@ -25,8 +25,6 @@ static inline int lom_toml_peek(const lom_toml_parser *parser, size_t ahead)
     lom_toml_fail((parser)->source, offset, LOM_ERROR_INPUT, (parser)->error, __VA_ARGS__)
 
 /* toml_text.c */
-/* Length of the UTF-8 character at text, 0 when it is malformed or longer than left. */
-size_t lom_toml_utf8_length(const unsigned char *text, size_t left);
 bool lom_toml_check_utf8(lom_toml_parser *parser);
 void lom_toml_skip_blanks(lom_toml_parser *parser);
 /* Skips blanks, comments and newlines; false when a comment or a newline is malformed. */

@@ -1,38 +1,16 @@
 /* TOML: characters, comments, line ends and strings. In: bytes at the parser's position. Out: checked text, UTF-8
  * without escapes. Invariant: what was accepted is valid UTF-8 and holds no control character that TOML forbids. */
+#include "base/utf8.h"
 #include "scene/toml/toml_parser.h"
 
 #include <string.h>
-
-/* Well-formed sequences: Unicode 15, table 3-7. */
-size_t lom_toml_utf8_length(const unsigned char *text, size_t left)
-{
-    static const struct {
-        unsigned char first, last, low, high, length;
-    } rows[] = { { 0x00, 0x7f, 0, 0, 1 },       { 0xc2, 0xdf, 0x80, 0xbf, 2 }, { 0xe0, 0xe0, 0xa0, 0xbf, 3 },
-                 { 0xe1, 0xec, 0x80, 0xbf, 3 }, { 0xed, 0xed, 0x80, 0x9f, 3 }, { 0xee, 0xef, 0x80, 0xbf, 3 },
-                 { 0xf0, 0xf0, 0x90, 0xbf, 4 }, { 0xf1, 0xf3, 0x80, 0xbf, 4 }, { 0xf4, 0xf4, 0x80, 0x8f, 4 } };
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        if (text[0] < rows[r].first || text[0] > rows[r].last)
-            continue;
-        if (rows[r].length > left)
-            return 0;
-        for (size_t i = 1; i < rows[r].length; i++) {
-            unsigned low = i == 1 ? rows[r].low : 0x80, high = i == 1 ? rows[r].high : 0xbf;
-            if (text[i] < low || text[i] > high)
-                return 0;
-        }
-        return rows[r].length;
-    }
-    return 0;
-}
 
 bool lom_toml_check_utf8(lom_toml_parser *parser)
 {
     const unsigned char *text = (const unsigned char *)parser->source->text;
     size_t size = parser->source->size;
     for (size_t at = 0; at < size;) {
-        size_t length = lom_toml_utf8_length(text + at, size - at);
+        size_t length = lom_utf8_length(text + at, size - at);
         if (length == 0)
             return LOM_TOML_ERROR(parser, at, "the byte 0x%02x is not UTF-8 here.", (unsigned)text[at]);
         at += length;
