@@ -41,11 +41,12 @@ static bool make_room(const struct lom_room *room, struct lom_chunk *chunk)
     struct lom_assembly *assembly = chunk->assembly;
     size_t needed = chunk->vertex_count + PADDING, vertices = larger(needed, room->vertices);
     size_t rows = larger(needed * (size_t)chunk->draw->row_floats, room->rows);
+    size_t triangles = larger(chunk->count + 1, room->triangles);
     return lom_renew(&chunk->rows, &chunk->rows_capacity, rows, sizeof(float), NULL) &&
            lom_renew(&assembly->clip, &assembly->clip_capacity, vertices * 4, sizeof(float), NULL) &&
            lom_renew(&assembly->codes, &assembly->codes_capacity, vertices, sizeof(uint16_t), NULL) &&
-           lom_renew(&chunk->triangles, &chunk->triangles_capacity, room->triangles, sizeof(lom_triangle), NULL) &&
-           lom_renew(&assembly->tile, &assembly->tile_capacity, room->triangles, sizeof(int32_t), NULL) &&
+           lom_renew(&chunk->triangles, &chunk->triangles_capacity, triangles, sizeof(lom_triangle), NULL) &&
+           lom_renew(&assembly->tile, &assembly->tile_capacity, triangles, sizeof(int32_t), NULL) &&
            lom_renew(&chunk->tile_first, &chunk->tile_first_capacity, room->tiles, sizeof(uint32_t), NULL) &&
            lom_renew(&chunk->tile_list, &chunk->tile_list_capacity, room->listed, sizeof(uint32_t), NULL);
 }
