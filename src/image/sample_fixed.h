@@ -57,15 +57,31 @@ LOM_INLINE sample_pairs sample_square_pairs(const lom_texture *texture, lom_stor
     return sample_mix_pairs(sample_mix_pairs(a, b, s), sample_mix_pairs(c, d, s), t);
 }
 
+/* As sample_square_apart. */
+__attribute__((noinline, unused)) static void sample_square_pairs_apart(const lom_texture *texture, lom_storage storage,
+                                                                        bool srgb, const lom_int *index,
+                                                                        const sample_footprint *print,
+                                                                        sample_pairs *out)
+{
+    lom_pairs s = lom_weight_pairs(print->s), t = lom_weight_pairs(print->t);
+    if (storage == LOM_STORAGE_RGBA32F)
+        *out = sample_square_pairs(texture, LOM_STORAGE_RGBA32F, true, *index, print->pitch, s, t);
+    else
+        *out = srgb ? sample_square_pairs(texture, LOM_STORAGE_RGBA8, true, *index, print->pitch, s, t)
+                    : sample_square_pairs(texture, LOM_STORAGE_RGBA8, false, *index, print->pitch, s, t);
+}
+
 LOM_INLINE sample_pairs sample_level_pairs(const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
                                            bool srgb, const sample_point *point, const sample_place *place)
 {
     sample_footprint print = sample_footprint_of(texture, kind, point, place);
-    lom_pairs s = lom_weight_pairs(print.s), t = lom_weight_pairs(print.t);
-    sample_pairs front = sample_square_pairs(texture, storage, srgb, print.index, print.pitch, s, t);
     if (kind != LOM_TEXTURE_3D)
-        return front;
-    sample_pairs back = sample_square_pairs(texture, storage, srgb, print.index + print.slice, print.pitch, s, t);
+        return sample_square_pairs(texture, storage, srgb, print.index, print.pitch, lom_weight_pairs(print.s),
+                                   lom_weight_pairs(print.t));
+    sample_pairs front, back;
+    lom_int behind = print.index + print.slice;
+    sample_square_pairs_apart(texture, storage, srgb, &print.index, &print, &front);
+    sample_square_pairs_apart(texture, storage, srgb, &behind, &print, &back);
     return sample_mix_pairs(front, back, lom_weight_pairs(print.r));
 }
 

@@ -172,16 +172,34 @@ LOM_INLINE lom_float4 sample_square(const lom_texture *texture, lom_storage stor
     return sample_mix(storage, sample_mix(storage, a, b, print->s), sample_mix(storage, c, d, print->s), print->t);
 }
 
+/* The same as a function of its own, of storages chosen while it runs: 3D textures call it up to four times a sample, and
+ * written out for each they would be 150 kB more of the program (bench/results/limits.md). */
+__attribute__((noinline, unused)) static void sample_square_apart(const lom_texture *texture, lom_storage storage,
+                                                                  bool srgb, const lom_int *index,
+                                                                  const sample_footprint *print, lom_float4 *out)
+{
+    if (storage == LOM_STORAGE_R32F)
+        *out = sample_square(texture, LOM_STORAGE_R32F, false, *index, print);
+    else if (storage == LOM_STORAGE_RGBA32F)
+        *out = srgb ? sample_square(texture, LOM_STORAGE_RGBA32F, true, *index, print)
+                    : sample_square(texture, LOM_STORAGE_RGBA32F, false, *index, print);
+    else
+        *out = srgb ? sample_square(texture, LOM_STORAGE_RGBA8, true, *index, print)
+                    : sample_square(texture, LOM_STORAGE_RGBA8, false, *index, print);
+}
+
 LOM_INLINE lom_float4 sample_level(const lom_texture *texture, lom_texture_kind kind, lom_storage storage, bool srgb,
                                    const sample_point *point, const sample_place *place)
 {
     sample_footprint print = sample_footprint_of(texture, kind, point, place);
     if (point->all_nearest)
         return sample_texel(texture, storage, srgb, print.index);
-    lom_float4 front = sample_square(texture, storage, srgb, print.index, &print);
     if (kind != LOM_TEXTURE_3D)
-        return front;
-    lom_float4 back = sample_square(texture, storage, srgb, print.index + print.slice, &print);
+        return sample_square(texture, storage, srgb, print.index, &print);
+    lom_float4 front, back;
+    lom_int behind = print.index + print.slice;
+    sample_square_apart(texture, storage, srgb, &print.index, &print, &front);
+    sample_square_apart(texture, storage, srgb, &behind, &print, &back);
     return sample_mix(storage, front, back, print.r);
 }
 
