@@ -71,28 +71,32 @@ static double far_corner(const double apex[2], const double quad[4])
     return lom_double_sqrt(x * x + z * z);
 }
 
+/* The triangles of a strip between two rings depend on the number of columns alone: those that are there stay. */
 static bool index_mesh(struct lom_polar_mesh *mesh, lom_error *error)
 {
-    size_t needed = (size_t)(mesh->rings - 1) * (size_t)(mesh->columns - 1) * 6, at = 0;
-    if (mesh->indexed_rings == mesh->rings && mesh->indexed_columns == mesh->columns)
-        return true;
+    size_t needed = (size_t)(mesh->rings - 1) * (size_t)(mesh->columns - 1) * 6;
+    if (mesh->indexed_columns != mesh->columns)
+        mesh->indexed_rings = 0;
     if (needed > mesh->index_capacity) {
+        size_t capacity = needed + needed / 16; /* waves of another moment may need some more */
         lom_release(mesh->indices);
         mesh->index_capacity = 0;
-        mesh->indices = lom_allocate(needed, sizeof *mesh->indices, error);
+        mesh->indexed_rings = 0;
+        mesh->indices = lom_allocate(capacity, sizeof *mesh->indices, error);
         if (mesh->indices == NULL)
             return false;
-        mesh->index_capacity = needed;
+        mesh->index_capacity = capacity;
     }
-    for (int r = 0; r + 1 < mesh->rings; r++)
-        for (int c = 0; c + 1 < mesh->columns; c++) {
+    int first = mesh->indexed_rings > 0 ? mesh->indexed_rings - 1 : 0;
+    uint32_t *to = mesh->indices + (size_t)first * (size_t)(mesh->columns - 1) * 6;
+    for (int r = first; r + 1 < mesh->rings; r++)
+        for (int c = 0; c + 1 < mesh->columns; c++, to += 6) {
             uint32_t a = (uint32_t)(r * mesh->columns + c), b = a + 1, d = a + (uint32_t)mesh->columns, e = d + 1;
             const uint32_t quad[6] = { a, d, b, b, d, e };
-            for (int k = 0; k < 6; k++)
-                mesh->indices[at++] = quad[k];
+            memcpy(to, quad, sizeof quad);
         }
     mesh->index_count = needed;
-    mesh->indexed_rings = mesh->rings;
+    mesh->indexed_rings = mesh->rings > mesh->indexed_rings ? mesh->rings : mesh->indexed_rings;
     mesh->indexed_columns = mesh->columns;
     return true;
 }

@@ -198,6 +198,36 @@ static void the_mesh_closes_and_reaches_the_corners(void)
     lom_free_polar_mesh(&mesh);
 }
 
+/* Waves grow and fall, and cells change: what is kept of the mesh of the frame before shows nowhere. */
+static void a_mesh_is_that_of_its_frame_alone(void)
+{
+    static const double heights[] = { 1, 0.2, 3, 3.1, 0.2, 2, 2 }, cells[] = { 6, 6, 6, 6, 9, 9, 6 };
+    const lom_vec3 eye = { 0, 3, 0 }, target = { 1, 3, 0 };
+    struct lom_polar_mesh kept = { .rings = 0 };
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++) {
+        struct lom_polar_mesh_desc desc = { .projection = lom_perspective(0.8, 1.6, 0.1),
+                                            .view = lom_look_at(eye, target, (lom_vec3){ 0, 1, 0 }),
+                                            .level = -eye.y,
+                                            .near_plane = 0.1,
+                                            .lowest = -heights[i],
+                                            .highest = heights[i],
+                                            .quad = { -500, -500, 500, 500 },
+                                            .cell = cells[i],
+                                            .pixel_angle = 0.001 };
+        struct lom_polar_mesh alone = { .rings = 0 };
+        lom_error error = { 0 };
+        CHECK(lom_fill_polar_mesh(&kept, &desc, &error) && lom_fill_polar_mesh(&alone, &desc, &error), "%s",
+              error.text);
+        size_t indices = alone.index_count * sizeof *alone.indices;
+        CHECK(kept.index_count == alone.index_count && memcmp(kept.indices, alone.indices, indices) == 0 &&
+                  memcmp(kept.radius, alone.radius, (size_t)alone.rings * sizeof *alone.radius) == 0,
+              "mesh %zu: %d rings of %d after others, %d of %d alone", i, kept.rings, kept.columns, alone.rings,
+              alone.columns);
+        lom_free_polar_mesh(&alone);
+    }
+    lom_free_polar_mesh(&kept);
+}
+
 int main(int argc, char **argv)
 {
     RUN(slopes_are_derivatives_of_the_displacement);
@@ -208,5 +238,6 @@ int main(int argc, char **argv)
     RUN(phases_are_exact_after_years);
     RUN(bounds_and_height_hold);
     RUN(the_mesh_closes_and_reaches_the_corners);
+    RUN(a_mesh_is_that_of_its_frame_alone);
     return check_result();
 }
