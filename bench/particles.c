@@ -80,8 +80,8 @@ int main(void)
                least[2]);
     }
     lom_release(room.particles);
-    lom_release(room.sprites.sprite);
-    lom_release(room.sprites.depth);
+    lom_release(room.sprites);
+    lom_release(room.depth);
     lom_release(room.order);
     lom_release(room.scratch);
     return 0;
