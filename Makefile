@@ -76,6 +76,9 @@ VARIANTS = $(ALL_VARIANTS)
 ifneq ($(VARIANTS),$(ALL_VARIANTS))
 CPPFLAGS += '-DLOM_EACH_VARIANT(X,name)=$(foreach v,$(VARIANTS),X(name,$v))'
 endif
+# The recorded variant says what it does to the pixels that are watched (include/lom/record.h) and draws nothing else.
+RECORDED          = 4_recorded
+FLAGS_4_recorded  = -DLOM_ALL_LANES -DLOM_LANES=4 -DLOM_VARIANT=4_recorded -DLOM_RECORD $(if $(filter 3,$(O)),-Os)
 FLAGS_4        = -DLOM_ALL_LANES -DLOM_LANES=4 -DLOM_VARIANT=4
 # Nobody waits for the lowered widths, which show on any CPU what the others draw, so they are compiled for size.
 LOWERED        = -DLOM_LOWERED $(if $(filter 3,$(O)),-Os)
@@ -103,9 +106,12 @@ cli_sources  := $(filter src/cli/%,$(sources))
 # What the program measures with is not in the library.
 measure_sources := $(filter src/measure/%,$(sources))
 wide_sources := $(filter %.wide.c,$(filter-out src/cli/% src/measure/%,$(sources)))
+# What no shader calls: no pixel is explained by it.
+unrecorded   := $(filter src/waves/fft% src/waves/sea_step% src/march/light_grid% src/cloud/detail_noise% src/cloud/shape%,$(wide_sources))
 lib_sources  := $(filter-out %.wide.c src/cli/% src/measure/%,$(sources))
 objects_of   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c,$(1))) $(foreach v,$(VARIANTS),$(patsubst %.wide.c,$(BUILD)/%.w$(v).o,$(filter %.wide.c,$(1))))
-lib_objects     := $(call objects_of,$(lib_sources) $(wide_sources))
+lib_objects     := $(call objects_of,$(lib_sources) $(wide_sources)) \
+	$(patsubst %.wide.c,$(BUILD)/%.w$(RECORDED).o,$(filter-out $(unrecorded),$(wide_sources)))
 measure_objects := $(call objects_of,$(measure_sources))
 cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 
@@ -130,7 +136,10 @@ endif
 tests        := $(sort $(filter-out %.wide.c,$(wildcard tests/*/test_*.c)))
 wide_tests   := $(sort $(wildcard tests/*/test_*.wide.c))
 test_scripts := $(sort $(wildcard tests/*/test_*.sh))
-programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(wide_tests:%.wide.c=$(BUILD)/%.w$(v)))
+# The tests of records are built as the variant that makes them.
+inspect_tests := $(filter tests/inspect/%,$(wide_tests))
+programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(patsubst %.wide.c,$(BUILD)/%.w$(v),$(filter-out $(inspect_tests),$(wide_tests)))) \
+	$(inspect_tests:%.wide.c=$(BUILD)/%.w$(RECORDED))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
 .PHONY: all demo check check-long coverage wasm matrix fuzz lint format install uninstall clean help
@@ -168,7 +177,7 @@ $(BUILD)/lom: $(cli_objects) $(lesson_objects) $(COUNTING) $(BUILD)/measure.a $(
 	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 # Rebuilt when the flags change, so that a build folder never mixes two. They are read before any target adds its own.
-build_flags := $(CC) $(CPPFLAGS) $(CFLAGS) $(foreach v,$(VARIANTS),$(FLAGS_$(v)))
+build_flags := $(CC) $(CPPFLAGS) $(CFLAGS) $(foreach v,$(VARIANTS) $(RECORDED),$(FLAGS_$(v)))
 $(BUILD)/flags: FORCE
 	@mkdir -p $(@D)
 	@echo "$(build_flags)" | cmp -s - $@ || echo "$(build_flags)" > $@
@@ -187,7 +196,8 @@ $(BUILD)/bench/%.w$(1): bench/%.wide.c $(BUILD)/liblom.a
 	@mkdir -p $$(@D)
 	$$(call short,CC)$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(FLAGS_$(1)) -ULOM_ALL_LANES $$(LDFLAGS) -o $$@ $$< $(BUILD)/liblom.a $$(LDLIBS)
 endef
-$(foreach v,$(VARIANTS),$(eval $(call wide_rule,$(v))))
+$(foreach v,$(VARIANTS) $(RECORDED),$(eval $(call wide_rule,$(v))))
+$(lib_objects): private CPPFLAGS += -DLOM_HAS_RECORDED
 
 $(BUILD)/src/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)

@@ -31,8 +31,17 @@
 #define LOM_PASTE(name, variant)          LOM_PASTE_EXPANDED(name, variant)
 /* The name of a function that exists once for each way lanes are built: LOM_WIDE(f) is f_4, f_8, f_16, f_8_plain ... */
 #define LOM_WIDE(name) LOM_PASTE(name, LOM_VARIANT)
-/* The place of each variant in a table of them: 4, 8, 16 lanes, then 8 and 16 lowered. */
-enum { LOM_SLOT_4 = 0, LOM_SLOT_8, LOM_SLOT_16, LOM_SLOT_8_plain, LOM_SLOT_16_plain, LOM_VARIANTS };
+/* The place of each variant in a table of them: 4, 8, 16 lanes, then 8 and 16 lowered; last the 4 lanes that also record
+ * what they do (-DLOM_RECORD), which draw nothing but watched passes (lom/record.h). */
+enum {
+    LOM_SLOT_4 = 0,
+    LOM_SLOT_8,
+    LOM_SLOT_16,
+    LOM_SLOT_8_plain,
+    LOM_SLOT_16_plain,
+    LOM_SLOT_4_recorded,
+    LOM_VARIANTS
+};
 /* LOM_EACH_VARIANT(X, name) is X(name, variant) for each way lanes are built: 4, 8 and 16, and on x86-64, where the 8
  * and 16 are of AVX2 and AVX-512, both once more lowered to the baseline. A build with fewer defines its own (make
  * VARIANTS="4 8"); 4 is always of them. */

@@ -15,12 +15,14 @@
 #include <lom/lanes.h>
 #include <lom/lanes_mathematics.h>
 #include <lom/fixed.h>
+#include <lom/notes.h>
 #include <lom/image.h>
 #include <lom/texture.h>
 #include <lom/geometry.h>
 #include <lom/march.h>
 #include <lom/cloud.h>
 #include <lom/pipeline.h>
+#include <lom/record.h>
 #include <lom/scene.h>
 #include <lom/sea.h>
 #include <lom/particles.h>

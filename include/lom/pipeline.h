@@ -213,13 +213,22 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
 #define LOM_SHADER_VERTEX_ENTRY(name, variant) LOM_SHADER_EXTERN lom_vertex_function name##_vertex_entry_##variant;
 #define LOM_SHADER_FRAGMENT_ENTRY(name, variant)                                                                       \
     LOM_SHADER_EXTERN lom_fragment_function name##_fragment_entry_##variant;
-#if !defined LOM_ALL_LANES
 #define LOM_SHADER_EXPAND(X, name, variant) X(name, variant)
-#define LOM_SHADER_EACH(X, name)            LOM_SHADER_EXPAND(X, name, LOM_VARIANT)
+#if !defined LOM_ALL_LANES
+#define LOM_SHADER_EACH(X, name) LOM_SHADER_EXPAND(X, name, LOM_VARIANT)
+#elif defined LOM_HAS_RECORDED
+#define LOM_SHADER_EACH(X, name) LOM_EACH_VARIANT(X, name) X(name, 4_recorded)
 #else
 #define LOM_SHADER_EACH(X, name) LOM_EACH_VARIANT(X, name)
 #endif
-#if defined LOM_ALL_LANES && LOM_LANES != 4
+/* Where there is no recorded variant, watched passes are drawn with the 4 lanes, which name no values; a file that is
+ * compiled in that variant alone is drawn with it. */
+#if LOM_LANES == 4 && defined LOM_RECORD
+#define LOM_SHADER_OTHER_SLOT LOM_SLOT_4
+#elif LOM_LANES == 4 && !(defined LOM_ALL_LANES && defined LOM_HAS_RECORDED)
+#define LOM_SHADER_OTHER_SLOT LOM_SLOT_4_recorded
+#endif
+#if defined LOM_ALL_LANES && (LOM_LANES != 4 || defined LOM_RECORD)
 #define LOM_SHADER_DEFINE(name, slots, ...)
 #define LOM_SHADER_DECLARE(X, name)
 #else
@@ -229,6 +238,7 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
  * value` after the name of a shader. The initialiser is a constant all the same. */
 #define LOM_SHADER_VERTEX_SLOT(name, variant)   shader.vertex[LOM_SLOT_##variant] = name##_vertex_entry_##variant;
 #define LOM_SHADER_FRAGMENT_SLOT(name, variant) shader.fragment[LOM_SLOT_##variant] = name##_fragment_entry_##variant;
+#define LOM_SHADER_OTHER(slot, kind, entry)     shader.kind[slot] = entry;
 #define LOM_SHADER_DEFINE(shader_name, slots, ...)                                                                     \
     extern const lom_shader shader_name;                                                                               \
     const lom_shader shader_name = [] {                                                                                \
@@ -261,10 +271,19 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
 #else
 #define LOM_SHADER_VERTEX_SLOT(name, variant)   .vertex[LOM_SLOT_##variant] = name##_vertex_entry_##variant,
 #define LOM_SHADER_FRAGMENT_SLOT(name, variant) .fragment[LOM_SLOT_##variant] = name##_fragment_entry_##variant,
+#define LOM_SHADER_OTHER(slot, kind, entry)     .kind[slot] = entry,
 #define LOM_SHADER_DEFINE(shader_name, slots, ...)                                                                     \
     extern const lom_shader shader_name;                                                                               \
     const lom_shader shader_name = { .name = #shader_name, slots __VA_ARGS__ };
 #endif
+#endif
+#ifdef LOM_SHADER_OTHER_SLOT
+#define LOM_SHADER_OTHER_VERTEX(name) LOM_SHADER_OTHER(LOM_SHADER_OTHER_SLOT, vertex, LOM_WIDE(name##_vertex_entry))
+#define LOM_SHADER_OTHER_FRAGMENT(name)                                                                                \
+    LOM_SHADER_OTHER(LOM_SHADER_OTHER_SLOT, fragment, LOM_WIDE(name##_fragment_entry))
+#else
+#define LOM_SHADER_OTHER_VERTEX(name)
+#define LOM_SHADER_OTHER_FRAGMENT(name)
 #endif
 #define LOM_SHADER(name, vertex_function, fragment_function, ...)                                                      \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
@@ -272,12 +291,13 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
     LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
     LOM_SHADER_DECLARE(LOM_SHADER_FRAGMENT_ENTRY, name)                                                                \
     LOM_SHADER_DEFINE(name,                                                                                            \
-                      LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) LOM_SHADER_EACH(LOM_SHADER_FRAGMENT_SLOT, name),   \
+                      LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) LOM_SHADER_EACH(LOM_SHADER_FRAGMENT_SLOT, name)    \
+                          LOM_SHADER_OTHER_VERTEX(name) LOM_SHADER_OTHER_FRAGMENT(name),                               \
                       __VA_ARGS__)
 #define LOM_DEPTH_SHADER(name, vertex_function, ...)                                                                   \
     LOM_SHADER_ENTRY(vertex, name, vertex_function, lom_vertex, lom_attributes)                                        \
     LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
-    LOM_SHADER_DEFINE(name, LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name), __VA_ARGS__)
+    LOM_SHADER_DEFINE(name, LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) LOM_SHADER_OTHER_VERTEX(name), __VA_ARGS__)
 
 /* ---- passes ---- */
 
@@ -309,6 +329,7 @@ typedef struct lom_pass_desc {
     lom_load_action color_load[LOM_MAX_COLORS], depth_load;
     float clear_color[LOM_MAX_COLORS][4]; /* linear light */
     float clear_depth;                    /* 0 is the far plane of reversed depth */
+    const char *label;                    /* what records (lom/record.h) call the pass; not copied; may be NULL */
 } lom_pass_desc;
 
 /* Begins a pass, ended by lom_end_pass; one at a time a device. A texture of another device is no attachment of it. */
@@ -419,6 +440,7 @@ typedef struct lom_draw_desc {
     lom_blend blend[LOM_MAX_COLORS];
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
+    const char *label;                /* what records (lom/record.h) say is drawn; not copied; may be NULL */
 } lom_draw_desc;
 
 /* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */

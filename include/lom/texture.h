@@ -88,6 +88,7 @@ typedef struct lom_texture_desc {
     const void *const *level_pixels;
     int level_count; /* LOM_MIPS_SUPPLIED: levels with level 0; at most floor(log2(largest size)) + 1 */
     lom_sampler_desc sampler;
+    const char *label; /* what records (lom/record.h) call it; not copied, stays valid with the texture; may be NULL */
 } lom_texture_desc;
 
 /* Makes a texture: pixels are converted exactly to what is sampled. In float formats NaN becomes 0 and magnitudes
@@ -109,6 +110,7 @@ int lom_texture_height(const lom_texture *texture);
 int lom_texture_depth(const lom_texture *texture);
 int lom_texture_levels(const lom_texture *texture);
 lom_format lom_texture_format(const lom_texture *texture);
+const char *lom_texture_label(const lom_texture *texture); /* NULL: none */
 
 /* ---- sampling: the functions of this width; use the inline ones below ---- */
 

@@ -30,6 +30,7 @@ void LOM_WIDE(lom_fetch_lanes)(const lom_texture *texture, const lom_int *x, con
     lom_int column = lom_min_int(lom_max_int(*x, zero), lom_splat_int(l->width - 1));
     lom_int row = lom_min_int(lom_max_int(*y, zero), lom_splat_int(l->height - 1));
     lom_int index = row * (int32_t)l->pitch + column + (int32_t)l->offset;
+    LOM_NOTE(LOM_NOTE_TEXEL, texture, lom_as_float(column), lom_as_float(row), lom_splat((float)(l - texture->level)));
     if (texture->storage == LOM_STORAGE_R32F)
         *out = sample_finish(LOM_STORAGE_R32F, false, sample_texel(texture, LOM_STORAGE_R32F, false, index));
     else if (texture->storage == LOM_STORAGE_RGBA32F)
@@ -38,6 +39,7 @@ void LOM_WIDE(lom_fetch_lanes)(const lom_texture *texture, const lom_int *x, con
         *out = sample_finish(LOM_STORAGE_RGBA8, true, sample_texel(texture, LOM_STORAGE_RGBA8, true, index));
     else
         *out = sample_finish(LOM_STORAGE_RGBA8, false, sample_texel(texture, LOM_STORAGE_RGBA8, false, index));
+    LOM_NOTE(LOM_NOTE_RESULT, texture, out->x, out->y, out->z, out->w);
 }
 
 /* P(m) = (m - 1) (1 + (2 - m) Q(m)), Q of degree 3 through Chebyshev nodes of [1, 2]: 4.9e-5 from log2(m). */

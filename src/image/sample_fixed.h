@@ -98,6 +98,7 @@ LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_textu
     lom_float chosen = sample_choose(texture, point, lod);
     lom_int level = lom_bounded_to_int(chosen);
     lom_float fraction = chosen - lom_to_float(level);
+    SAMPLE_NOTE(texture, kind, point, lod, chosen);
     sample_place place = sample_place_of_levels(texture, level);
     sample_pairs value = sample_level_pairs(texture, kind, storage, srgb, point, &place);
     if (lom_any(fraction > 0.0f)) {
@@ -113,8 +114,10 @@ LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_textu
 LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
                                 bool srgb, sample_point *point, lom_float lod)
 {
-    return fixed ? sample_texture_fixed(texture, kind, storage, srgb, point, lod)
-                 : sample_texture(texture, kind, storage, srgb, point, lod);
+    lom_float4 value = fixed ? sample_texture_fixed(texture, kind, storage, srgb, point, lod)
+                             : sample_texture(texture, kind, storage, srgb, point, lod);
+    LOM_NOTE(LOM_NOTE_RESULT, texture, value.x, value.y, value.z, value.w);
+    return value;
 }
 
 #define SAMPLE_STORAGE(function, coordinates, sample, fixed, storage, srgb)                                            \

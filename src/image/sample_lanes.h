@@ -9,6 +9,7 @@
 #define LOM_IMAGE_SAMPLE_LANES_H
 
 #include "convert_lanes.h"
+#include "lanes/notes.h"
 #include "texture.h"
 
 #define SAMPLE_LARGEST_WEIGHT 0x1.fffffcp-1f /* 1 - 2^-23 */
@@ -109,6 +110,8 @@ LOM_INLINE sample_footprint sample_footprint_of(const lom_texture *texture, lom_
     if (kind == LOM_TEXTURE_3D)
         print.index +=
             sample_locate(point->r, place->depth, sampler->wrap_r == LOM_WRAP_BORDER, point, &print.r) * place->slice;
+    LOM_NOTE(LOM_NOTE_FOOTPRINT, texture, lom_as_float(print.index), print.s, print.t,
+             kind == LOM_TEXTURE_3D ? print.r : (lom_float){ 0 });
     return print;
 }
 
@@ -236,12 +239,18 @@ LOM_INLINE lom_float sample_choose(const lom_texture *texture, sample_point *poi
     return lom_select(minified, lom_min(bounded, last), (lom_float){ 0 });
 }
 
+/* For records: where a sampler looks, and which levels it chose. */
+#define SAMPLE_NOTE(texture, kind, point, lod, chosen)                                                                 \
+    LOM_NOTE(LOM_NOTE_LOOKUP, texture, point->s, point->t, kind == LOM_TEXTURE_3D ? point->r : (lom_float){ 0 }, lod,  \
+             chosen, kind == LOM_TEXTURE_CUBE ? lom_as_float(point->face) : (lom_float){ 0 })
+
 LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kind kind, lom_storage storage, bool srgb,
                                      sample_point *point, lom_float lod)
 {
     lom_float chosen = sample_choose(texture, point, lod);
     lom_int level = lom_bounded_to_int(chosen);
     lom_float fraction = lom_min(chosen - lom_to_float(level), lom_splat(SAMPLE_LARGEST_WEIGHT));
+    SAMPLE_NOTE(texture, kind, point, lod, chosen);
     sample_place place = sample_place_of_levels(texture, level);
     lom_float4 value = sample_level(texture, kind, storage, srgb, point, &place);
     if (lom_any(fraction > 0.0f)) {

@@ -193,6 +193,7 @@ static lom_texture *create(const lom_texture_desc *desc, lom_error *error)
                            : desc->mips == LOM_MIPS_SUPPLIED ? desc->level_count
                                                              : full_level_count(desc->width, desc->height, depth);
     set_sampler(texture, desc);
+    texture->label = desc->label;
     if (!lay_out(texture, desc, error)) {
         lom_free_texture(texture);
         return NULL;
@@ -261,4 +262,9 @@ int lom_texture_levels(const lom_texture *texture)
 lom_format lom_texture_format(const lom_texture *texture)
 {
     return texture->format;
+}
+
+const char *lom_texture_label(const lom_texture *texture)
+{
+    return texture->label;
 }

@@ -37,8 +37,9 @@ struct lom_texture {
     lom_level level[LOM_MAX_LEVELS];
     void *texels;             /* what a pass writes must be finite; missing channels 0, missing alpha 255 or 1 */
     lom_sampler_desc sampler; /* no DEFAULT filters any more */
-    bool srgb;                /* RGBA8 storage holds sRGB codes in r, g, b */
-    bool builds_mips;         /* lom_finish_texture makes levels 1.. from level 0 */
+    const char *label;
+    bool srgb;        /* RGBA8 storage holds sRGB codes in r, g, b */
+    bool builds_mips; /* lom_finish_texture makes levels 1.. from level 0 */
     /* Filtered in fixed point: 8-bit texels that are not all taken as the nearest. */
     bool fixed;
     /* The texels of an sRGB texture once more, decoded, at the same indices: 4 floats each, linear light and alpha

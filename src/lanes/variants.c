@@ -12,7 +12,7 @@ enum { NATIVE_IS_PLAIN = true };
 
 const struct lom_variant lom_variants[LOM_VARIANTS] = {
     [LOM_SLOT_4] = { 4, true },       [LOM_SLOT_8] = { 8, NATIVE_IS_PLAIN }, [LOM_SLOT_16] = { 16, NATIVE_IS_PLAIN },
-    [LOM_SLOT_8_plain] = { 8, true }, [LOM_SLOT_16_plain] = { 16, true },
+    [LOM_SLOT_8_plain] = { 8, true }, [LOM_SLOT_16_plain] = { 16, true },    [LOM_SLOT_4_recorded] = { 4, true },
 };
 
 #define BUILT(name, variant) [LOM_SLOT_##variant] = true,

@@ -2,6 +2,7 @@
  * of each light they bring, and what comes through from behind. Invariant: a step at which the density is 0 for a ray
  * changes no bit of its result, so that leaving such steps out changes none either. */
 #include "fixed_cells.h"
+#include "lanes/notes.h"
 
 #include <lom/lanes_mathematics.h>
 
@@ -112,6 +113,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
                                       rays->along.z * (float)m->depth) +
                       1e-6f;
     lom_mask alive = rays->active;
+    LOM_NOTE(LOM_NOTE_RAY, m, rays->enter, rays->leave, step);
     lom_float first = rays->enter + (rays->shift - 1.0f) * step;
     lom_float seen = { 0 };
     uint64_t sampled = 0;
@@ -134,6 +136,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
         }
         sampled++;
         lom_float density = find_density(desc, p, middle);
+        LOM_NOTE(LOM_NOTE_STEP, m, middle, length, density, lom_as_float(alive));
         was_empty = !lom_any((density > 0.0f) & alive);
         if (was_empty)
             continue;
@@ -149,6 +152,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
         sum.distance += share * middle;
         seen += share;
         sum.transmittance -= share;
+        LOM_NOTE(LOM_NOTE_LIGHT, m, share, sum.transmittance, light.sun, light.sky, light.ground);
         alive &= sum.transmittance >= desc->stop;
     }
     sum.distance = lom_select(seen > 0.0f, sum.distance / lom_max(seen, lom_splat(1e-30f)), (lom_float){ 0 });
@@ -163,9 +167,12 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
 {
     lom_float sum = { 0 };
     lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
+    LOM_NOTE(LOM_NOTE_RAY, desc->medium, rays->enter, rays->leave, step);
     for (int i = 0; i < steps; i++) {
         lom_float at = rays->enter + step * ((float)i + 0.5f);
-        sum += find_density(desc, lom_add3(rays->start, lom_scale3(rays->along, at)), lom_splat(3e38f));
+        lom_float density = find_density(desc, lom_add3(rays->start, lom_scale3(rays->along, at)), lom_splat(3e38f));
+        LOM_NOTE(LOM_NOTE_STEP, desc->medium, at, step, density, lom_as_float(rays->active));
+        sum += density;
     }
     *depth = lom_as_float(lom_as_int(sum * (step * desc->extinction)) & rays->active);
 }

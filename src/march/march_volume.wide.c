@@ -1,6 +1,7 @@
 /* Rays through a volume, LOM_LANES at a time. In: rays and what a sample means; out: their opacity and colour.
  * Invariant: skipping leaves out only steps at which every ray's density is exactly 0; such a step adds 0 to both. */
 #include "fixed_cells.h"
+#include "lanes/notes.h"
 
 /* The bundle as one ray with a width, in cells: every ray stays within `spread` of the centre, which moves by at most
  * `speed` a step (both as the largest of the three axes). */
@@ -142,6 +143,7 @@ LOM_INLINE void march(bool fixed, lom_float4 *out, const lom_march_rays *rays, c
     lom_float3 offset = lom_splat3(desc->light_offset[0], desc->light_offset[1], desc->light_offset[2]);
     lom_float4 sum = { 0 };
     lom_mask alive = rays->active;
+    LOM_NOTE(LOM_NOTE_RAY, desc->volume, (lom_float){ 0 }, lom_splat((float)desc->steps), lom_splat(1.0f));
     bundle b = { 0 };
     bool skips = !desc->walk && lom_any(alive);
     if (skips) {
@@ -177,11 +179,13 @@ LOM_INLINE void march(bool fixed, lom_float4 *out, const lom_march_rays *rays, c
         lom_float above = sample_density(from, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
         lom_float seen = (1.0f - sum.w) * (density * desc->absorption);
         seen = lom_as_float(lom_as_int(seen) & alive);
+        LOM_NOTE(LOM_NOTE_STEP, desc->volume, lom_splat((float)i), lom_splat(1.0f), density, lom_as_float(alive));
         lom_float lit = 1.0f - desc->shade * above;
         sum.x += seen * (color.x * lit);
         sum.y += seen * (color.y * lit);
         sum.z += seen * (color.z * lit);
         sum.w += seen;
+        LOM_NOTE(LOM_NOTE_LIGHT, desc->volume, seen, 1.0f - sum.w, lit, lit, lit);
         alive &= ~(sum.w > desc->opaque);
     }
     *out = sum;

@@ -1,10 +1,9 @@
 /* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
-#include "pipeline/device.h"
+#include "pipeline/record.h"
 
 enum { GROUP = 16 }; /* triangles that are looked at together: a whole number of packets at every width */
-#define NO_VERTEX UINT32_MAX
 
 enum { PADDING = 16 }; /* rows: the vertex stage writes whole packets; as many hold the pieces of a triangle */
 
@@ -301,12 +300,34 @@ static bool are_inside(const struct lom_chunk *chunk, const uint32_t *corners, s
     return any == 0;
 }
 
+/* In a recorded pass: those that come near a watched pixel go by themselves. */
+static void assemble_recorded(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    struct group group = { .count = 0 };
+    for (size_t i = 0; i < chunk->count; i++) {
+        bool near = lom_record_triangle(pass, chunk, i);
+        if (near)
+            send(pass, chunk, &group);
+        size_t before = chunk->triangle_count;
+        sort_out(pass, chunk, &group, chunk->assembly->corners + 3 * i);
+        if (!near)
+            continue;
+        send(pass, chunk, &group);
+        lom_record_set_up(pass, chunk, before);
+    }
+    send(pass, chunk, &group);
+}
+
 /* Triangles without outcodes go to set-up as they stand; the others one by one, in order. */
 static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
     const struct lom_stages *stages = lom_stages_of(chunk->draw->variant);
     struct group group = { .count = 0 };
+    if (pass->recorder != NULL) {
+        assemble_recorded(pass, chunk);
+        return;
+    }
     if (chunk->any_code == 0 && !chunk->has_gaps) {
         stages->set_up(pass, chunk, assembly->corners, chunk->count);
         return;

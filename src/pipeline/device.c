@@ -2,6 +2,7 @@
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
 #include "pipeline/device.h"
+#include "pipeline/record.h"
 #include "pipeline/renew_texture.h"
 #include "pipeline/share_work.h"
 
@@ -79,6 +80,7 @@ void lom_close_device(lom_device *device)
     if (device == NULL)
         return;
     lom_free_pool(device->pool);
+    lom_free_recorder(device->recorder);
     for (int i = 0; device->chunks != NULL && i < device->desc.batch; i++)
         free_chunk(&device->chunks[i]);
     for (int i = 0; device->assemblies != NULL && i < device->desc.threads; i++)

@@ -2,6 +2,7 @@
  * user clip distances and the early depth test leave, to the queue or the fragment stage.
  *
  * Invariant: depths are rounded to what the attachment holds before they are compared. */
+#include "pipeline/record.h"
 #include "pipeline/window.h"
 
 #include <lom/lanes_mathematics.h>
@@ -70,8 +71,10 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
         offset_depth(tile, t, &moved);
         z = moved;
     }
+    LOM_RECORD_HOOK(lom_record_covered, tile, at, mask, &covered, l, &z);
     if (tile->tests_early)
         covered = lom_test_depth(tile, at->base + tile->offset[at->part * LOM_LANES], covered, z);
+    LOM_RECORD_HOOK(lom_record_tested, tile, at, &covered);
     uint32_t bits = lom_bits(covered);
     if (bits == 0)
         return;

@@ -5,6 +5,7 @@
  * Invariant: a lane's values do not depend on which fragments share its packet; a packet of one triangle broadcasts its
  * rows where a mixed one picks them, with the same arithmetic. */
 #include "pipeline/packet.h"
+#include "pipeline/record.h"
 
 struct rows { /* the vertices of the packet's triangles */
     const float *base;
@@ -191,6 +192,7 @@ static lom_mask late_depth(struct lom_tile *tile, const struct lom_places *place
     lom_float units = lom_depth_units(tile->pass, lom_saturate(number));
     lom_float stored = lom_as_float(lom_load_places(memory, tile, places));
     mask &= lom_compare_depth(draw->compare, units, stored);
+    LOM_RECORD_HOOK(lom_record_late, tile, &units, &stored, &mask);
     if (draw->depth_write)
         lom_store_places(memory, tile, places, mask, lom_as_int(units));
     return mask;
@@ -204,8 +206,8 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
     lom_mask mask = *shaded;
     const struct lom_draw *draw = tile->draw;
     bool late = draw->late_depth && tile->depth != NULL;
-    bool rounds = (late || draw->blends) && !apart;
-    if (!late && !rounds) {
+    bool rounds = (late || draw->blends || LOM_RECORDS) && !apart;
+    if (!late && !rounds && !LOM_RECORDS) {
         LOM_WIDE(lom_write_packet)(tile, places, &mask, out->color);
         return;
     }
@@ -214,7 +216,9 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
         mask &= ~round;
         if (late)
             round = late_depth(tile, places, round, out->depth);
+        LOM_RECORD_HOOK(lom_record_write_begins, tile, places, &round);
         LOM_WIDE(lom_write_packet)(tile, places, &round, out->color);
+        LOM_RECORD_HOOK(lom_record_write_ends, tile, places, &round, out->color);
     }
 }
 
@@ -230,6 +234,7 @@ void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *pa
     out.depth = packet->depth;
     out.discard = (lom_mask){ 0 };
     shader->fragment[draw->variant](&out, in, draw->uniforms);
+    LOM_RECORD_HOOK(lom_record_shaded, tile, in, &out);
     tile->packets++;
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
     LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
@@ -240,6 +245,7 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
     const struct lom_chunk *chunk = tile->chunk;
     const lom_shader *shader = tile->draw->desc.shader;
     lom_varyings in;
+    LOM_RECORD_HOOK(lom_record_packet, tile, packet);
     if (shader->reads != 0 || shader->reads_position) {
         struct rows rows;
         find_rows(chunk, packet, &rows);
@@ -251,6 +257,7 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
             copy_flat_varyings(shader, chunk, packet, &in);
         if (shader->reads_position)
             find_position(tile, packet, &p, &in);
+        LOM_RECORD_HOOK(lom_record_weights, tile, &p.b1, &p.b2);
     }
     LOM_WIDE(lom_run_shader)(tile, packet, &in);
 }

@@ -4,6 +4,7 @@
 #include "pipeline/check_device.h"
 #include "image/convert.h"
 #include "pipeline/device.h"
+#include "pipeline/record.h"
 
 static lom_rect or_whole(lom_rect rect, lom_rect whole)
 {
@@ -187,6 +188,8 @@ void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
     lom_enter_float_state(&state);
     device->uniforms_size = 0;
     device->in_pass = prepare_pass(device, desc);
+    if (device->in_pass && device->recorder != NULL)
+        lom_record_begin(device);
     lom_leave_float_state(&state);
     device->counters.passes += device->in_pass;
 }

@@ -1,6 +1,7 @@
 /* Running a pass: batches of chunks, a barrier between the two halves of the pipeline. Work is handed out by a counter;
  * which worker takes what changes nothing, because a chunk and a tile each belong to one worker until they are done. */
 #include "pipeline/device.h"
+#include "pipeline/record.h"
 
 static void run_chunks(void *context, int worker)
 {
@@ -152,6 +153,8 @@ static bool run_batch(lom_device *device)
         device->counters.triangles_binned += chunk->triangle_count;
     }
     run_all(device, run_tiles);
+    if (pass->recorder != NULL)
+        lom_record_batch(device);
     pass->chunk_count = 0;
     return true;
 }
@@ -256,5 +259,5 @@ bool lom_run_pass(lom_device *device)
         lom_finish_attachment(device, pass->color[i].texture);
     if (pass->depth != NULL)
         lom_finish_attachment(device, pass->depth);
-    return true;
+    return pass->recorder == NULL || lom_record_end(device);
 }

@@ -5,7 +5,7 @@
  * Invariant: the record is the same for every order of the three vertices; only facing and the provoking vertex
  * remember it. Triangles that fit a 4x4 window get their exact coverage here, and the empty ones end here. */
 #include "lanes/pair_products.h"
-#include "pipeline/stages.h"
+#include "pipeline/record.h"
 
 struct vertices { /* one corner of LOM_LANES triangles */
     lom_int x, y;
@@ -271,8 +271,10 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     for (int k = 0; k < 3; k++)
         load_corner(chunk, corners, k, &p.v[k]);
     p.alive = alive;
+    LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_SENT, &p.alive);
     measure(&p);
     cull(chunk->draw, &p);
+    LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_FACES, &p.alive);
     if (!lom_any(p.alive))
         return;
     order(&p, 0, 1);
@@ -281,9 +283,11 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     bound(pass, chunk->draw, &p);
     if (!lom_any(p.alive))
         return;
+    LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_IN_BOUNDS, &p.alive);
     struct edge_lanes e = find_edges(pass, &p);
     lom_int mask = cover_window(&p, &e);
     p.alive &= (p.kind != TRIANGLE_WINDOW) | (mask != 0);
+    LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_DONE, &p.alive);
     p.clip = (lom_int){ 0 };
     if (chunk->any_code != 0)
         p.clip = crossing_distances(chunk, corners);

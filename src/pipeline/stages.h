@@ -130,6 +130,8 @@ struct lom_draw {
 
 enum { SEVERAL_TILES = -1 };
 
+#define NO_VERTEX UINT32_MAX
+
 /* What the first half of the pipeline needs of the chunk at hand and nobody after it; a worker's, so that it stays in
  * its cache. */
 struct lom_assembly {
@@ -137,7 +139,8 @@ struct lom_assembly {
     uint32_t *vertex_list; /* the index of each row, in a chunk that is listed */
     float *clip;           /* clip positions, 4 floats a row */
     uint16_t *codes;
-    int32_t *tile; /* that each triangle of the chunk lies in, or SEVERAL_TILES */
+    int32_t *tile;                      /* that each triangle of the chunk lies in, or SEVERAL_TILES */
+    struct record_candidate *candidate; /* the triangle at hand where it is recorded (record.h) */
     size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity, tile_capacity; /* in elements */
 };
 
@@ -242,6 +245,7 @@ struct lom_color_target {
 
 struct lom_pass {
     lom_device *device;
+    struct lom_recorder *recorder; /* with a watched attachment (record.h) */
     lom_pass_desc desc;
     int width, height;             /* of the attachments */
     int frame_width, frame_height; /* of the whole frame */
@@ -322,6 +326,7 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
     void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
 LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
+LOM_DECLARE_STAGES(, 4_recorded)
 
 /* Room for `rows` vertex rows in the chunk (rows, clip, codes). */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);

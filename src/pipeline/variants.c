@@ -1,5 +1,5 @@
-/* The stages of each variant that is built: 4, 8 and 16 lanes, and on x86-64 the 8 and 16 lowered to the baseline
- * instructions. */
+/* The stages of each variant that is built: 4, 8 and 16 lanes, on x86-64 the 8 and 16 lowered to the baseline
+ * instructions, and the 4 that record. */
 #include "pipeline/stages.h"
 
 #define STAGES(name, variant)                                                                                          \
@@ -8,7 +8,7 @@
                              lom_find_paint_##variant,    lom_store_rectangle_##variant, lom_fill_rectangle_##variant, \
                              lom_fill_words_##variant,    lom_join_rows_##variant },
 
-static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, ) };
+static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, ) STAGES(, 4_recorded) };
 
 const struct lom_stages *lom_stages_of(int variant)
 {

@@ -1,7 +1,7 @@
 /* Stage 1 of 7: vertex. In: a chunk's range (or list) of vertex numbers. Out: for each a row {x, y, depth, 1/w,
  * varyings, distances}, its clip position and its outcode. Invariant: a row is a function of the vertex alone. */
 #include "pipeline/project.h"
-#include "pipeline/stages.h"
+#include "pipeline/record.h"
 
 /* Signed comparison of numbers with the highest bit turned over is unsigned comparison of the numbers. */
 static const int32_t turned = INT32_MIN;
@@ -230,6 +230,7 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
         struct numbers n = find_numbers(chunk, first);
         memcpy(&in.vertex, n.number, sizeof n.number);
         fetch(draw, &n, &in);
+        LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
         shade(&vertex, &in, draw->uniforms);
         write_packet(pass, chunk, first, &vertex);
     }

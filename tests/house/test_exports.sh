@@ -21,10 +21,12 @@ variants=$(grep -o 'X(name,[0-9a-z_]*)' "$BUILD/flags" | sed 's/.*,//; s/)//' | 
 [ -n "$variants" ] || variants=$(echo '#include <lom/lanes.h>
 LOM_EACH_VARIANT(VARIANT, )' | $CC -E -P -Iinclude - | grep -o 'VARIANT(, [0-9a-z_]*)' | sed 's/.*, //; s/)//')
 
+variants="$variants 4_recorded"
+
 # Functions and tables at the outermost level of the preprocessed headers that are neither types nor static: what is
 # within braces is taken away, and of each declaration its name, which stands before ( or [ or at the end.
 for variant in $variants; do
-    echo '#include <lom/lom.h>' | $CC -E -Iinclude -DLOM_LANES="${variant%_plain}" -DLOM_VARIANT="$variant" - |
+    echo '#include <lom/lom.h>' | $CC -E -Iinclude -DLOM_LANES="${variant%%_*}" -DLOM_VARIANT="$variant" - |
         awk '/^# [0-9]+ "/ { ours = index($3, "include/lom/") > 0; next } ours && !/^#/' | tr '\n' ' ' |
         awk -v RS='' '{
             depth = 0

@@ -1,0 +1,164 @@
+/* lom/record.h - what happened to watched pixels: every triangle that touched them, every number on its way.
+ *
+ * Steps of use, in order: lom_watch names pixels of textures; passes into those textures are then drawn by the same
+ * stages at 4 lanes, in the variant that records (their bytes are the same); lom_watched_pixel gives what was recorded,
+ * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
+ * there. Named values of a shader (lom/notes.h) are recorded where it was compiled in that variant, as lom's own are.
+ */
+#ifndef LOM_RECORD_H
+#define LOM_RECORD_H
+
+#include <lom/notes.h>
+#include <lom/pipeline.h>
+
+LOM_API_BEGIN
+
+enum { LOM_MAX_WATCHES = 64, LOM_MAX_TEXTURE_LABEL = 40 };
+
+/* A rectangle of a texture's texels to watch. */
+typedef struct lom_watch_desc {
+    const lom_texture *target; /* watched in each pass that has it as a colour or as the depth attachment */
+    int x, y;                  /* texel */
+    int width, height;         /* 0: 1 */
+    uint64_t before; /* only in passes with a smaller number, counted from 0 since lom_watch; 0: in all of them */
+} lom_watch_desc;
+
+/* What became of a triangle at the pixel. */
+typedef enum lom_fate {
+    LOM_FATE_STORED = 0,   /* it is in the attachments still */
+    LOM_FATE_LOST,         /* stored, and overwritten by `lost_to` */
+    LOM_FATE_BLENDED_OVER, /* stored, and a later triangle was blended over it */
+    LOM_FATE_DEPTH,        /* failed the depth test */
+    LOM_FATE_DISCARDED,    /* by its shader */
+    LOM_FATE_DISTANCE,     /* outside a clip or cull distance here */
+    LOM_FATE_FACING,       /* culled by its facing */
+    LOM_FATE_SCISSOR,      /* outside the scissor */
+    LOM_FATE_CLIPPED,      /* outside the near or far plane here */
+    LOM_FATE_UNSHADED,     /* drawn, but its draw writes no colour and no depth here */
+    LOM_FATES
+} lom_fate;
+const char *lom_fate_text(lom_fate fate); /* a part of a sentence: "failed the depth test" */
+
+/* ---- what a packet said of one fragment or vertex, in order ---- */
+
+typedef struct lom_tap {
+    int level, x, y, layer; /* texel; layer: of a cube or 3D texture; outside the level: as its wrap mode says */
+    float weight;           /* of all taps of the lookup together 1 */
+    float color[4];         /* decoded, linear light */
+} lom_tap;
+
+enum { LOM_MAX_TAPS = 16 };
+typedef struct lom_note_record {
+    lom_note_kind kind; /* VALUE, LOOKUP, TEXEL, RAY or STEP */
+    const char *name;   /* VALUE: its name; LOOKUP, TEXEL: the texture's label, or NULL */
+    int components;     /* VALUE */
+    float value[8];     /* VALUE; LOOKUP: s, t, r, lod asked, level chosen; RAY: enters, leaves, step; STEP: distance,
+                           length, density, share of the pixel, transmittance behind it, light of sun, sky, ground */
+    const lom_texture *texture; /* LOOKUP, TEXEL */
+    int face;                   /* of a cube */
+    lom_tap tap[LOM_MAX_TAPS];
+    int taps;
+    float result[4]; /* LOOKUP, TEXEL */
+    struct lom_note_record *next;
+} lom_note_record;
+
+typedef struct lom_vertex_record {
+    uint32_t index; /* of the vertex; of one that clipping made: UINT32_MAX */
+    float attribute[LOM_MAX_ATTRIBUTES][4];
+    float clip[4], ndc[3], window[3]; /* window: pixels of the frame and depth, before snapping */
+    int32_t fixed[2];                 /* 1/256 pixel from the viewport's origin */
+    float depth, one_over_w;          /* as the later stages have them */
+    float varying[LOM_MAX_VARYINGS], distance[LOM_MAX_DISTANCES];
+    unsigned code; /* outcode, bits of lom_outcode */
+    lom_note_record *notes;
+} lom_vertex_record;
+
+typedef enum lom_outcode { /* bits 0..7: the distance of that number is below 0 */
+                           LOM_OUT_NEAR = 1 << 8,
+                           LOM_OUT_FAR = 1 << 9,
+                           LOM_OUT_GUARD = 1 << 10,
+                           LOM_OUT_W = 1 << 11,
+                           LOM_OUT_INVALID = 1 << 12
+} lom_outcode;
+
+/* What was written to one colour attachment. Numbers are the attachment's: 0..255 of 8-bit formats, else floats. */
+typedef struct lom_write_record {
+    bool written;
+    float source[4], before[4], after[4];
+} lom_write_record;
+
+typedef struct lom_fragment_record {
+    float l[3];             /* screen-space weights in the stage's order: vertices by snapped (y, x) */
+    float b[3];             /* perspective-correct, the same order */
+    bool shaded, discarded; /* the fragment shader ran; and dropped it */
+    bool inside_distances;
+    bool depth_tested, depth_passed, depth_written;
+    float z;                   /* with the bias */
+    float depth, depth_before; /* attachment units: tested, and stored until then */
+    float varying[LOM_MAX_VARYINGS], dx[LOM_MAX_VARYINGS], dy[LOM_MAX_VARYINGS];
+    float color[LOM_MAX_COLORS][4]; /* what the shader gave */
+    lom_write_record write[LOM_MAX_COLORS];
+    lom_note_record *notes;
+} lom_fragment_record;
+
+typedef struct lom_triangle_record {
+    size_t number; /* of the draw's instance */
+    int instance;
+    int piece, pieces; /* of those that clipping left; pieces 0: nothing was left, or none was needed to be cut */
+    lom_vertex_record vertex[3]; /* as submitted; the last is the provoking one */
+    lom_vertex_record cut[3];    /* with pieces: the piece's own */
+    int order[3];                /* the stage's order of them: order[0] is the first by snapped (y, x) */
+    int64_t edge[3], area; /* edge functions at the pixel's centre, in that order, and their sum: 1/65536 pixel^2 */
+    bool front;
+    bool has_edges, covered;
+    lom_fragment_record fragment; /* with covered */
+    lom_fate fate;
+    const struct lom_triangle_record *lost_to;
+    const struct lom_draw_record *draw;
+    struct lom_triangle_record *next;
+} lom_triangle_record;
+
+typedef struct lom_draw_record {
+    size_t number; /* in the pass */
+    const char *label;
+    lom_draw_desc desc; /* pointers into the caller's data are dead after lom_end_pass; the shader's is not */
+    bool recorded;      /* false: its shader was not built at 4 lanes, so nothing is known of it */
+    bool depth_tested, depth_written;
+    lom_compare compare;            /* resolved */
+    lom_triangle_record *triangles; /* those that touch the pixel, in order */
+    size_t near_misses;             /* whose box holds the pixel's centre, but that do not cover it */
+    const struct lom_pass_record *pass;
+    struct lom_draw_record *next;
+} lom_draw_record;
+
+typedef struct lom_pass_record {
+    uint64_t number; /* since lom_watch */
+    const char *label;
+    lom_pass_desc desc;
+    int x, y;               /* the pixel in the frame */
+    int attachment;         /* of the watched texture: a colour's number, -1 the depth */
+    float end[4];           /* what the texture holds after the pass: the attachment's numbers, or the depth */
+    lom_draw_record *draws; /* those of the pass that touched the pixel, in order, and all that are not recorded */
+    struct lom_pass_record *next;
+} lom_pass_record;
+
+/* A watched pixel: its passes from the last one on that cleared it. */
+typedef struct lom_pixel_record {
+    int x, y; /* texel */
+    lom_format format;
+    lom_pass_record *passes;
+} lom_pixel_record;
+
+/* Watches these pixels from the next pass on, and forgets what was recorded; count 0: nothing any more. Copied; the
+ * targets are textures of this device. False, with an error on the device: too many, outside their texture, in a pass. */
+bool lom_watch(lom_device *device, const lom_watch_desc *watches, size_t count);
+/* What was recorded of texel (x, y) of a watch so far; owned by the device; NULL outside of its rectangle. */
+const lom_pixel_record *lom_watched_pixel(const lom_device *device, size_t watch, int x, int y);
+/* The pass, counted since lom_watch, that last drew into a texture before the pass `before`; false: none did. */
+bool lom_find_drawn(const lom_device *device, const lom_texture *texture, uint64_t before, uint64_t *pass);
+/* Passes since lom_watch. */
+uint64_t lom_count_watched_passes(const lom_device *device);
+
+LOM_API_END
+
+#endif

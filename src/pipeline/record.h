@@ -1,0 +1,155 @@
+/* Recording: what the stages say of watched pixels, and who keeps it. A pass with a watched attachment has
+ * pass->recorder, is drawn in the variant 4_recorded, every triangle by itself and no colour as a whole; then the macros
+ * below are calls. In all other variants they are nothing.
+ *
+ *   chunk.c           names each triangle that comes near a watched pixel (lom_triangle_record)
+ *   setup.wide.c      says how far its pieces came
+ *   early, fragment   begin a fragment and add to it; one worker owns a pixel as it owns the tile
+ *   run.c             joins them when the batch is drained, while its chunks are there (record_join.c)
+ *
+ * Invariant: recording reads what the stages have computed and changes none of it. */
+#ifndef LOM_PIPELINE_RECORD_H
+#define LOM_PIPELINE_RECORD_H
+
+#include "lanes/notes.h"
+#include "pipeline/device.h"
+
+#include <lom/record.h>
+
+enum { MAX_PIECES = 10 + 6 };
+/* How far set-up took a piece. */
+enum record_stage { RECORD_SENT = 0, RECORD_FACES, RECORD_IN_BOUNDS, RECORD_DONE };
+
+struct record_piece {
+    uint32_t corner[3]; /* rows of the chunk */
+    int stage;          /* enum record_stage; RECORD_DONE: it has a number in the chunk */
+    size_t number;
+    float clip[3][4];
+};
+
+/* A triangle of a chunk that comes near a watched pixel. */
+struct record_candidate {
+    size_t number;
+    uint32_t corner[3]; /* rows */
+    uint32_t index[3];  /* vertices */
+    unsigned code[3];
+    float clip[3][4];
+    int pieces, packet; /* packet: pieces before the packet that is set up */
+    struct record_piece piece[MAX_PIECES];
+    bool has_box; /* of the snapped vertices: its corners, 1/256 pixel from the viewport's origin */
+    int32_t low[2], high[2];
+};
+
+struct record_chunk {
+    struct record_candidate *items;
+    size_t count, capacity;
+    bool failed;
+};
+
+/* A fragment of the batch at hand. */
+struct record_raw {
+    lom_fragment_record fragment;
+    const struct lom_chunk *chunk;
+    int32_t triangle; /* in the chunk */
+    struct record_raw *next;
+};
+
+struct record_block;
+struct record_memory { /* addresses stay; freed as a whole */
+    struct record_block *first;
+    bool failed;
+};
+
+struct record_pixel {
+    lom_pixel_record pixel;
+    struct record_memory memory;
+    struct record_raw *raw; /* the last one first */
+};
+
+struct record_watch {
+    lom_watch_desc desc;
+    struct record_pixel *pixels;
+    bool active;                        /* in the pass at hand, whose pixels */
+    int attachment, origin_x, origin_y; /* frame pixel = texel + origin */
+};
+
+/* What a worker has at hand: its notes, and the packet that it shades. */
+struct record_worker {
+    struct lom_notes notes;
+    const struct lom_packet *packet;
+    bool watches; /* a fragment of the packet is watched */
+};
+
+struct record_written {
+    const lom_texture *texture;
+    uint64_t pass;
+};
+
+struct lom_recorder {
+    struct record_watch watch[LOM_MAX_WATCHES];
+    size_t watch_count;
+    uint64_t passes; /* begun since lom_watch */
+    struct record_written *written;
+    size_t written_count, written_capacity;
+    struct record_chunk *chunks; /* one for each of a batch */
+    struct record_worker *worker;
+    int chunk_count, workers;
+    bool failed; /* memory ran out: something is missing */
+};
+
+/* ---- record.c ---- */
+void *lom_record_allocate(struct record_memory *memory, size_t size);
+void lom_free_recorder(struct lom_recorder *recorder);
+/* The pass has begun: pass->recorder is set where it draws into a watched texture. */
+void lom_record_begin(lom_device *device);
+/* The attachments are complete. */
+bool lom_record_end(lom_device *device);
+/* The watched pixels of the pass at a pixel of the frame, one after the other: NULL behind the last. *next begins as 0.
+ */
+struct record_pixel *lom_record_next(struct lom_recorder *recorder, int x, int y, size_t *next);
+
+/* ---- record_chunk.c ---- */
+/* Whether triangle i of the chunk comes near a watched pixel: then it becomes the chunk's candidate at hand. */
+bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i);
+/* It has been through set-up, alone, since the chunk had `before` triangles. */
+void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before);
+void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stage, const lom_mask *alive);
+
+/* ---- record_join.c ---- */
+void lom_record_batch(lom_device *device);
+/* record_note.c: what was noted of a lane, as it is kept. */
+lom_note_record *lom_record_notes(struct record_memory *memory, const struct lom_notes *notes, int lane);
+/* record_vertex.c: the draw's vertices once more, by the vertex stage: of three indices (of instance) what the stage and
+ * its shader say. False: memory ran out. */
+bool lom_record_vertices(const struct lom_pass *pass, const struct lom_chunk *chunk, const uint32_t index[3],
+                         struct record_memory *memory, lom_vertex_record vertex[3]);
+/* From a clip position and a row of the chunk's to the numbers of a vertex. */
+void lom_record_row(const struct lom_pass *pass, const struct lom_draw *draw, const float *row, const float clip[4],
+                    lom_vertex_record *vertex);
+extern const char lom_attributes_note[]; /* the name of the note that holds the attributes */
+
+/* ---- the stages of a tile: record_fragment.c ---- */
+struct lom_packet;
+struct lom_places;
+struct part;
+void lom_record_attributes(const struct lom_attributes *in, int count);
+void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_mask *inside,
+                        const lom_float l[3], const lom_float *z);
+void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed);
+void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet);
+void lom_record_weights(struct lom_tile *tile, const lom_float *b1, const lom_float *b2);
+void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out);
+void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask);
+void lom_record_write_begins(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask);
+void lom_record_write_ends(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
+                           const lom_float4 *color);
+
+#ifdef LOM_RECORD
+#define LOM_RECORD_HOOK(function, ...) function(__VA_ARGS__)
+enum { LOM_RECORDS = true };
+#else
+#define LOM_RECORD_HOOK(function, ...) ((void)0)
+enum { LOM_RECORDS = false };
+#endif
+
+#endif

@@ -1,0 +1,142 @@
+/* The first half of the pipeline, recorded. In: triangles of a chunk, one by one. Out: for those that come near a watched
+ * pixel what they were before set-up, the pieces that clipping left, and how far set-up took each. Invariant: a triangle
+ * that could cover, or would have covered, a watched pixel is never passed over. */
+#include "pipeline/record.h"
+
+/* The range of the centres of a watch's pixels in 1/256 pixel from the viewport's origin. */
+struct range {
+    int64_t low[2], high[2];
+};
+
+static struct range range_of(const struct lom_pass *pass, const struct record_watch *watch)
+{
+    const int at[2] = { watch->desc.x + watch->origin_x - pass->viewport.x,
+                        watch->desc.y + watch->origin_y - pass->viewport.y };
+    const int size[2] = { watch->desc.width, watch->desc.height };
+    struct range r;
+    for (int i = 0; i < 2; i++) {
+        r.low[i] = (int64_t)at[i] * SUBPIXELS + SUBPIXELS / 2;
+        r.high[i] = r.low[i] + (int64_t)(size[i] - 1) * SUBPIXELS;
+    }
+    return r;
+}
+
+/* Whether all three vertices lie beyond one side of the range, grown by a pixel: in clip space, where that holds for
+ * every point of the triangle with w > 0. */
+static bool is_beside(const struct lom_pass *pass, const struct range *r, const float clip[3][4])
+{
+    const double size[2] = { pass->viewport.width * (double)SUBPIXELS, pass->viewport.height * (double)SUBPIXELS };
+    for (int axis = 0; axis < 2; axis++)
+        for (int side = 0; side < 2; side++) {
+            double at = side == 0 ? (double)(r->low[axis] - SUBPIXELS) : (double)(r->high[axis] + SUBPIXELS);
+            double ndc = 2 * at / size[axis] - 1, sign = side == 0 ? 1 : -1;
+            int beyond = 0;
+            for (int k = 0; k < 3; k++) {
+                double along = axis == 0 ? clip[k][0] : -(double)clip[k][1];
+                beyond += sign * (along - ndc * clip[k][3]) < 0;
+            }
+            if (beyond == 3)
+                return true;
+        }
+    return false;
+}
+
+static bool comes_near(const struct lom_pass *pass, const struct record_candidate *c)
+{
+    for (size_t i = 0; i < pass->recorder->watch_count; i++) {
+        const struct record_watch *watch = &pass->recorder->watch[i];
+        if (!watch->active)
+            continue;
+        struct range r = range_of(pass, watch);
+        if (c->has_box
+                ? c->low[0] <= r.high[0] && c->high[0] >= r.low[0] && c->low[1] <= r.high[1] && c->high[1] >= r.low[1]
+                : !is_beside(pass, &r, c->clip))
+            return true;
+    }
+    return false;
+}
+
+static void find_box(const struct lom_chunk *chunk, struct record_candidate *c)
+{
+    size_t pitch = (size_t)chunk->draw->row_floats;
+    for (int k = 0; k < 3; k++) {
+        int32_t at[2];
+        memcpy(at, chunk->rows + c->corner[k] * pitch, sizeof at);
+        for (int i = 0; i < 2; i++) {
+            c->low[i] = k == 0 || at[i] < c->low[i] ? at[i] : c->low[i];
+            c->high[i] = k == 0 || at[i] > c->high[i] ? at[i] : c->high[i];
+        }
+    }
+}
+
+static struct record_chunk *record_of(const struct lom_pass *pass, const struct lom_chunk *chunk)
+{
+    return &pass->recorder->chunks[chunk - pass->chunks];
+}
+
+bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i)
+{
+    struct record_chunk *record = record_of(pass, chunk);
+    struct lom_assembly *assembly = chunk->assembly;
+    const uint32_t *corner = assembly->corners + 3 * i;
+    if (i == 0)
+        record->count = 0;
+    assembly->candidate = NULL;
+    if (corner[0] == NO_VERTEX || chunk->draw->variant != LOM_SLOT_4_recorded)
+        return false;
+    unsigned any = assembly->codes[corner[0]] | assembly->codes[corner[1]] | assembly->codes[corner[2]];
+    struct record_candidate c = { .number = chunk->first + i, .has_box = (any & (CODE_CLIP | CODE_INVALID)) == 0 };
+    if ((any & CODE_INVALID) != 0)
+        return false;
+    for (int k = 0; k < 3; k++) {
+        c.corner[k] = corner[k];
+        c.index[k] = chunk->listed ? assembly->vertex_list[corner[k]] : chunk->vertex_base + corner[k];
+        c.code[k] = assembly->codes[corner[k]];
+        memcpy(c.clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof c.clip[k]);
+    }
+    if (c.has_box)
+        find_box(chunk, &c);
+    if (!comes_near(pass, &c))
+        return false;
+    if (!lom_reserve(&record->items, &record->capacity, record->count + 1, sizeof c, NULL)) {
+        record->failed = true;
+        return false;
+    }
+    record->items[record->count] = c;
+    assembly->candidate = &record->items[record->count++];
+    return true;
+}
+
+void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stage, const lom_mask *alive)
+{
+    struct record_candidate *c = chunk->assembly->candidate;
+    if (c == NULL)
+        return;
+    uint32_t lanes = lom_bits(*alive);
+    if (stage == RECORD_SENT)
+        c->packet = c->pieces;
+    for (int i = 0; i < 4 && c->packet + i < MAX_PIECES; i++) {
+        struct record_piece *piece = &c->piece[c->packet + i];
+        if ((lanes >> i & 1) == 0)
+            continue;
+        piece->stage = stage;
+        if (stage == RECORD_SENT) {
+            memcpy(piece->corner, corners + 3 * i, sizeof piece->corner);
+            c->pieces = c->packet + i + 1;
+        }
+    }
+}
+
+void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before)
+{
+    struct record_candidate *c = chunk->assembly->candidate;
+    (void)pass;
+    for (int i = 0; i < c->pieces; i++) {
+        struct record_piece *piece = &c->piece[i];
+        for (int k = 0; k < 3; k++)
+            memcpy(piece->clip[k], chunk->assembly->clip + (size_t)piece->corner[k] * 4, sizeof piece->clip[k]);
+        if (piece->stage == RECORD_DONE)
+            piece->number = before++;
+    }
+    chunk->assembly->candidate = NULL;
+}
