@@ -32,5 +32,6 @@
 #include <lom/waves.h>
 #include <lom/reference.h>
 #include <lom/render.h>
+#include <lom/inspect.h>
 
 #endif

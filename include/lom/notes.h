@@ -26,14 +26,17 @@ typedef enum lom_note_kind {
 /* Adds a note of `count` rows of four floats, copied, when this thread watches; else does nothing. name: not copied. */
 void lom_note(lom_note_kind kind, const char *name, const void *object, const void *rows, size_t count);
 
+/* LOM_NAME_AS(name, x): the same under another name. */
 #ifdef LOM_RECORD
-#define LOM_NAME_VALUE(x)                                                                                              \
+#define LOM_NAME_AS(name, x)                                                                                           \
     do {                                                                                                               \
         __typeof__(x) lom_named = (x);                                                                                 \
-        lom_note(LOM_NOTE_VALUE, #x, NULL, &lom_named, sizeof lom_named / sizeof(lom_float));                          \
+        lom_note(LOM_NOTE_VALUE, #name, NULL, &lom_named, sizeof lom_named / sizeof(lom_float));                       \
     } while (0)
+#define LOM_NAME_VALUE(x) LOM_NAME_AS(x, x)
 #else
-#define LOM_NAME_VALUE(x) ((void)0)
+#define LOM_NAME_AS(name, x) ((void)0)
+#define LOM_NAME_VALUE(x)    ((void)0)
 #endif
 
 LOM_API_END

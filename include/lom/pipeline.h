@@ -441,6 +441,7 @@ typedef struct lom_draw_desc {
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
     const char *label;                /* what records (lom/record.h) say is drawn; not copied; may be NULL */
+    int object;                       /* a number of the caller's for it, in records */
 } lom_draw_desc;
 
 /* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */

@@ -29,6 +29,8 @@ static void write_name(lom_json *json, const char *name)
     if (json->started)
         fputs(", ", json->out);
     json->started = true;
+    if (name == NULL)
+        return;
     write_text(json->out, name);
     fputs(": ", json->out);
 }
@@ -70,6 +72,27 @@ void lom_json_number(lom_json *json, const char *name, double value)
     write_name(json, name);
     lom_print_double(text, value);
     fputs(text, json->out);
+}
+
+void lom_json_float(lom_json *json, const char *name, float value)
+{
+    char text[32];
+    write_name(json, name);
+    lom_print_float(text, value);
+    fputs(__builtin_isfinite(value) ? text : "null", json->out);
+}
+
+void lom_json_nest(lom_json *json, const char *name, char bracket)
+{
+    write_name(json, name);
+    fputc(bracket, json->out);
+    json->started = false;
+}
+
+void lom_json_unnest(lom_json *json, char bracket)
+{
+    fputc(bracket, json->out);
+    json->started = true;
 }
 
 void lom_json_bool(lom_json *json, const char *name, bool value)

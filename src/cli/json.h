@@ -23,6 +23,10 @@ void lom_json_null(lom_json *json, const char *name);
 void lom_json_integers(lom_json *json, const char *name, const int64_t *values, size_t count); /* an array */
 /* An array of arrays of x, y and z; at least one. */
 void lom_json_points(lom_json *json, const char *name, const lom_vec3 *points, size_t count);
+void lom_json_float(lom_json *json, const char *name, float value); /* the shortest that reads back as this float */
+/* An array or object within: what is written until lom_json_unnest is its contents; in an array names are NULL. */
+void lom_json_nest(lom_json *json, const char *name, char bracket);
+void lom_json_unnest(lom_json *json, char bracket);
 void lom_json_hash(lom_json *json, const char *name, uint64_t hash); /* text of 16 hexadecimal digits */
 
 #endif

@@ -6,6 +6,7 @@
 #include "picture_kinds.h"
 #include "progress.h"
 #include "scene_options.h"
+#include "show_pass.h"
 
 #include <lom/lom.h>
 
@@ -16,7 +17,7 @@
 
 struct values {
     struct lom_scene_options scene;
-    const char *output, *stats, *format;
+    const char *output, *stats, *format, *show;
     lom_option_integers frame, frames;
     bool hash, watch, check, quiet;
 };
@@ -32,6 +33,8 @@ static const lom_option options[] = {
     { "hash", 0, LOM_OPTION_FLAG, offsetof(struct values, hash), NULL, 0, 0, "print \"HASH  frame N\" for each frame" },
     { "stats", 0, LOM_OPTION_TEXT, offsetof(struct values, stats), "FILE", 0, 0,
       "write a JSON line a frame with its passes, work and time; - is stdout" },
+    { "show", 0, LOM_OPTION_TEXT, offsetof(struct values, show), "PASS", 0, 0,
+      "the picture of a pass instead: raw numbers as .pfm, .npy and .nrrd, else for eyes" },
     { "watch", 0, LOM_OPTION_FLAG, offsetof(struct values, watch), NULL, 0, 0,
       "draw again whenever the scene or one of its files changes" },
     { "check", 0, LOM_OPTION_FLAG, offsetof(struct values, check), NULL, 0, 0,
@@ -53,7 +56,7 @@ static const lom_command_line line = {
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
     .maximum_arguments = 1,
-    .print_more = lom_print_picture_kinds,
+    .print_more = lom_print_shown_passes,
 };
 
 /* The files of a scene, itself the first, and what they were before they were read. */
@@ -125,6 +128,9 @@ static bool draw_frame(struct run *run, int number, struct moving *moving, lom_e
     if (!lom_render_frame(run->renderer, &desc, &frame, error))
         return false;
     double elapsed = seconds() - start;
+    if (v->show != NULL && !lom_take_shown_pass(run->renderer, &desc, v->show, lom_shows_numbers(v->output, v->format),
+                                                &frame.image, error))
+        return false;
     if (v->check && is_suspicious(frame.image)) {
         fprintf(stderr, "lom: frame %d is one single colour, or held a number that is none.\n", number);
         run->rejected = true;
@@ -173,8 +179,11 @@ static bool check_run(const struct run *run, lom_error *error)
     if (last < first)
         return lom_fail(error, LOM_ERROR_USAGE, "--frames %d:%d ends before it begins.", first, last);
     lom_frame_desc desc = lom_frame_of_options(&v->scene, first);
-    return lom_check_frame(run->scene, &desc, error) &&
-           lom_check_frame_output(&run->output, (lom_output_format)run->scene->output.format, last - first + 1, error);
+    lom_output_format format = v->show == NULL                           ? (lom_output_format)run->scene->output.format
+                               : lom_shows_numbers(v->output, v->format) ? LOM_OUTPUT_RGB32F
+                                                                         : LOM_OUTPUT_RGB8;
+    return (v->show == NULL || lom_check_shown_pass(v->show, error)) && lom_check_frame(run->scene, &desc, error) &&
+           lom_check_frame_output(&run->output, format, last - first + 1, error);
 }
 
 static bool open_stats(struct run *run, lom_error *error)

@@ -227,5 +227,6 @@ void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, 
                                        .cull = is_flat ? LOM_CULL_NONE : LOM_CULL_FRONT,
                                        .front_clockwise = view->mirrored,
                                        .depth_test_off = true,
-                                       .blend = { lom_blend_over } });
+                                       .blend = { lom_blend_over },
+                                       .label = "cloud" });
 }

@@ -34,7 +34,7 @@ bool lom_draw_plate(lom_device *device, const struct lom_cloud_set *set, const s
     own.depth = NULL;
     own.origin_x = own.origin_y = 0;
     own.mirrored = lom_vec3_dot(lom_vec3_cross(plate->right, plate->up), plate->forward) > 0;
-    lom_begin_pass(device, &(lom_pass_desc){ .color = { texture } });
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { texture }, .label = "plate" });
     lom_draw_placed_cloud(device, set, cloud, &own);
     return lom_end_pass(device);
 }
@@ -42,7 +42,7 @@ bool lom_draw_plate(lom_device *device, const struct lom_cloud_set *set, const s
 bool lom_magnify_plate(lom_device *device, const lom_texture *from, lom_texture *to)
 {
     struct lom_impostor_uniforms u = { .plate = from };
-    lom_begin_pass(device, &(lom_pass_desc){ .color = { to } });
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { to }, .label = "magnified plate" });
     lom_draw_square(device, &lom_magnify_shader, &u, &(lom_blend){ .enabled = false });
     return lom_end_pass(device);
 }

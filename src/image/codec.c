@@ -45,6 +45,10 @@ static const struct codec {
       { "qoif" },
       lom_decode_qoi,
       lom_encode_qoi },
+    { { "npy", "NumPy", "npy", false, true, false, false, 8 | 16 | 32, { 0, 1, 2, 3, 4 } },
+      { NULL },
+      NULL,
+      lom_encode_npy },
     { { "y4m", "YUV4MPEG2", "y4m", false, true, true, false, 8, { 0, 3, 3, 3, 3 } }, { NULL }, NULL, NULL },
 };
 

@@ -21,6 +21,7 @@ lom_bytes lom_encode_pam(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pfm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_nrrd(const lom_image *image, lom_error *error); /* any depth */
 lom_bytes lom_encode_qoi(const lom_image *image, lom_error *error);
+lom_bytes lom_encode_npy(const lom_image *image, lom_error *error);
 
 /* Whether text is one of the words of a list separated by '|', in capitals or not, whatever the locale. */
 bool lom_is_word(const char *text, size_t length, const char *list);

@@ -218,27 +218,42 @@ static void join(const struct joint *j)
     }
 }
 
-static bool is_outside_box(const struct joint *j)
-{
-    const struct record_candidate *c = j->candidate;
-    return c->has_box && (j->x < c->low[0] || j->x > c->high[0] || j->y < c->low[1] || j->y > c->high[1]);
-}
-
-static void join_watch(struct joint *j, const struct record_watch *watch)
+static void join_pixel(struct joint *j, struct record_pixel *pixel)
 {
     const lom_rect *v = &j->device->pass.viewport;
-    for (int i = 0; i < watch->desc.width * watch->desc.height; i++) {
-        j->pixel = &watch->pixels[i];
-        j->pass = j->pixel->pixel.passes;
-        while (j->pass != NULL && j->pass->next != NULL)
-            j->pass = j->pass->next;
-        if (j->pass == NULL)
-            continue;
-        j->x = (int64_t)(j->pass->x - v->x) * SUBPIXELS + SUBPIXELS / 2;
-        j->y = (int64_t)(j->pass->y - v->y) * SUBPIXELS + SUBPIXELS / 2;
-        if (!is_outside_box(j))
-            join(j);
+    j->pixel = pixel;
+    j->pass = pixel->pixel.passes;
+    while (j->pass != NULL && j->pass->next != NULL)
+        j->pass = j->pass->next;
+    if (j->pass == NULL)
+        return;
+    j->x = (int64_t)(j->pass->x - v->x) * SUBPIXELS + SUBPIXELS / 2;
+    j->y = (int64_t)(j->pass->y - v->y) * SUBPIXELS + SUBPIXELS / 2;
+    join(j);
+}
+
+/* The columns (or rows) of `count` from `first` on, in pixels of the viewport, whose centres lie in low..high. */
+static void cut_range(int64_t low, int64_t high, int64_t first, int *from, int *to)
+{
+    int64_t least = ((low + SUBPIXELS / 2 - 1) >> SUBPIXEL_BITS) - first;
+    int64_t most = ((high - SUBPIXELS / 2) >> SUBPIXEL_BITS) - first;
+    *from = least > *from ? (int)least : *from;
+    *to = most < *to ? (int)most : *to;
+}
+
+/* The pixels of a watch that the candidate's box holds. */
+static void join_watch(struct joint *j, const struct record_watch *watch)
+{
+    const struct record_candidate *c = j->candidate;
+    const lom_rect *v = &j->device->pass.viewport;
+    int left = 0, top = 0, right = watch->desc.width - 1, bottom = watch->desc.height - 1;
+    if (c->has_box) {
+        cut_range(c->low[0], c->high[0], watch->desc.x + watch->origin_x - v->x, &left, &right);
+        cut_range(c->low[1], c->high[1], watch->desc.y + watch->origin_y - v->y, &top, &bottom);
     }
+    for (int y = top; y <= bottom; y++)
+        for (int x = left; x <= right; x++)
+            join_pixel(j, &watch->pixels[y * watch->desc.width + x]);
 }
 
 void lom_record_batch(lom_device *device)

@@ -63,6 +63,7 @@ static bool draw_opaque(struct frame *f, lom_error *error)
     step->width = f->crop.width;
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
+    pass.label = "scene";
     lom_begin_pass(r->device, &pass);
     lom_draw_scene(r, &f->view);
     return lom_end_pass(r->device);

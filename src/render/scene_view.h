@@ -14,6 +14,9 @@ struct lom_caustics {
     double lod_scale;      /* texels of the map a pixel covers, per metre of distance */
 };
 
+/* What draws are of, in records. */
+enum { LOM_OBJECT_TERRAIN = 1, LOM_OBJECT_WATER = 2, LOM_OBJECT_ENTITY = 16 };
+
 /* How a pass looks at the scene. */
 struct lom_scene_view {
     lom_mat4 projection, view;

@@ -16,6 +16,7 @@ static bool load_sun(lom_renderer *renderer, lom_error *error)
                                                    .height = SIZE,
                                                    .format = LOM_FORMAT_R32F,
                                                    .pixels = picture->pixels,
+                                                   .label = "sun",
                                                    .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     lom_free_image(picture);
     return renderer->sky.sun != NULL;

@@ -42,20 +42,22 @@ static bool has_bytes(const lom_scene *scene)
 /* By lom_target. A target shares the texture of an earlier one of its size where the scene lets it: where what the one
  * holds has been read for the last time when the other is drawn. */
 static const struct row {
+    const char *label;
     enum need need;
     enum size size;
     enum kind kind;
     bool (*may_share)(const lom_scene *scene);
     enum lom_target with;
 } rows[LOM_TARGETS] = {
-    [LOM_TARGET_COLOR] = { ALWAYS, DRAWN, COLOR },
-    [LOM_TARGET_DEPTH] = { ALWAYS, DRAWN, DEPTH },
-    [LOM_TARGET_REFRACTION] = { FOR_WATER, REFRACTED, COLOR },
-    [LOM_TARGET_REFRACTION_DEPTH] = { FOR_WATER, REFRACTED, DEPTH },
-    [LOM_TARGET_REFLECTION] = { FOR_WATER, REFLECTED, COLOR },
-    [LOM_TARGET_REFLECTION_DEPTH] = { FOR_WATER, REFLECTED, DEPTH, is_planar, LOM_TARGET_REFRACTION_DEPTH },
-    [LOM_TARGET_MASK] = { FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION },
-    [LOM_TARGET_SPRAY] = { FOR_SPRAY, DRAWN, LAYER },
+    [LOM_TARGET_COLOR] = { "picture", ALWAYS, DRAWN, COLOR },
+    [LOM_TARGET_DEPTH] = { "depth", ALWAYS, DRAWN, DEPTH },
+    [LOM_TARGET_REFRACTION] = { "refraction", FOR_WATER, REFRACTED, COLOR },
+    [LOM_TARGET_REFRACTION_DEPTH] = { "refraction depth", FOR_WATER, REFRACTED, DEPTH },
+    [LOM_TARGET_REFLECTION] = { "reflection", FOR_WATER, REFLECTED, COLOR },
+    [LOM_TARGET_REFLECTION_DEPTH] = { "reflection depth", FOR_WATER, REFLECTED, DEPTH, is_planar,
+                                      LOM_TARGET_REFRACTION_DEPTH },
+    [LOM_TARGET_MASK] = { "mask", FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION },
+    [LOM_TARGET_SPRAY] = { "spray", FOR_SPRAY, DRAWN, LAYER },
 };
 
 /* What each target is to be for a frame of this size; width 0: the scene needs none. */
@@ -73,7 +75,8 @@ static void describe(const lom_scene *scene, const struct lom_targets *size, lom
                                   [LAYER] = LOM_FORMAT_RGBA32F };
     for (int i = 0; i < LOM_TARGETS; i++) {
         const struct row *row = &rows[i];
-        desc[i] = (lom_texture_desc){ .format = format[row->kind],
+        desc[i] = (lom_texture_desc){ .label = row->label,
+                                      .format = format[row->kind],
                                       .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
         if (!needed[row->need])
             continue;

@@ -36,6 +36,7 @@ static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool 
                                                .height = image->height,
                                                .format = format_of(image, srgb),
                                                .pixels = image->pixels,
+                                               .label = path,
                                                .mips = scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                                .sampler = sampler_of(&scene->quality) });
     lom_error failed = { 0 };

@@ -8,6 +8,8 @@
 
 #include "shading/matrix.h"
 
+#include <lom/notes.h>
+
 /* One directional light, Phong. */
 struct lom_light_uniform {
     float to_light[3]; /* unit length */

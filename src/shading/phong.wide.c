@@ -30,6 +30,10 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
         share = share * open;
     }
     lom_float lambert = facing * share * caustic_light(view, offset);
+    LOM_NAME_VALUE(normal);
+    LOM_NAME_VALUE(facing);
+    LOM_NAME_VALUE(share);
+    LOM_NAME_VALUE(lambert);
     struct lom_lit lit;
     lom_float3 ambient = lom_mix3(lom_uniform3(light->ground), lom_uniform3(light->ambient), 0.5f + 0.5f * normal.y);
     lit.textured = lom_add3(lom_mul3(lom_scale3(ambient, sky), lom_uniform3(m->ambient)),

@@ -12,6 +12,7 @@ lom_texture *lom_make_sky_texture(lom_device *device, const lom_image *faces, bo
                                                          .height = faces->height,
                                                          .format = srgb ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8,
                                                          .pixels = faces->pixels,
+                                                         .label = "sky box",
                                                          .mips = LOM_MIPS_ALL });
 }
 

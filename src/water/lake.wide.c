@@ -2,6 +2,8 @@
  * the scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
 #include "water/lake.h"
 
+#include <lom/notes.h>
+
 enum { X, Y, Z, VARYINGS };
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
@@ -10,6 +12,7 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     lom_float u = lom_to_float(in->vertex & 1), v = lom_to_float(in->vertex >> 1);
     lom_float3 offset = { lake->quad[0] + u * lake->quad[2], lom_splat(lake->level),
                           lake->quad[1] + v * lake->quad[3] };
+    LOM_NAME_VALUE(offset);
     out->position = lom_transform4(&lake->clip_from_offset, offset);
     out->varying[X] = offset.x;
     out->varying[Y] = offset.y;
@@ -103,15 +106,24 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
         w.depth = water_depth(lake, in);
     perturb(lake, in, &w);
     place_lookups(lake, in, &w);
+    LOM_NAME_AS(water_depth, w.depth);
+    LOM_NAME_AS(normal, w.normal);
+    LOM_NAME_AS(s, w.s);
+    LOM_NAME_AS(t, w.t);
     lom_float3 reflection = look_up(lake->reflection, lake->has_reflection, &w, lake->color);
     lom_float3 refraction = look_up(lake->refraction, lake->has_refraction, &w, lake->color);
-    lom_float3 color = lom_mix3(reflection, refraction, transmitted_share(lake, to_eye, w.normal));
+    lom_float transmitted = transmitted_share(lake, to_eye, w.normal);
+    LOM_NAME_VALUE(reflection);
+    LOM_NAME_VALUE(refraction);
+    LOM_NAME_VALUE(transmitted);
+    lom_float3 color = lom_mix3(reflection, refraction, transmitted);
     if (lake->has_tint)
         color = lom_mix3(color, lom_uniform3(lake->tint_color), lom_splat(lake->tint_amount));
     if (lake->has_specular) {
         lom_float highlight =
             lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess) * lom_light_share(&lake->light, offset);
         highlight = highlight * lake->specular_strength * lom_saturate(w.depth * lake->inverse_clear);
+        LOM_NAME_VALUE(highlight);
         color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
     }
     lom_float alpha = lake->has_soft_shore ? lom_saturate(w.depth / lake->shore_depth) : lom_splat(1.0f);

@@ -16,6 +16,7 @@ static void shade(lom_fragment *out, const struct lom_surface_uniforms *u, struc
 {
     p->slopes = lom_find_slopes(&u->waves, rest_x, rest_z, f);
     lom_finish_point(u, p);
+    LOM_NAME_AS(normal, p->normal);
     lom_float3 color = lom_surface_radiance(u, p, f);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
@@ -28,6 +29,7 @@ static void flat_vertex(lom_vertex *out, const lom_attributes *in, const void *u
     lom_mask right = (in->vertex & 1) != 0, low = (in->vertex & 2) != 0;
     lom_float3 offset = { lom_select(right, lom_splat(u->quad[2]), lom_splat(u->quad[0])), lom_splat(u->waves.level),
                           lom_select(low, lom_splat(u->quad[3]), lom_splat(u->quad[1])) };
+    LOM_NAME_VALUE(offset);
     out->position = lom_transform4(&u->clip_from_offset, offset);
     store3(out->varying + OFFSET, offset);
 }
@@ -56,6 +58,7 @@ static void displaced_vertex(lom_vertex *out, const lom_attributes *in, const vo
     struct lom_footprint f = { spacing, { 0 }, { 0 }, spacing };
     struct lom_wave_shift shift = lom_displace(&u->waves, x, z, &f);
     lom_float3 offset = { x + shift.dx, u->waves.level + shift.h, z + shift.dz };
+    LOM_NAME_VALUE(offset);
     out->position = lom_transform4(&u->clip_from_offset, offset);
     store3(out->varying + OFFSET, offset);
     out->varying[REST_X] = x;

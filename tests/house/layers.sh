@@ -18,7 +18,8 @@ below() {
     reference) echo "reference $(below world)" ;;
     render) echo "render $(below reference)" ;;
     measure) echo "measure $(below render)" ;;
-    cli) echo "cli measure $(below measure)" ;;
+    inspect) echo "inspect $(below render)" ;;
+    cli) echo "cli inspect $(below measure)" ;;
     esac
 }
 public() { # the public headers of each layer

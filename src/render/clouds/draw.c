@@ -52,6 +52,7 @@ bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lo
     seen.origin_y = pass.origin_y;
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
+    pass.label = "clouds";
     if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
         return lom_draw_impostors(f, view, &seen, &pass, count, error);
     size_t *order = r->clouds.set->order;

@@ -198,6 +198,7 @@ static bool provide_target(lom_device *device, lom_texture **texture, int width,
     *texture = lom_make_texture(
         device, &(lom_texture_desc){ .width = width,
                                      .height = height,
+                                     .label = "plate of a cloud",
                                      .format = LOM_FORMAT_RGBA16F,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     return *texture != NULL;

@@ -65,6 +65,7 @@ static bool make_shadow_map(lom_renderer *r)
         r->clouds.ground_shadow.texture =
             lom_make_texture(r->device, &(lom_texture_desc){ .width = SHADOW_SIZE,
                                                              .height = SHADOW_SIZE,
+                                                             .label = "cloud shadow",
                                                              .format = LOM_FORMAT_R32F,
                                                              .sampler = { .wrap_s = LOM_WRAP_BORDER,
                                                                           .wrap_t = LOM_WRAP_BORDER,
@@ -118,7 +119,9 @@ bool lom_draw_cloud_shadows(struct frame *f, const double to_light[3])
     lom_step *step = lom_add_step(f, "cloud shadow", true, "what clouds let through of the sun, over %.0f x %.0f m",
                                   plane[2], plane[3]);
     step->width = step->height = SHADOW_SIZE;
-    lom_begin_pass(r->device, &(lom_pass_desc){ .color = { shadow->texture }, .clear_color = { { 1, 1, 1, 1 } } });
+    lom_begin_pass(
+        r->device,
+        &(lom_pass_desc){ .color = { shadow->texture }, .clear_color = { { 1, 1, 1, 1 } }, .label = "cloud shadow" });
     for (size_t i = 0; i < r->clouds.set->count; i++)
         lom_draw_cloud_shadow(r->device, r->clouds.set, &r->clouds.set->clouds[i], plane, y, to_light);
     if (!lom_end_pass(r->device))

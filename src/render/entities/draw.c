@@ -44,6 +44,8 @@ static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
     lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
+                           .label = entity->source->entity->mesh,
+                           .object = LOM_OBJECT_ENTITY + (int)(entity - renderer->entities.items),
                            .front_clockwise = view->mirrored != is_mirroring(&entity->at->world_from_model) };
     set_attributes(&draw, entity->source->mesh);
     for (size_t i = 0; i < entity->source->mesh->part_count; i++) {
@@ -60,7 +62,8 @@ void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *enti
     struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_model) };
     lom_draw_desc draw = { .shader = &lom_caster_shader,
                            .uniforms = &uniforms,
-                           .count = entity->source->mesh->index_count };
+                           .count = entity->source->mesh->index_count,
+                           .label = entity->source->entity->mesh };
     set_attributes(&draw, entity->source->mesh);
     lom_draw(renderer->device, &draw);
 }

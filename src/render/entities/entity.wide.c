@@ -15,6 +15,7 @@ static struct corner transform(lom_vertex *out, const lom_attributes *in, const 
     struct corner c = { lom_transform3(&entity->offset_from_model, model),
                         lom_rotate3(&entity->normal_from_model,
                                     (lom_float3){ in->attribute[1].x, in->attribute[1].y, in->attribute[1].z }) };
+    LOM_NAME_AS(offset, c.offset);
     out->position = lom_transform4(&entity->clip_from_model, model);
     out->distance[0] = lom_transform_row(entity->view.plane, c.offset);
     out->varying[OFFSET] = c.offset.x;
@@ -72,6 +73,9 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
                    lom_float3 textured, lom_float3 highlight)
 {
     lom_float3 color = lom_add3(lom_mul3(textured, albedo(entity, in)), highlight);
+    LOM_NAME_VALUE(textured);
+    LOM_NAME_VALUE(highlight);
+    LOM_NAME_VALUE(color);
     lom_finish_opaque(out, &entity->view, load3(in, OFFSET), color);
 }
 

@@ -173,12 +173,13 @@ static void project_map(struct lom_entity_shadow *shadow, const lom_box *extent,
     shadow->falls = true;
 }
 
-static bool make_map(struct frame *f, struct lom_entity_shadow *shadow, int size)
+static bool make_map(struct frame *f, struct lom_entity_shadow *shadow, int size, const char *name)
 {
     if (shadow->map == NULL)
         shadow->map =
             lom_make_texture(f->renderer->device, &(lom_texture_desc){ .width = size,
                                                                        .height = size,
+                                                                       .label = name,
                                                                        .format = LOM_FORMAT_DEPTH32F,
                                                                        .sampler = { .wrap_s = LOM_WRAP_BORDER,
                                                                                     .wrap_t = LOM_WRAP_BORDER,
@@ -210,7 +211,7 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
                      map == 1 ? " farther than the middle" : "");
         return true;
     }
-    if (!make_map(f, shadow, size))
+    if (!make_map(f, shadow, size, names[map]))
         return false;
     project_map(shadow, &casters->extent, light, size, r->entities.items[0].source);
     uint64_t hash = hash_casters(r, map, &shadow->clip_from_world);
@@ -221,7 +222,7 @@ static bool draw_map(struct frame *f, int map, const struct casters *casters, co
     lom_step *step = lom_add_step(f, names[map], true, "%zu entities as the sun sees them, %.3g m a texel",
                                   casters->count, shadow->texel);
     step->width = step->height = size;
-    lom_begin_pass(r->device, &(lom_pass_desc){ .depth = shadow->map });
+    lom_begin_pass(r->device, &(lom_pass_desc){ .depth = shadow->map, .label = names[map] });
     for (size_t i = 0; i < r->entities.count; i++)
         if (r->entities.items[i].shadow_map == map)
             lom_draw_caster(r, &r->entities.items[i], &shadow->clip_from_world);

@@ -184,6 +184,7 @@ static bool make_vertex_texture(const struct loader *loader, int height, bool mi
                                      .height = height,
                                      .format = LOM_FORMAT_RGBA32F,
                                      .pixels = loader->texels,
+                                     .label = "terrain normals",
                                      .mips = mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     return lom_check_device(device, error);

@@ -91,6 +91,8 @@ void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, 
     lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
                            .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
+                           .label = "terrain",
+                           .object = LOM_OBJECT_TERRAIN,
                            .front_clockwise = view->mirrored };
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number = ground->order[i];

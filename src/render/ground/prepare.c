@@ -16,6 +16,7 @@ static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec
                 .height = height,
                 .format = LOM_FORMAT_R32F,
                 .pixels = shadow,
+                .label = "terrain shadow",
                 .sampler = { .wrap_s = LOM_WRAP_BORDER, .wrap_t = LOM_WRAP_BORDER, .border = { -1e30f } } },
             error);
     lom_release(shadow);

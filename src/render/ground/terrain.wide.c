@@ -18,6 +18,7 @@ static lom_float3 transform(lom_vertex *out, const lom_attributes *in, const str
 {
     lom_float3 place = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
     lom_float3 offset = lom_sub3(lom_sub3(place, lom_uniform3(terrain->eye)), lom_uniform3(terrain->eye_rest));
+    LOM_NAME_VALUE(offset);
     out->position = lom_transform4(&terrain->view.clip_from_offset, offset);
     out->distance[0] = lom_transform_row(terrain->view.plane, offset);
     out->varying[OFFSET] = offset.x;

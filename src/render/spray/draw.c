@@ -108,6 +108,7 @@ static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, con
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_SPRAY]);
     pass.depth_load = LOM_LOAD_KEEP;
     pass.scissor = reach;
+    pass.label = "drops";
     const lom_draw_desc draw = { .shader = &lom_spray_shader,
                                  .uniforms = &u,
                                  .indices = r->spray.order,
@@ -123,6 +124,7 @@ static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, con
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.scissor = reach;
+    pass.label = "spray";
     lom_begin_pass(r->device, &pass);
     lom_draw_square(r->device, &lom_spray_layer_shader, &layer, &lom_blend_over);
     return lom_end_pass(r->device);

@@ -14,8 +14,9 @@ static bool make_targets(lom_renderer *r, int size, lom_error *error)
     lom_free_gathered_light(&r->water.light);
     if (!lom_make_gathered_light(&r->water.light, size, error))
         return false;
-    r->water.photons =
-        lom_make_texture(r->device, &(lom_texture_desc){ .width = size, .height = size, .format = LOM_FORMAT_RGBA32F });
+    r->water.photons = lom_make_texture(
+        r->device,
+        &(lom_texture_desc){ .width = size, .height = size, .label = "photons", .format = LOM_FORMAT_RGBA32F });
     return r->water.photons != NULL;
 }
 
@@ -57,7 +58,7 @@ static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
     lom_renderer *r = f->renderer;
     lom_step *step = lom_add_step(f, "caustics", true, "where the waves send the sunlight on the bed");
     step->width = step->height = lom_texture_width(r->water.photons);
-    lom_pass_desc pass = { .color = { r->water.photons } };
+    lom_pass_desc pass = { .color = { r->water.photons }, .label = "photons" };
     const lom_draw_desc draw = { .shader = &lom_photon_shader, .uniforms = u, .count = 3 };
     return lom_draw_pass(r->device, &pass, &draw, 1);
 }
@@ -78,6 +79,7 @@ static bool gather(lom_renderer *r)
                                     .height = light->size,
                                     .format = LOM_FORMAT_R32F,
                                     .pixels = light->texel,
+                                    .label = "caustics",
                                     .mips = LOM_MIPS_ALL,
                                     .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
     return lom_renew_texture(r->device, &r->water.caustics, &desc);

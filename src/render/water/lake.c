@@ -40,6 +40,7 @@ static bool draw_visibility(struct frame *f)
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_MASK]);
     pass.depth_load = LOM_LOAD_KEEP;
+    pass.label = "visibility";
     struct lom_lake_uniforms uniforms;
     const lom_draw_desc draw = lom_lake_draw(&lom_lake_mask_shader, &f->scene->water, &v, &uniforms);
     if (!lom_draw_pass(r->device, &pass, &draw, 1))

@@ -17,6 +17,7 @@ static bool load_maps(lom_renderer *renderer, lom_error *error)
         renderer->water.flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = flow->width,
                                                                                            .height = flow->height,
                                                                                            .pixels = flow->pixels,
+                                                                                           .label = "flow map",
                                                                                            .mips = LOM_MIPS_ALL });
     if (w->flow_map != NULL)
         renderer->water.flow_map = lom_load_texture(renderer, w->flow_map, false, error);
@@ -37,6 +38,7 @@ static bool load_foam(lom_renderer *renderer, lom_error *error)
                                                                                    .height = pattern->height,
                                                                                    .format = LOM_FORMAT_R8,
                                                                                    .pixels = pattern->pixels,
+                                                                                   .label = "foam",
                                                                                    .mips = LOM_MIPS_ALL });
     lom_free_image(pattern);
     return lom_check_device(renderer->device, error);
@@ -68,6 +70,7 @@ static bool load_bed(lom_renderer *renderer, lom_error *error)
                                                .height = bed->rows + 1,
                                                .format = LOM_FORMAT_R32F,
                                                .pixels = bed->heights,
+                                               .label = "bed",
                                                .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     return lom_check_device(renderer->device, error);
 }

@@ -125,6 +125,7 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
 {
     lom_renderer *r = f->renderer;
     lom_pass_desc pass = { .color = { color }, .depth = depth, .scissor = scissor };
+    pass.label = view->mirrored ? "reflection" : "refraction";
     for (int i = 0; i < 4; i++)
         pass.clear_color[0][i] = clear[i];
     step->width = lom_texture_width(color);
@@ -156,5 +157,9 @@ bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc 
     lom_pass_desc pass = lom_frame_pass(f, f->renderer->targets.of[LOM_TARGET_COLOR]);
     pass.color_load[0] = pass.depth_load = LOM_LOAD_KEEP;
     pass.scissor = f->water;
-    return lom_draw_pass(f->renderer->device, &pass, surface, 1);
+    pass.label = "water";
+    lom_draw_desc labelled = *surface;
+    labelled.label = "water";
+    labelled.object = LOM_OBJECT_WATER;
+    return lom_draw_pass(f->renderer->device, &pass, &labelled, 1);
 }

@@ -77,6 +77,7 @@ static bool draw_underwater(const struct surface *surface, struct frame *f)
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
+    pass.label = "underwater";
     struct lom_underwater_uniforms light = under;
     light.multiplies = false;
     const lom_blend multiply = { .enabled = true,

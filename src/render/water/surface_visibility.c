@@ -25,6 +25,7 @@ static bool draw_box(const struct surface *surface, struct frame *f, const lom_b
     }
     lom_pass_desc pass = lom_frame_pass(f, f->renderer->targets.of[LOM_TARGET_MASK]);
     pass.depth_load = LOM_LOAD_KEEP;
+    pass.label = "visibility";
     const lom_draw_desc draw = { .shader = &lom_surface_bounds_shader,
                                  .uniforms = &surface->uniforms,
                                  .attribute = { { corners, sizeof corners, 12, LOM_ATTRIBUTE_FLOAT3 } },

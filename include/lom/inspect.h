@@ -1,0 +1,79 @@
+/* lom/inspect.h - why a pixel of a scene has its colour: what drew it, followed through what its shaders looked up.
+ *
+ * Steps of use, in order: lom_create_renderer (lom/render.h); lom_explain draws the frame while it watches the pixel, then
+ * again while it watches also the texels of this frame's own pictures (mirror, refraction, shadow maps, plates of clouds)
+ * that the pixel's shaders read, and so on; lom_free_explanation. Everything told is what the stages recorded
+ * (lom/record.h); nothing is computed a second time beside them.
+ */
+#ifndef LOM_INSPECT_H
+#define LOM_INSPECT_H
+
+#include <lom/record.h>
+#include <lom/render.h>
+
+LOM_API_BEGIN
+
+enum { LOM_MAX_VERDICT = 480, LOM_MAX_FOLLOW = 8 };
+
+typedef struct lom_explain_desc {
+    lom_frame_desc frame; /* its crop is not used */
+    int x, y;             /* of the whole frame */
+    int width, height;    /* 0: 1; more than one pixel is not followed */
+    int follow;           /* how many pictures deep, 0 .. LOM_MAX_FOLLOW */
+} lom_explain_desc;
+
+/* One texel that was watched. */
+typedef struct lom_explained {
+    const lom_texture *texture;
+    const char *name; /* "picture", or the texture's label */
+    int x, y;         /* texel; of the picture: the frame's pixel */
+    uint64_t before;  /* the pass that read it; of the picture 0 */
+    int depth;        /* pictures between it and the pixel */
+    const lom_pixel_record *record;
+    const lom_triangle_record *owner; /* the last triangle that is stored there; NULL: none */
+    lom_vec3 eye;                  /* of the picture's pass, in the world: places less the eye plus this are places */
+    char verdict[LOM_MAX_VERDICT]; /* a sentence */
+} lom_explained;
+
+typedef struct lom_explanation {
+    lom_frame frame;   /* its picture is the explained pixels alone */
+    int width, height; /* of the whole frame */
+    size_t count;
+    lom_explained item[LOM_MAX_WATCHES]; /* the pixel, then what it looked up, what that looked up ... */
+} lom_explanation;
+
+/* Explains a pixel; NULL on failure (outside the frame, a scene that is traced and has no passes). The explanation's
+ * records are the device's: it is used and freed before the renderer draws again. */
+lom_explanation *lom_explain(lom_renderer *renderer, const lom_explain_desc *desc, lom_error *error);
+void lom_free_explanation(lom_renderer *renderer, lom_explanation *explanation); /* NULL is allowed */
+
+/* The lookup's texel that was followed, NULL: none. pass: the one that the lookup was made in. */
+const lom_explained *lom_followed(const lom_explanation *explanation, uint64_t pass, const lom_note_record *lookup);
+/* The heaviest texel of a lookup, within level 0; NULL: it read none. */
+const lom_tap *lom_main_tap(const lom_note_record *lookup);
+/* The shader's or the draw's own name of a draw. */
+const char *lom_draw_name(const lom_draw_record *draw);
+const char *lom_pass_name(const lom_pass_record *pass);
+
+/* ---- the pictures of passes ---- */
+
+/* A pass whose picture can be shown, of a table; NULL behind the last. */
+typedef struct lom_shown_pass {
+    const char *name; /* "reflection" */
+    const char *text; /* what its numbers are */
+    bool is_color;    /* three channels of linear light; else one of numbers, or three of a vector */
+} lom_shown_pass;
+const lom_shown_pass *lom_describe_shown_pass(size_t index);
+/* Whether there is one of this name; false: the error lists them. */
+bool lom_check_shown_pass(const char *name, lom_error *error);
+/* What the pass of this name left in the frame that the renderer drew last: floats, one or three channels, top row first.
+ * "normals", "objects" and "motion" draw that frame again, in strips, while they watch every pixel. NULL on failure: an
+ * unknown name (the error lists them), a scene or frame without that pass. */
+lom_image *lom_show_pass(lom_renderer *renderer, const lom_frame_desc *desc, const char *name, lom_error *error);
+/* The same for eyes: 8-bit sRGB of three channels; numbers stretched from the lowest to the highest that is not 0, in 16
+ * bits; vectors halved around middle gray; objects in colours of their own. The picture is freed. */
+lom_image *lom_show_to_eyes(lom_image *raw, const char *name, lom_error *error);
+
+LOM_API_END
+
+#endif
