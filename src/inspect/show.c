@@ -187,6 +187,14 @@ lom_image *lom_show_pass(lom_renderer *renderer, const lom_frame_desc *desc, con
 
 /* ---- for eyes ---- */
 
+/* Distances reach over many powers of two. */
+static void take_logarithm(lom_image *image)
+{
+    float *value = (float *)(void *)image->pixels;
+    for (size_t i = 0; i < lom_image_size(image) / sizeof *value; i++)
+        value[i] = value[i] > 0 ? (float)(1000 + lom_double_log((double)value[i])) : 0;
+}
+
 static void stretch(lom_image *image)
 {
     float *value = (float *)(void *)image->pixels, low = 0, high = 0;
@@ -237,6 +245,8 @@ lom_image *lom_show_to_eyes(lom_image *raw, const char *name, lom_error *error)
     for (size_t i = 0; i < ROWS; i++)
         is_color |= rows[i].pass.is_color && strcmp(rows[i].pass.name, name) == 0;
     lom_image *shown = NULL, *colors = is_objects ? color_objects(raw, error) : NULL;
+    if (strstr(name, "depth") != NULL)
+        take_logarithm(raw);
     if (!is_objects && !is_color && raw->format == LOM_FORMAT_R32F)
         stretch(raw);
     else if (!is_objects && !is_color)

@@ -209,10 +209,22 @@ static void begin_pixel(const struct lom_pass *pass, struct record_watch *watch,
     *last = record;
 }
 
+/* The bounds take in a watch's pixels. */
+static void widen(struct lom_bounds *bounds, const struct record_watch *watch)
+{
+    int left = watch->desc.x + watch->origin_x, top = watch->desc.y + watch->origin_y;
+    int right = left + watch->desc.width - 1, bottom = top + watch->desc.height - 1;
+    bounds->left = left < bounds->left ? left : bounds->left;
+    bounds->top = top < bounds->top ? top : bounds->top;
+    bounds->right = right > bounds->right ? right : bounds->right;
+    bounds->bottom = bottom > bounds->bottom ? bottom : bounds->bottom;
+}
+
 void lom_record_begin(lom_device *device)
 {
     struct lom_recorder *r = device->recorder;
     struct lom_pass *pass = &device->pass;
+    r->bounds = (struct lom_bounds){ INT32_MAX, INT32_MAX, -1, -1 };
     for (size_t i = 0; i < r->watch_count; i++) {
         struct record_watch *watch = &r->watch[i];
         watch->active = find_attachment(pass, watch, &watch->attachment) &&
@@ -223,6 +235,7 @@ void lom_record_begin(lom_device *device)
         pass->one_by_one = true;
         watch->origin_x = pass->desc.origin_x;
         watch->origin_y = pass->desc.origin_y;
+        widen(&r->bounds, watch);
         for (size_t k = 0; k < count_pixels(watch); k++)
             begin_pixel(pass, watch, &watch->pixels[k]);
     }
@@ -235,6 +248,8 @@ void lom_record_begin(lom_device *device)
 
 struct record_pixel *lom_record_next(struct lom_recorder *r, int x, int y, size_t *next)
 {
+    if (x < r->bounds.left || y < r->bounds.top || x > r->bounds.right || y > r->bounds.bottom)
+        return NULL;
     while (*next < r->watch_count) {
         struct record_watch *watch = &r->watch[(*next)++];
         int column = x - watch->origin_x - watch->desc.x, row = y - watch->origin_y - watch->desc.y;

@@ -88,7 +88,8 @@ struct record_written {
 struct lom_recorder {
     struct record_watch watch[LOM_MAX_WATCHES];
     size_t watch_count;
-    uint64_t passes; /* begun since lom_watch */
+    struct lom_bounds bounds; /* of all watched pixels of the pass at hand, in the frame */
+    uint64_t passes;          /* begun since lom_watch */
     struct record_written *written;
     size_t written_count, written_capacity;
     struct record_chunk *chunks; /* one for each of a batch */

@@ -41,32 +41,46 @@ static bool is_beside(const struct lom_pass *pass, const struct range *r, const 
     return false;
 }
 
-static bool comes_near(const struct lom_pass *pass, const struct record_candidate *c)
+/* The box of three snapped vertices: low x, y, high x, y. */
+static void find_box(const struct lom_chunk *chunk, const uint32_t corner[3], int32_t low[2], int32_t high[2])
 {
+    size_t pitch = (size_t)chunk->draw->row_floats;
+    for (int k = 0; k < 3; k++) {
+        int32_t at[2];
+        memcpy(at, chunk->rows + corner[k] * pitch, sizeof at);
+        for (int i = 0; i < 2; i++) {
+            low[i] = k == 0 || at[i] < low[i] ? at[i] : low[i];
+            high[i] = k == 0 || at[i] > high[i] ? at[i] : high[i];
+        }
+    }
+}
+
+/* Most triangles lie beside the bounds of all watches. */
+static bool box_comes_near(const struct lom_pass *pass, const int32_t low[2], const int32_t high[2])
+{
+    const struct lom_bounds *b = &pass->recorder->bounds;
+    int64_t x = pass->viewport.x, y = pass->viewport.y, middle = SUBPIXELS / 2;
+    if (low[0] > (b->right - x) * SUBPIXELS + middle || high[0] < (b->left - x) * SUBPIXELS + middle ||
+        low[1] > (b->bottom - y) * SUBPIXELS + middle || high[1] < (b->top - y) * SUBPIXELS + middle)
+        return false;
     for (size_t i = 0; i < pass->recorder->watch_count; i++) {
         const struct record_watch *watch = &pass->recorder->watch[i];
-        if (!watch->active)
-            continue;
         struct range r = range_of(pass, watch);
-        if (c->has_box
-                ? c->low[0] <= r.high[0] && c->high[0] >= r.low[0] && c->low[1] <= r.high[1] && c->high[1] >= r.low[1]
-                : !is_beside(pass, &r, c->clip))
+        if (watch->active && low[0] <= r.high[0] && high[0] >= r.low[0] && low[1] <= r.high[1] && high[1] >= r.low[1])
             return true;
     }
     return false;
 }
 
-static void find_box(const struct lom_chunk *chunk, struct record_candidate *c)
+static bool clip_comes_near(const struct lom_pass *pass, const float clip[3][4])
 {
-    size_t pitch = (size_t)chunk->draw->row_floats;
-    for (int k = 0; k < 3; k++) {
-        int32_t at[2];
-        memcpy(at, chunk->rows + c->corner[k] * pitch, sizeof at);
-        for (int i = 0; i < 2; i++) {
-            c->low[i] = k == 0 || at[i] < c->low[i] ? at[i] : c->low[i];
-            c->high[i] = k == 0 || at[i] > c->high[i] ? at[i] : c->high[i];
-        }
+    for (size_t i = 0; i < pass->recorder->watch_count; i++) {
+        const struct record_watch *watch = &pass->recorder->watch[i];
+        struct range r = range_of(pass, watch);
+        if (watch->active && !is_beside(pass, &r, clip))
+            return true;
     }
+    return false;
 }
 
 static struct record_chunk *record_of(const struct lom_pass *pass, const struct lom_chunk *chunk)
@@ -85,19 +99,26 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     if (corner[0] == NO_VERTEX || chunk->draw->variant != LOM_SLOT_4_recorded)
         return false;
     unsigned any = assembly->codes[corner[0]] | assembly->codes[corner[1]] | assembly->codes[corner[2]];
-    struct record_candidate c = { .number = chunk->first + i, .has_box = (any & (CODE_CLIP | CODE_INVALID)) == 0 };
+    bool has_box = (any & (CODE_CLIP | CODE_INVALID)) == 0;
+    int32_t low[2] = { 0, 0 }, high[2] = { 0, 0 };
+    float clip[3][4];
     if ((any & CODE_INVALID) != 0)
         return false;
+    if (has_box)
+        find_box(chunk, corner, low, high);
+    for (int k = 0; k < 3; k++)
+        memcpy(clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof clip[k]);
+    if (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, clip))
+        return false;
+    struct record_candidate c = { .number = chunk->first + i, .has_box = has_box };
     for (int k = 0; k < 3; k++) {
         c.corner[k] = corner[k];
         c.index[k] = chunk->listed ? assembly->vertex_list[corner[k]] : chunk->vertex_base + corner[k];
         c.code[k] = assembly->codes[corner[k]];
-        memcpy(c.clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof c.clip[k]);
     }
-    if (c.has_box)
-        find_box(chunk, &c);
-    if (!comes_near(pass, &c))
-        return false;
+    memcpy(c.clip, clip, sizeof c.clip);
+    memcpy(c.low, low, has_box ? sizeof low : 0);
+    memcpy(c.high, high, has_box ? sizeof high : 0);
     if (!lom_reserve(&record->items, &record->capacity, record->count + 1, sizeof c, NULL)) {
         record->failed = true;
         return false;

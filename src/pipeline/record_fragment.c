@@ -42,9 +42,20 @@ static int place_of(const struct lom_tile *tile, const struct part *at, int lane
     return at->base + tile->offset[at->part * LOM_LANES + lane];
 }
 
+/* Whether a part of a window, a block of 2x2 pixels, holds none that is watched. */
+static bool is_beside(const struct lom_tile *tile, const struct part *at)
+{
+    const struct lom_bounds *b = &tile->pass->recorder->bounds;
+    int x, y;
+    find_pixel(tile, place_of(tile, at, 0), &x, &y);
+    return x > b->right || x + 1 < b->left || y > b->bottom || y + 1 < b->top;
+}
+
 void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_mask *inside,
                         const lom_float l[3], const lom_float *z)
 {
+    if (is_beside(tile, at))
+        return;
     lom_float units = tile->depth != NULL ? lom_depth_units(tile->pass, *z) : *z;
     for (int i = 0; i < LOM_LANES; i++) {
         int x, y, place = place_of(tile, at, i);
@@ -73,7 +84,7 @@ void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_
 
 void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed)
 {
-    if (!tile->tests_early)
+    if (!tile->tests_early || is_beside(tile, at))
         return;
     for (int i = 0; i < LOM_LANES; i++) {
         size_t next = 0;

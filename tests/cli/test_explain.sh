@@ -3,6 +3,7 @@
 # that what cannot be explained is refused with one sentence.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/cli/cli.sh
+page=$PWD/tests/inspect/page.js
 . tests/cli/scene.sh
 cd "$folder/scene" || exit 1
 
@@ -54,6 +55,11 @@ page_alone() {
         [ "$(grep -c '</script>' out.html)" -eq 3 ]
 }
 
+page_runs() {
+    "$lom" explain scene.toml 16,20 --size 32x24 -o out.html >"$folder/verdict" &&
+        node "$page" out.html >"$folder/steps" && cat "$folder/steps" && grep -q '^lom explain: [1-9][0-9]* steps' "$folder/steps"
+}
+
 # ---- lom render --show ----
 
 unknown_pass() {
@@ -99,6 +105,11 @@ check unknown_passes_are_refused_with_a_sentence unknown_pass
 check bad_input_is_refused_with_a_sentence bad_input
 check the_verdict_comes_first verdict_first
 check a_page_needs_no_other_file page_alone
+if command -v node >/dev/null; then
+    check every_step_of_the_page_can_be_taken page_runs
+else
+    echo "SKIP every_step_of_the_page_can_be_taken: needs node"
+fi
 if command -v python3 >/dev/null; then
     check explained_pixels_are_those_of_render pixels_of_render
     check shown_numbers_are_those_of_the_scene shown_numbers
