@@ -28,7 +28,7 @@ struct edge_lanes {
     lom_int ex[3], ey[3];           /* along the edge, so that the inside is positive */
 };
 
-/* Corner k of LOM_LANES triangles. */
+/* Corner k of LOM_LANES triangles, without where its row is. */
 LOM_INLINE void load_corner(const struct lom_chunk *chunk, const uint32_t *corners, int k, struct vertices *v)
 {
     const float *rows[LOM_LANES];
@@ -36,11 +36,18 @@ LOM_INLINE void load_corner(const struct lom_chunk *chunk, const uint32_t *corne
     for (int i = 0; i < LOM_LANES; i++)
         rows[i] = chunk->rows + corners[3 * i + k] * pitch;
     lom_float4 header = lom_load_rows(rows, 0);
-    lom_int number = lom_gather_int((const int32_t *)corners + k, lom_lane_index() * 3);
     v->x = lom_as_int(header.x);
     v->y = lom_as_int(header.y);
     v->depth = lom_as_int(header.z);
-    v->row = number * (int32_t)pitch + (k == 2 ? 1 : 0);
+}
+
+/* Where the corners' rows are: for the packets that culling leaves. */
+LOM_INLINE void find_rows(const struct lom_chunk *chunk, const uint32_t *corners, struct packet *p)
+{
+    for (int k = 0; k < 3; k++) {
+        lom_int number = lom_gather_int((const int32_t *)corners + k, lom_lane_index() * 3);
+        p->v[k].row = number * (int32_t)chunk->draw->row_floats + (k == 2 ? 1 : 0);
+    }
 }
 
 /* The bounds of the vertices in units, and which triangles have edge functions in int32. */
@@ -277,6 +284,7 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_FACES, &p.alive);
     if (!lom_any(p.alive))
         return;
+    find_rows(chunk, corners, &p);
     order(&p, 0, 1);
     order(&p, 1, 2);
     order(&p, 0, 1);
