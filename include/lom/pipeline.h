@@ -410,6 +410,25 @@ typedef struct lom_blend {
     lom_blend_operation color_operation, alpha_operation;
 } lom_blend;
 
+/* Clusters of a mesh: its triangles in runs, with the box around the vertices of each. A draw that has them leaves out
+ * those of which nothing can be seen before it touches a vertex; no pixel changes. */
+typedef struct lom_clusters lom_clusters;
+
+/* Of positions (LOM_ATTRIBUTE_FLOAT3) and `count` indices of 32 bits, three a triangle, all of vertices that exist;
+ * neither is kept. NULL with an error for others, or without memory. Freed with lom_free_clusters, after the passes that
+ * draw them. */
+lom_clusters *lom_create_clusters(const lom_attribute *positions, const uint32_t *indices, size_t count,
+                                  lom_error *error);
+void lom_free_clusters(lom_clusters *clusters); /* NULL is allowed */
+
+/* What a draw says of its shader so that clusters can be left out; it is relied on. */
+typedef struct lom_culling {
+    const lom_clusters *clusters;          /* of the draw's indices, all of them; NULL: nothing is left out */
+    lom_matrix_uniform clip_from_position; /* a vertex lies at its product with (p, 1), p the position that the clusters
+                                              were made of, up to 8 roundings of a float, relative to the sum of the terms */
+    float distance[4]; /* likewise clip distance 0: the sum of distance[i] p[i] and distance[3]; zeros: none */
+} lom_culling;
+
 /* Polygon offset. Every fragment's depth gets, before it is tested, m depth_bias_slope + r depth_bias, and is clamped
  * to 0..1; both factors 0: nothing is added. Positive moves towards depth 1, which is nearer in reversed depth. m =
  * max(|dz/dx|, |dz/dy|) of the triangle, a pixel; r is the step of the attachment: 1 / 65535 for DEPTH16, 1 / 16777215
@@ -442,6 +461,8 @@ typedef struct lom_draw_desc {
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
     const char *label;                /* what records (lom/record.h) say is drawn; not copied; may be NULL */
     int object;                       /* a number of the caller's for it, in records */
+    lom_culling
+        culling; /* with clusters: LOM_TRIANGLES, indices of 32 bits, no first, base_vertex, restart; 1 instance */
 } lom_draw_desc;
 
 /* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */

@@ -7,6 +7,7 @@ void lom_peer_free_mesh(lom_peer_mesh *mesh)
 {
     lom_release(mesh->vertices);
     lom_release(mesh->indices);
+    lom_free_clusters(mesh->clusters);
     *mesh = (lom_peer_mesh){ 0 };
 }
 
@@ -87,7 +88,12 @@ bool lom_peer_terrain(lom_peer_mesh *mesh, lom_error *error)
                 .uv = { (float)i / (N - 1), (float)j / (N - 1) },
             };
         }
-    return true;
+    const lom_attribute positions = { .data = mesh->vertices,
+                                      .size = mesh->vertex_count * sizeof *mesh->vertices,
+                                      .stride = sizeof *mesh->vertices,
+                                      .kind = LOM_ATTRIBUTE_FLOAT3 };
+    mesh->clusters = lom_create_clusters(&positions, mesh->indices, mesh->index_count, error);
+    return mesh->clusters != NULL;
 }
 
 bool lom_peer_cube(lom_peer_mesh *mesh, lom_error *error)

@@ -2,7 +2,7 @@
 #ifndef LOM_MEASURE_PEER_MESHES_H
 #define LOM_MEASURE_PEER_MESHES_H
 
-#include <lom/base.h>
+#include <lom/pipeline.h>
 
 typedef struct lom_peer_vertex { /* 32 bytes, interleaved */
     float position[3], normal[3], uv[2];
@@ -12,6 +12,7 @@ typedef struct lom_peer_mesh {
     lom_peer_vertex *vertices;
     uint32_t *indices; /* triangles, counter-clockwise from outside (above) */
     size_t vertex_count, index_count;
+    lom_clusters *clusters; /* of the terrain */
 } lom_peer_mesh;
 
 /* False when memory runs out; freed with lom_peer_free_mesh either way. */

@@ -137,6 +137,10 @@ static void draw_ground(lom_workload *w, lom_device *device, bool mirrored, floa
     lom_draw_desc draw = lom_workload_mesh_draw(shader, &w->terrain, 3, &ground);
     draw.depth_compare = LOM_COMPARE_LESS_EQUAL;
     draw.front_clockwise = mirrored;
+    draw.culling.clusters = w->terrain.clusters;
+    for (int i = 0; i < 16; i++)
+        draw.culling.clip_from_position.m[i % 4][i / 4] = ground.to_clip[i];
+    memcpy(draw.culling.distance, ground.clip, sizeof draw.culling.distance);
     lom_draw(device, &draw);
 }
 

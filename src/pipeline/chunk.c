@@ -211,17 +211,20 @@ static bool choose_vertices(const struct lom_room *room, struct lom_chunk *chunk
                    NULL))
         return false;
     chunk->has_gaps = false;
-    const uint32_t *plain = find_plain_indices(chunk, &low, &high);
-    if (plain == NULL) {
+    chunk->needed = NULL;
+    if (chunk->run_count > 0 && !lom_gather_clusters(chunk, &low, &high))
+        return false;
+    const uint32_t *plain = chunk->run_count > 0 ? NULL : find_plain_indices(chunk, &low, &high);
+    if (plain == NULL && chunk->run_count == 0) {
         resolve_all_corners(chunk);
         find_extremes(chunk, &low, &high);
     }
     chunk->vertex_count = low > high ? 0 : (size_t)(high - low) + 1;
     chunk->vertex_base = low;
-    chunk->listed = chunk->vertex_count > 6 * chunk->count;
+    chunk->listed = chunk->vertex_count > MOST_ROWS * chunk->count;
     if (plain != NULL)
         lom_stages_of(chunk->draw->variant)->rebase_indices(plain, corners, chunk->listed ? 0 : low, assembly->corners);
-    else if (!chunk->listed)
+    else if (!chunk->listed && chunk->run_count == 0)
         rebase_corners(chunk);
     return !chunk->listed || list_vertices(room, chunk);
 }
@@ -351,7 +354,7 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
 {
     chunk->assembly = assembly;
     chunk->triangle_count = 0;
-    chunk->triangles_clipped = 0;
+    chunk->triangles_clipped = chunk->vertices_shaded = 0;
     chunk->any_code = 0;
     chunk->tile_count = 0;
     bool sprites = chunk->draw->desc.topology == LOM_SPRITES;

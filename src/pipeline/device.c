@@ -73,6 +73,7 @@ static void free_assembly(struct lom_assembly *assembly)
     lom_release(assembly->clip);
     lom_release(assembly->codes);
     lom_release(assembly->tile);
+    lom_release(assembly->needed);
 }
 
 void lom_close_device(lom_device *device)
@@ -95,6 +96,7 @@ void lom_close_device(lom_device *device)
     lom_release(device->tile_touched);
     lom_release(device->draws);
     lom_release(device->uniforms);
+    lom_release(device->runs);
     lom_release(device);
 }
 

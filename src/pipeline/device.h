@@ -2,6 +2,7 @@
 #ifndef LOM_PIPELINE_DEVICE_H
 #define LOM_PIPELINE_DEVICE_H
 
+#include "pipeline/clusters.h"
 #include "pipeline/stages.h"
 
 struct lom_device {
@@ -26,12 +27,16 @@ struct lom_device {
     size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;
     size_t draw_capacity;
+    struct lom_run *runs; /* of the pass's draws that have clusters */
+    size_t run_count, run_capacity;
     uint8_t *uniforms; /* copies, 64 bytes aligned; offsets are kept while it grows */
     size_t uniforms_size, uniforms_capacity;
 };
 
 /* Checks a descriptor and records it; false with an error on the device. */
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
+/* The runs of a draw's clusters of which something may be seen, and how many chunks they make; false without memory. */
+bool lom_find_runs(lom_device *device, struct lom_draw *draw);
 /* What both rectangles cover. */
 lom_rect lom_intersect_rects(lom_rect a, lom_rect b);
 /* lom_finish_texture of an attachment, by all workers. */

@@ -83,6 +83,21 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
     return true;
 }
 
+/* Clusters must be those of the draw's indices. Chunks that are shorter than a cluster do without. */
+static bool check_clusters(lom_device *device, const lom_draw_desc *desc)
+{
+    const lom_clusters *clusters = desc->culling.clusters;
+    if (clusters == NULL || (desc->topology == LOM_TRIANGLES && desc->indices != NULL && desc->index_bits != 16 &&
+                             desc->first == 0 && desc->base_vertex == 0 && !desc->restart && desc->instances <= 1 &&
+                             desc->count == clusters->indices && clusters->largest < count_vertices(desc) &&
+                             (desc->vertex_count == 0 || clusters->largest < desc->vertex_count)))
+        return true;
+    return lom_fail(
+        &device->error, LOM_ERROR_USAGE,
+        "The clusters of a draw of %s are not those of its indices, or it is more than a list of triangles.",
+        desc->shader->name);
+}
+
 /* A draw without indices takes the vertices first .. first + count - 1, moved by base_vertex: all must be there. */
 static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
 {
@@ -184,7 +199,7 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
     if (!check_shader(device, desc) || !check_geometry(device, desc) || !check_sprites(device, desc) ||
-        !check_vertices(device, desc))
+        !check_vertices(device, desc) || !check_clusters(device, desc))
         return false;
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
@@ -194,6 +209,8 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
                         desc->shader->name);
     derive(pass, draw);
+    if (device->desc.chunk < CLUSTER_TRIANGLES)
+        draw->desc.culling.clusters = NULL;
     if (!copy_uniforms(device, draw))
         return false;
     device->counters.draws++;

@@ -5,6 +5,8 @@
  * Invariant: varyings are those of fragment.wide.c, by the same arithmetic. */
 #include "pipeline/slots.h"
 
+#if LOM_LANES > 4 /* SLOTS_BY_WORD: at 4 lanes a slot's words would be more than the vertices' rows */
+
 /* Words of a slot; then, for each varying that is read, VALUE_WORDS. */
 enum { ONE_OVER_W = 0, FACING = 3, STEPS = 4, VALUES = LIST_HEADER };
 enum { VALUE = 0, DELTA1, DELTA2, LOWEST, HIGHEST, VALUE_WORDS = LIST_VALUE };
@@ -161,3 +163,5 @@ void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, co
     }
     LOM_WIDE(lom_run_shader)(tile, packet, &in);
 }
+
+#endif

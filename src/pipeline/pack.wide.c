@@ -139,13 +139,13 @@ static void shade(struct lom_tile *tile, const struct packed *p)
     packet.covered = lom_lane_index() < p->count;
     packet.places.block = false;
     lom_store_int(packet.places.pixel, pixel_of(p->code));
-    if (SLOTS_BY_WORD) {
-        LOM_WIDE(lom_shade_slots)(tile, p, &packet);
-        return;
-    }
+#if LOM_LANES > 4
+    LOM_WIDE(lom_shade_slots)(tile, p, &packet);
+#else
     for (int i = 0; i < p->triangles; i++)
         packet.triangle[i] = (int32_t)list->number[p->first + i];
     LOM_WIDE(lom_shade_packet)(tile, &packet);
+#endif
 }
 
 /* Shades the entries, the last ones only where they fill a packet or `all` are asked for; those that are left come first
@@ -186,8 +186,10 @@ void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
     if (tile->queue.count > 0 && shades)
         LOM_WIDE(lom_flush)(tile);
     LOM_WIDE(lom_fill_slots)(tile);
-    if (SLOTS_BY_WORD && shades)
+#if LOM_LANES > 4
+    if (shades)
         LOM_WIDE(lom_fill_values)(tile);
+#endif
     int slot = list->kept;
     while (slot < list->triangles) {
         int tested = list->count;

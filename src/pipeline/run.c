@@ -147,7 +147,7 @@ static bool run_batch(lom_device *device)
             return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw of %s.",
                             chunk->draw->desc.shader->name);
         lom_raise_room(&device->room, pass, chunk);
-        device->counters.vertices += chunk->vertex_count;
+        device->counters.vertices += chunk->vertices_shaded;
         device->counters.triangles += chunk->count;
         device->counters.triangles_clipped += chunk->triangles_clipped;
         device->counters.triangles_binned += chunk->triangle_count;
@@ -159,7 +159,8 @@ static bool run_batch(lom_device *device)
     return true;
 }
 
-static bool add_chunk(lom_device *device, const struct lom_draw *draw, int instance, size_t first, size_t count)
+static bool add_chunk(lom_device *device, const struct lom_draw *draw, int instance, size_t first, size_t count,
+                      const struct lom_run *runs, size_t run_count)
 {
     struct lom_pass *pass = &device->pass;
     struct lom_chunk *chunk = &device->chunks[pass->chunk_count++];
@@ -167,19 +168,38 @@ static bool add_chunk(lom_device *device, const struct lom_draw *draw, int insta
     chunk->instance = instance;
     chunk->first = first;
     chunk->count = count;
+    chunk->runs = runs;
+    chunk->run_count = run_count;
     return pass->chunk_count < (size_t)device->desc.batch || pass->chunk_count == pass->chunks_left ||
            run_batch(device);
+}
+
+/* Clusters of a draw: the runs of each chunk. */
+static bool run_clusters(lom_device *device, const struct lom_draw *draw)
+{
+    const struct lom_run *run = device->runs + draw->first_run, *end = run + draw->run_count;
+    while (run < end) {
+        const struct lom_run *first = run;
+        size_t count = 0;
+        for (; run < end && run->chunk == first->chunk; run++)
+            count += lom_triangles_of_run(draw->desc.culling.clusters, run);
+        if (!add_chunk(device, draw, 0, 0, count, first, (size_t)(run - first)))
+            return false;
+    }
+    return true;
 }
 
 static bool run_draw(lom_device *device, const struct lom_draw *draw)
 {
     size_t limit = (size_t)device->desc.chunk;
+    if (draw->desc.culling.clusters != NULL)
+        return run_clusters(device, draw);
     if (draw->scissor.width == 0 || draw->scissor.height == 0)
         return true;
     for (int instance = 0; instance < draw->desc.instances; instance++)
         for (size_t first = 0; first < draw->triangles; first += limit) {
             size_t count = draw->triangles - first < limit ? draw->triangles - first : limit;
-            if (!add_chunk(device, draw, instance, first, count))
+            if (!add_chunk(device, draw, instance, first, count, NULL, 0))
                 return false;
         }
     return true;
@@ -203,6 +223,8 @@ static size_t count_chunks(const lom_device *device, const struct lom_draw *draw
     size_t limit = (size_t)device->desc.chunk;
     if (draw->scissor.width == 0 || draw->scissor.height == 0)
         return 0;
+    if (draw->desc.culling.clusters != NULL)
+        return draw->chunk_count;
     return (draw->triangles + limit - 1) / limit * (size_t)draw->desc.instances;
 }
 
@@ -235,6 +257,20 @@ static void note_depth(struct lom_pass *pass, const struct lom_draw *draw)
     pass->uses_depth |= draw->depth_write || draw->compare != LOM_COMPARE_ALWAYS || draw->desc.shader->reads_depth;
 }
 
+/* Which clusters of the pass's draws may be seen. */
+static bool cull_draws(lom_device *device)
+{
+    device->run_count = 0;
+    for (size_t i = 0; i < device->pass.draw_count; i++) {
+        struct lom_draw *draw = &device->draws[i];
+        bool draws = draw->scissor.width > 0 && draw->scissor.height > 0;
+        if (draws && draw->desc.culling.clusters != NULL && !lom_find_runs(device, draw))
+            return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the clusters of %s.",
+                            draw->desc.shader->name);
+    }
+    return true;
+}
+
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
@@ -242,6 +278,8 @@ bool lom_run_pass(lom_device *device)
     pass->chunk_count = 0;
     for (size_t i = 0; i < pass->draw_count; i++)
         note_depth(pass, &device->draws[i]);
+    if (!cull_draws(device))
+        return false;
     if (!lay_tile_memory(device))
         return false;
     for (size_t i = 0; i < pass->draw_count; i++) {

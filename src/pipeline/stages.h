@@ -126,9 +126,12 @@ struct lom_draw {
     bool lays_over;         /* the one colour, in floats: source + target (1 - source alpha) in all channels */
     bool queues_depth;      /* the fragment stage needs the depth */
     struct lom_paint paint; /* with `constant`, once the pass runs */
+    size_t first_run, run_count, chunk_count; /* with clusters: which of the device's runs; the chunks they make */
 };
 
 enum { SEVERAL_TILES = -1 };
+enum { NEEDED_VERTICES = 16 }; /* a whole number of packets at every width */
+enum { MOST_ROWS = 6 };        /* a triangle: a range of vertices that is longer becomes a list */
 
 #define NO_VERTEX UINT32_MAX
 
@@ -141,7 +144,9 @@ struct lom_assembly {
     uint16_t *codes;
     int32_t *tile;                      /* that each triangle of the chunk lies in, or SEVERAL_TILES */
     struct record_candidate *candidate; /* the triangle at hand where it is recorded (record.h) */
-    size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity, tile_capacity; /* in elements */
+    uint8_t *needed;                    /* a flag for NEEDED_VERTICES of them, in a chunk of clusters */
+    size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity, tile_capacity,
+        needed_capacity; /* in elements */
 };
 
 /* The most elements that an array of a chunk or of its assembly has needed in the batches before, and a part more. */
@@ -153,12 +158,15 @@ struct lom_room {
 struct lom_chunk {
     const struct lom_draw *draw;
     int instance;
-    size_t first, count; /* triangles */
+    size_t first, count;        /* triangles */
+    const struct lom_run *runs; /* with clusters: where the triangles are, in place of `first` */
+    size_t run_count;
 
     struct lom_assembly *assembly; /* of the worker that has the chunk */
     uint32_t vertex_base;          /* index of row 0 unless listed */
     size_t vertex_count;           /* rows that were shaded (clipping appends) */
     bool listed;
+    const uint8_t *needed; /* the assembly's, or NULL: all */
 
     float *rows; /* vertex rows */
     lom_triangle *triangles;
@@ -169,7 +177,7 @@ struct lom_chunk {
     unsigned any_code; /* all outcodes together */
     bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
     size_t rows_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
-    uint64_t triangles_clipped;
+    uint64_t triangles_clipped, vertices_shaded;
     bool failed; /* memory ran out */
 };
 
@@ -332,6 +340,11 @@ LOM_DECLARE_STAGES(, 4_recorded)
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
 /* Raises room to what the chunk has needed. */
 void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const struct lom_chunk *chunk);
+
+/* The triangles of a run; a chunk's corners from those of its runs, less `low` unless it is to be a list, the extremes of
+ * their numbers, and which vertices are needed (clusters.c). */
+size_t lom_triangles_of_run(const lom_clusters *clusters, const struct lom_run *run);
+bool lom_gather_clusters(struct lom_chunk *chunk, uint32_t *low, uint32_t *high);
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly);

@@ -227,6 +227,9 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
     memset(&in, 0, sizeof in);
     in.instance = lom_splat_int(chunk->instance);
     for (size_t first = 0; first < chunk->vertex_count; first += LOM_LANES) {
+        if (chunk->needed != NULL && !chunk->needed[first / NEEDED_VERTICES])
+            continue;
+        chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
         struct numbers n = find_numbers(chunk, first);
         memcpy(&in.vertex, n.number, sizeof n.number);
         fetch(draw, &n, &in);
