@@ -209,7 +209,7 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
                         desc->shader->name);
     derive(pass, draw);
-    if (device->desc.chunk < CLUSTER_TRIANGLES)
+    if (device->desc.chunk < CLUSTER_TRIANGLES || pass->recorder != NULL) /* records number all triangles */
         draw->desc.culling.clusters = NULL;
     if (!copy_uniforms(device, draw))
         return false;
