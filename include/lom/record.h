@@ -3,7 +3,8 @@
  * Steps of use, in order: lom_watch names pixels of textures; passes into those textures are then drawn by the same
  * stages at 4 lanes, in the variant that records (their bytes are the same); lom_watched_pixel gives what was recorded,
  * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
- * there. Named values of a shader (lom/notes.h) are recorded where it was compiled in that variant, as lom's own are.
+ * there. Sprites (LOM_SPRITES) are drawn, but not recorded. Named values of a shader (lom/notes.h) are recorded where it
+ * was compiled in that variant, as lom's own are.
  */
 #ifndef LOM_RECORD_H
 #define LOM_RECORD_H

@@ -3,6 +3,7 @@
  *
  * Invariant: s and t at a pixel are fl(fl(dx ds/dx) + fl(dy ds/dy)) of its exact distance to the middle, whatever tile
  * or part of a window it lies in. */
+#include "pipeline/record.h"
 #include "pipeline/window.h"
 
 enum { AHEAD = 4 };
@@ -118,6 +119,7 @@ void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, s
     const lom_shader *shader = tile->draw->desc.shader;
     bool shades = shader->fragment[tile->draw->variant] != NULL;
     struct sprite sprite;
+    LOM_RECORD_HOOK(lom_record_sprites, tile);
     for (size_t i = 0; i < count; i++) {
         const lom_triangle *ahead = &triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]];
         __builtin_prefetch(ahead);

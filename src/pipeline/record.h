@@ -138,6 +138,8 @@ void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_
                         const lom_float l[3], const lom_float *z);
 void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed);
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet);
+/* What follows is shaded without packets, and not recorded. */
+void lom_record_sprites(struct lom_tile *tile);
 void lom_record_weights(struct lom_tile *tile, const lom_float *b1, const lom_float *b2);
 void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out);
 void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask);

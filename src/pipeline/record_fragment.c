@@ -106,6 +106,12 @@ static struct record_raw *next_of_lane(const struct lom_tile *tile, int i, size_
     return next_raw(tile, packet->places.pixel[i], packet->triangle[packet->which[i]], next);
 }
 
+void lom_record_sprites(struct lom_tile *tile)
+{
+    worker_of(tile)->watches = false;
+    lom_open_notes(NULL);
+}
+
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet)
 {
     struct record_worker *worker = worker_of(tile);
