@@ -11,6 +11,7 @@
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
 #   make check-long             every float through every conversion and lane function
+#   make docs                   all pages, lessons and the headers' comments as HTML, in build/docs
 #   make clean, make help
 #
 #   CC=clang O=0 BUILD=dir      another compiler, level and folder
@@ -142,7 +143,7 @@ programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(patsubst %.wid
 	$(inspect_tests:%.wide.c=$(BUILD)/%.w$(RECORDED))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: all demo check check-long coverage wasm matrix fuzz lint format install uninstall clean help
+.PHONY: all demo docs check check-long coverage wasm matrix fuzz lint format install uninstall clean help
 .PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
 	bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
@@ -253,6 +254,10 @@ fuzz:
 	        -close_fd_mask=2 \
 	        build-fuzz/corpus/$$target $$(ls -d tests/fuzz/corpus/$$target 2>/dev/null) || exit 1; \
 	done
+
+# Every page and public header as HTML, its links followed (docs/site.sh; wants cmark-gfm).
+docs:
+	docs/site.sh $(BUILD)/docs
 
 # Waits for the lanes that this processor draws with alone: of the program's objects those are left out that are of other
 # widths, whose functions nobody calls then and are empty. The others are the whole program's, and make goes on from there.

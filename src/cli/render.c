@@ -323,19 +323,18 @@ static void close_run(struct run *run)
 /* After an error in the scene the files of the last good one are watched, since the new ones are not known. */
 static void render_again_and_again(struct run *run, const char *path)
 {
-    struct watched watched = { .count = 0 };
-    watch_file(&watched, path);
-    run->watched = &watched;
+    struct watched *watched = run->watched;
+    watch_file(watched, path);
     for (;;) {
         lom_error error = { .code = LOM_OK };
-        look(&watched);
+        look(watched);
         if (!render_once(run, path, &error))
             lom_complain_error(&error);
         else
             fprintf(stderr, "lom: drawn; waiting for a change (ctrl-C ends)\n");
         fflush(stdout);
         close_run(run);
-        while (!has_changed(&watched))
+        while (!has_changed(watched))
             nanosleep(&(struct timespec){ .tv_nsec = 50000000 }, NULL);
     }
 }
@@ -368,7 +367,8 @@ int lom_command_render(int argc, char **argv)
         return LOM_EXIT_FAILED;
     if (values.frame.given && values.frames.given)
         return lom_complain("--frame and --frames exclude one another.");
-    struct run run = { .values = &values };
+    struct watched watched = { .count = 0 };
+    struct run run = { .values = &values, .watched = values.watch ? &watched : NULL };
     if (values.watch)
         render_again_and_again(&run, arguments.items[0]);
     lom_error error = { .code = LOM_OK };

@@ -25,9 +25,9 @@ static bool sprite_of(const double place[3], const double velocity[3], struct lo
                                 .share = 0.5,
                                 .alpha = 1 };
     float depth[1];
-    struct lom_sprites sprites = { .sprite = sprite, .depth = depth };
-    lom_add_sprites(&sprites, &spray, &view, &drop, 1);
-    return sprites.count == 1;
+    struct lom_sprite_reach reach = lom_make_sprites(&spray, &view, &drop, 1, sprite, depth);
+    CHECK((reach.seen == 1) == (depth[0] > 0), "%zu are seen, the depth is %g", reach.seen, (double)depth[0]);
+    return reach.seen == 1;
 }
 
 static bool is_vector(const float v[3], double x, double y, double z)
