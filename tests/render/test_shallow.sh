@@ -60,6 +60,19 @@ for model in normal_map marched; do
 done
 verdict shallow_water_shows_in_every_model_with_waves "$why"
 
+# A body that is an entity's is one where the entity stands, its nose (-z) turned with it; one that moves is another.
+stone='name="stone",mesh="'$PWD'/assets/entities/boulder.obj",position=[-2,0.2,4],rotation=[0,25,0]'
+body='half=[2,1],draft=0.5}]'
+its=$(hash --frame 4 --set "entity=[{$stone}]" --set "shallow.body=[{entity=\"stone\",$body")
+there=$(hash --frame 4 --set "entity=[{$stone}]" --set "shallow.body=[{position=[-2,4],heading=-115,$body")
+turned=$(hash --frame 4 --set "entity=[{$stone}]" --set "shallow.body=[{position=[-2,4],heading=-25,$body")
+[ -n "$its" ] && [ "$its" = "$there" ] && [ "$its" != "$turned" ] && why= || why="$its, there $there, turned $turned"
+keys='key=[{time=0,position=[-2,0.2,4]},{time=0.5,position=[3,0.2,0]}]'
+moving=$(hash --frame 4 --set "entity=[{$stone,$keys}]" --set "shallow.body=[{entity=\"stone\",$body")
+held=$(hash --frame 4 --set "entity=[{$stone,$keys}]" --set "shallow.body=[{position=[-2,4],heading=-115,$body")
+[ -n "$moving" ] && [ "$moving" != "$held" ] || why="it moves no water: $moving"
+verdict a_body_of_an_entity_goes_with_it "$why"
+
 steps=$(draw --frames 3:5 --hash --stats - | facts | tr '\n' ' ')
 [ "$steps" = '22 8 7 ' ] && why= || why="steps of frames 3, 4, 5: $steps"
 away='--set camera.position=[0,2,90] --set camera.yaw=170 --set camera.pitch=0'
