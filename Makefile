@@ -62,7 +62,7 @@ ifneq ($(COVERAGE),)
 CFLAGS += --coverage -fprofile-update=atomic
 LDFLAGS += --coverage
 COUNTING = $(BUILD)/tests/house/coverage.o
-$(BUILD)/lom: private LDFLAGS += -Wl,--wrap=raise
+$(BUILD)/lom: private LDFLAGS += -Wl,--wrap=nanosleep
 endif
 
 AVX512 = -mavx2 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd
