@@ -95,9 +95,9 @@ endif
 
 # What the system has chooses among files: WebAssembly has no threads, signals and owners of files (docs/wasm.md). Its
 # stack lies first, so that one that overflows is an error and never another object's bytes.
-elsewhere = src/base/threads_none.c src/base/system_wasi.c src/cli/start_wasi.c
+elsewhere = src/base/threads_none.c src/base/system_wasi.c src/cli/start_wasi.c src/cli/processes_none.c
 ifneq ($(filter wasm32%,$(MACHINE)),)
-elsewhere = src/base/threads.c src/base/system_posix.c src/cli/signals.c
+elsewhere = src/base/threads.c src/base/system_posix.c src/cli/signals.c src/cli/processes.c
 PIC    =
 LDLIBS = -Wl,--stack-first -Wl,-z,stack-size=4194304 -Wl,--strip-all
 endif
@@ -119,7 +119,7 @@ cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 # A lesson is docs/lessons/NAME/NAME.c: a program, and contained in lom under another name than main.
 lesson_sources := $(foreach folder,$(wildcard docs/lessons/*/),$(wildcard $(folder)$(notdir $(folder:/=)).c))
 lessons        := $(lesson_sources:%.c=$(BUILD)/%) $(BUILD)/docs/lessons/mistakes/gallery
-lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o)
+lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o) $(BUILD)/docs/lessons/grade/judge.o
 
 # How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
 # speed"; what runs briefly or seldom for size, the rest in between. (The program stays under 4 MB: tests/cli/test_limits.sh.)
@@ -216,6 +216,11 @@ $(BUILD)/docs/lessons/%: docs/lessons/%.c $(BUILD)/liblom.a
 $(BUILD)/docs/lessons/%.contained.o: docs/lessons/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) -Iinclude $(CFLAGS) -Dmain=lom_lesson_$(*F) -Wno-missing-prototypes -MMD -MP -c -o $@ $<
+
+# What compares a student's stage with the right one, in lom: by the gallery's files.
+$(BUILD)/docs/lessons/grade/judge.o: docs/lessons/grade/judge.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) -Iinclude -Isrc $(CFLAGS) -MMD -MP -c -o $@ $<
 
 # The tests of what the program measures with.
 $(BUILD)/tests/measure/%: private LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "lessons.h"
 #include "options.h"
+#include "paths.h"
 
 #include <lom/image.h>
 
@@ -72,24 +73,11 @@ static const lom_command_line line = {
     .maximum_arguments = 3,
 };
 
-/* The folder of the lessons: installed beside the program, or in the tree that it was built in; NULL: neither. */
-static const char *find_lessons(char path[4096])
+const char *lom_find_lessons(char path[4096])
 {
-    static const char *const beside[] = { "/../share/lom/lessons", "/../docs/lessons" };
-    ssize_t length = readlink("/proc/self/exe", path, 4000);
-    char *slash = NULL;
-    if (length > 0) {
-        path[length] = '\0';
-        slash = strrchr(path, '/'); /* before the program's name */
-        if (slash != NULL)
-            *slash = '\0';
-        slash = strrchr(path, '/'); /* before the folder that it is in, which ".." leaves again */
-    }
-    for (int i = 0; i < 2 && slash != NULL; i++) {
-        strcpy(slash, beside[i] + strlen("/.."));
-        if (access(path, R_OK) == 0)
-            return path;
-    }
+    static const char *const beside[] = { "../share/lom/lessons", "../docs/lessons" };
+    if (lom_path_by_program(beside, 2, path) != NULL)
+        return path;
     strcpy(path, "docs/lessons");
     return access(path, R_OK) == 0 ? path : NULL;
 }
@@ -97,7 +85,7 @@ static const char *find_lessons(char path[4096])
 static int list_lessons(void)
 {
     char path[4096];
-    const char *folder = find_lessons(path);
+    const char *folder = lom_find_lessons(path);
     for (int i = 0; i < LESSONS; i++)
         printf("  %-14s %s\n", lessons[i].name, lessons[i].title);
     printf("\n`lom lesson NAME` says where its text is, `lom lesson NAME -o OUT.png` draws its picture, and\n"
@@ -133,7 +121,7 @@ static int count_exercises(const char *lesson)
 static int tell_lesson(const struct lesson *lesson)
 {
     char path[4096];
-    const char *folder = find_lessons(path), *name = lesson->name;
+    const char *folder = lom_find_lessons(path), *name = lesson->name;
     int count = count_exercises(name);
     printf("%s: %s\n\n", name, lesson->title);
     if (folder != NULL)

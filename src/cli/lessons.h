@@ -22,4 +22,7 @@ int lom_lesson_triangle(int argc, char **argv);
 int lom_lesson_water(int argc, char **argv);
 int lom_lesson_waves(int argc, char **argv);
 
+/* The folder of the lessons: installed beside the program, or in the tree that it was built in; NULL: neither. */
+const char *lom_find_lessons(char path[4096]);
+
 #endif

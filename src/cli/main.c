@@ -24,6 +24,8 @@ static const command commands[] = {
     { "render", "draw a scene", lom_command_render },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
     { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },
+    { "grade", "compare a student's stage of the pipeline with the right one, name the broken rule",
+      lom_command_grade },
     { "selftest", "draw built-in content: one hash, the same on every machine", lom_command_selftest },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 const char *lom_path_file(const char *path)
 {
@@ -40,4 +41,21 @@ char *lom_path_print(lom_error *error, const char *format, ...)
     vsnprintf(path, (size_t)length + 1, format, arguments);
     va_end(arguments);
     return path;
+}
+
+const char *lom_path_by_program(const char *const *paths, int count, char path[4096])
+{
+    char program[3800];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    for (int i = 0; i < count && length > 0; i++) {
+        bool above = strncmp(paths[i], "../", 3) == 0;
+        ssize_t folder = length;
+        for (int up = 0; up <= above; up++) /* the program's name, then the folder that it is in */
+            while (folder > 0 && program[--folder] != '/') {
+            }
+        snprintf(path, 4096, "%.*s/%.200s", (int)folder, program, paths[i] + (above ? 3 : 0));
+        if (access(path, R_OK) == 0)
+            return path;
+    }
+    return NULL;
 }

@@ -14,4 +14,8 @@ bool lom_path_is(const char *path, const char *extension);
 /* A path as printf makes it, however long; NULL on failure, freed with lom_release. */
 char *lom_path_print(lom_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* The first of the paths that is there, each taken from the folder that the program is in (those that begin with "../"
+ * from the one around it); in `path`, NULL where none is. */
+const char *lom_path_by_program(const char *const *paths, int count, char path[4096]);
+
 #endif

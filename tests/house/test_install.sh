@@ -101,6 +101,7 @@ told=$("$prefix/bin/lom" lesson triangle | sed -n 's/^ *program *//p')
 $CC -O2 -I"$prefix/include" -ffp-contract=off "$told" $archive -o lesson && ./lesson one.png && "$prefix/bin/lom" lesson triangle -o two.png >/dev/null && cmp -s one.png two.png ||
     fail lessons_are_installed "the program of a lesson, $told"
 [ -s "$prefix/share/lom/lessons/triangle/README.md" ] || fail lessons_are_installed "their texts"
+[ -n "${SAN:-}" ] || CC="$CC $sanitize" "$prefix/bin/lom" grade "$root/tests/lessons/students/right_march.c" >log 2>&1 || { cat log; fail lessons_are_installed "lom grade"; }
 echo "PASS lessons_are_installed"
 
 cd "$root" || exit 1

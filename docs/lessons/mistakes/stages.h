@@ -4,7 +4,7 @@
 #ifndef LOM_LESSONS_STAGES_H
 #define LOM_LESSONS_STAGES_H
 
-int draw_pipeline(int argc, char **argv);
+static __attribute__((unused)) int draw_pipeline(int argc, char **argv);
 #define main draw_pipeline /* the lesson is a program */
 #include "../pipeline/pipeline.c"
 #undef main
