@@ -48,12 +48,12 @@ const char *lom_path_by_program(const char *const *paths, int count, char path[4
     char program[3800];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     for (int i = 0; i < count && length > 0; i++) {
-        bool above = strncmp(paths[i], "../", 3) == 0;
+        int above = strncmp(paths[i], "../", 3) == 0 ? 1 : 0;
         ssize_t folder = length;
         for (int up = 0; up <= above; up++) /* the program's name, then the folder that it is in */
             while (folder > 0 && program[--folder] != '/') {
             }
-        snprintf(path, 4096, "%.*s/%.200s", (int)folder, program, paths[i] + (above ? 3 : 0));
+        snprintf(path, 4096, "%.*s/%.200s", (int)folder, program, paths[i] + 3 * above);
         if (access(path, R_OK) == 0)
             return path;
     }

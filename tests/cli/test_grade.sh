@@ -47,7 +47,7 @@ right_ones_pass() {
         exits 0 "$lom" grade "$students/right_covers.c" && says 'right in all 12288 cases, bit for bit'
 }
 
-# Not all of them at once: the table of a class is one command, and so is its report.
+# A class is one command: its table and its reports.
 mistakes_are_named() {
     exits 1 "$lom" grade --json class.json --junit class.xml "$students"/[!r]*.c "$students/rounding.c" &&
         [ "$(grep -c 'not right' out)" -ge 25 ] && python3 - <<'CODE'
