@@ -22,8 +22,8 @@ bool lom_take_shown_pass(lom_renderer *renderer, const lom_frame_desc *desc, con
 void lom_print_shown_passes(FILE *out)
 {
     const lom_shown_pass *pass;
-    lom_print_picture_kinds(out);
     fputs("\nPASS of --show:\n", out);
     for (size_t i = 0; (pass = lom_describe_shown_pass(i)) != NULL; i++)
         fprintf(out, "  %-17s%s\n", pass->name, pass->text);
+    lom_print_picture_kinds(out);
 }

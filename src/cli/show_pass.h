@@ -11,7 +11,7 @@ bool lom_shows_numbers(const char *output, const char *format);
 /* Frees *image and puts the pass's picture there. False: *image is NULL. */
 bool lom_take_shown_pass(lom_renderer *renderer, const lom_frame_desc *desc, const char *name, bool numbers,
                          lom_image **image, lom_error *error);
-/* The kinds of pictures, and the passes. */
+/* The passes, and the kinds of pictures. */
 void lom_print_shown_passes(FILE *out);
 
 #endif

@@ -22,7 +22,7 @@ every_row() {
         if [ "$last" = video ]; then
             exits 0 "$lom" render "$folder/s.toml" -o "$folder/a$ending" && exits 2 "$lom" convert "$folder/in.ppm" "$folder/a$ending"
         elif [ "$writes" = yes ]; then
-            exits 0 "$lom" convert "$folder/in.ppm" "$folder/a$ending" && exits 0 "$lom" info "$folder/a$ending" &&
+            exits 0 "$lom" convert "$folder/in.ppm" "$folder/a$ending" && exits "$([ "$reads" = yes ] && echo 0 || echo 2)" "$lom" info "$folder/a$ending" &&
                 exits 0 "$lom" convert "$folder/in.ppm" "$folder/b" --format "$name" && cmp "$folder/a$ending" "$folder/b" || exit 1
             case $last in 3 | 4) ;; *) continue ;; esac # colours, as a picture that is drawn has
             exits 0 "$lom" render "$folder/s.toml" -o "$folder/c$ending" --set "output.format=\"rgb$([ "$name" = pfm ] && echo 32f || echo 8)\""

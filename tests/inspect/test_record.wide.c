@@ -28,9 +28,9 @@ static void texture_fragment(lom_fragment *out, const lom_varyings *in, const vo
     out->discard = in->varying[3] < look->threshold;
 }
 
-LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
-LOM_SHADER(textured, texture_vertex, texture_fragment, .attributes = 2, .varyings = 4, .reads = 15, .discards = true,
-           .colors = 1, .uniforms_size = sizeof(struct look))
+LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
+LOM_SHADER(textured, texture_vertex, texture_fragment, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .discards = true, .colors = 1, .uniforms_size = sizeof(struct look))
 
 static void constant_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
@@ -47,7 +47,8 @@ static void cut_vertex(lom_vertex *out, const lom_attributes *in, const void *un
     out->distance[0] = in->attribute[3].x;
 }
 
-LOM_SHADER(cut, cut_vertex, show_values, .attributes = 4, .varyings = 4, .reads = 15, .clip_distances = 1, .colors = 1)
+LOM_SHADER(cut, cut_vertex, show_values, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .clip_distances = 1, .colors = 1)
 
 static const lom_triangle_record *first_of(const lom_pixel_record *pixel)
 {
