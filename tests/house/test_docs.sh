@@ -32,9 +32,9 @@ if [ -z "$browser" ]; then
     echo "SKIP pages in a browser: chromium is not installed"
 else
     for page in index docs/scene docs/lessons/triangle/README include/render; do
-        title=$("$browser" --headless --no-sandbox --disable-gpu --dump-dom "file://$work/site/$page.html" 2>/dev/null |
-            sed -n 's/.*<title>\(.*\)<\/title>.*/\1/p' | head -n 1)
-        check "a browser shows $page" "$([ -n "$title" ] && echo yes)" "no title"
+        timeout 300 "$browser" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage \
+            --user-data-dir="$work/profile" --dump-dom "file://$work/site/$page.html" >"$work/dom" 2>"$work/log"
+        check "a browser shows $page" "$(grep -q '<title>..*</title>' "$work/dom" && echo yes)" "no title; $(tail -n 1 "$work/log")"
     done
 fi
 exit $failed
