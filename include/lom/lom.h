@@ -13,6 +13,7 @@
 
 #include <lom/base.h>
 #include <lom/lanes.h>
+#include <lom/lanes_vectors.h>
 #include <lom/lanes_mathematics.h>
 #include <lom/fixed.h>
 #include <lom/notes.h>

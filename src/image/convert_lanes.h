@@ -62,7 +62,8 @@ LOM_INLINE lom_float lom_float_of_half_lanes(lom_int half)
     lom_int magnitude = (half & 0x7fff) << 13;
     lom_float scaled = lom_as_float(magnitude) * 0x1p112f;
     lom_int special = (lom_int)(magnitude >= (0x7c00 << 13)) & 0x7f800000;
-    return lom_as_float(lom_as_int(scaled) | special | ((half & 0x8000) << 16));
+    lom_int sign = half << 16 & lom_splat_int(INT32_MIN);
+    return lom_as_float(lom_as_int(scaled) | special | sign);
 }
 
 #endif

@@ -139,7 +139,7 @@ LOM_INLINE lom_mask lom_compare_depth(lom_compare compare, lom_float z, lom_floa
 LOM_INLINE lom_mask lom_test_depth(struct lom_tile *tile, int place, lom_mask covered, lom_float z)
 {
     const struct lom_draw *draw = tile->draw;
-    int32_t *memory = (int32_t *)tile->depth + place;
+    int32_t *memory = (int32_t *)(void *)tile->depth + place;
     lom_float stored = lom_as_float(lom_load_block(memory, tile));
     lom_float units = lom_depth_units(tile->pass, z);
     lom_mask passed = covered & lom_compare_depth(draw->compare, units, stored);

@@ -29,10 +29,10 @@ static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms
     out->color[0] = (lom_float4){ lom_fraction(in->varying[0]), lom_fraction(in->varying[1]), in->z, lom_splat(1) };
 }
 
-LOM_SHADER(cut, project, show, .attributes = 1, .varyings = 2, .clip_distances = 1, .reads = 3, .reads_position = true,
+LOM_SHADER(cut, project, show, .attributes = 1, .varyings = 2, .clip_distances = 1, .reads = LOM_VARYINGS(0, 2),
+           .reads_position = true, .colors = 1, .uniforms_size = sizeof(view))
+LOM_SHADER(uncut, project, show, .attributes = 1, .varyings = 2, .reads = LOM_VARYINGS(0, 2), .reads_position = true,
            .colors = 1, .uniforms_size = sizeof(view))
-LOM_SHADER(uncut, project, show, .attributes = 1, .varyings = 2, .reads = 3, .reads_position = true, .colors = 1,
-           .uniforms_size = sizeof(view))
 
 static float points[POINTS][3];
 static uint32_t indices[CORNERS];
