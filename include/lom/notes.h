@@ -35,8 +35,8 @@ void lom_note(lom_note_kind kind, const char *name, const void *object, const vo
     } while (0)
 #define LOM_NAME_VALUE(x) LOM_NAME_AS(x, x)
 #else
-#define LOM_NAME_AS(name, x) ((void)0)
-#define LOM_NAME_VALUE(x)    ((void)0)
+#define LOM_NAME_AS(name, x) ((void)sizeof(x))
+#define LOM_NAME_VALUE(x)    ((void)sizeof(x))
 #endif
 
 LOM_API_END

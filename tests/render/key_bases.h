@@ -36,10 +36,12 @@ static const struct base bases[] = {
     { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
       "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "
       "[0.5, 0.2, 0.1]\n" },
-    { "lake", "water quality.reflection_scale quality.refraction_scale quality.scissor quality.water camera.position",
+    { "lake",
+      "water quality.filtering quality.reflection_scale quality.refraction_scale quality.scissor quality.water "
+      "camera.position",
       VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n" },
     { "clouds",
-      "cloud clouds camera.near camera.position camera.field_of_view light.elevation quality.cloud_error "
+      "cloud clouds camera.near camera.position camera.field_of_view light.elevation quality.march quality.cloud_error "
       "quality.cloud_stop quality.cloud_octaves quality.cloud_jitter quality.cloud_light_scale quality.clouds",
       VIEW TERRAIN CLOUD
       "[[cloud]]\nkind = \"stratus\"\nsize = [20, 3, 20]\nposition = [0, 5, -20]\nvoxels = [8, 4, 8]\n" WIND
