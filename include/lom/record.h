@@ -4,7 +4,8 @@
  * stages at 4 lanes, in the variant that records (their bytes are the same); lom_watched_pixel gives what was recorded,
  * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
  * there. Sprites (LOM_SPRITES) are drawn, but not recorded. Named values of a shader (lom/notes.h) are recorded where it
- * was compiled in that variant, as lom's own are.
+ * was compiled in that variant, as lom's own are. Who wants to know of all triangles of a pass instead of some pixels
+ * calls lom_listen.
  */
 #ifndef LOM_RECORD_H
 #define LOM_RECORD_H
@@ -159,6 +160,63 @@ const lom_pixel_record *lom_watched_pixel(const lom_device *device, size_t watch
 bool lom_find_drawn(const lom_device *device, const lom_texture *texture, uint64_t before, uint64_t *pass);
 /* Passes since lom_watch. */
 uint64_t lom_count_watched_passes(const lom_device *device);
+
+/* ---- every triangle of a pass ---- */
+
+/* How far a triangle came, or a piece of one that was cut. */
+typedef enum lom_reach {
+    LOM_REACH_OUTSIDE = 0, /* all its vertices lie outside one plane or distance, or one is no number */
+    LOM_REACH_FACING,      /* culled by its facing */
+    LOM_REACH_BESIDE,      /* beside the scissor */
+    LOM_REACH_EMPTY,       /* holds no pixel's centre, or has no area */
+    LOM_REACH_BINNED,      /* in the list of at least one tile */
+    LOM_REACHES
+} lom_reach;
+const char *lom_reach_text(lom_reach reach); /* a part of a sentence: "culled by their facing" */
+
+/* What set-up was given: the triangle itself, or a piece that clipping left of it. */
+typedef struct lom_told_piece {
+    float clip[3][4];
+    float window[3][3]; /* pixels of the frame, as they were snapped, and depth */
+    bool made[3];       /* by clipping: none of the triangle's own vertices */
+    lom_reach reach;    /* FACING or more */
+} lom_told_piece;
+
+enum { LOM_MAX_TOLD_PIECES = 16 };
+typedef struct lom_told_triangle {
+    size_t draw; /* in the pass */
+    const lom_draw_desc *desc;
+    size_t number; /* of the draw's instance */
+    int instance;
+    uint32_t index[3];
+    float clip[3][4];
+    unsigned code[3]; /* bits of lom_outcode */
+    bool cut;         /* it crossed a plane, so the pieces are not itself */
+    int pieces;       /* 0: it was outside */
+    lom_told_piece piece[LOM_MAX_TOLD_PIECES];
+    lom_reach reach;  /* the farthest of its pieces' */
+    const void *from; /* for lom_tell_vertices */
+} lom_told_triangle;
+
+/* Who listens; each function may be NULL. They are called by the thread that calls the device, between the stages of a
+ * pass: what is told depends on the draws alone, in their order. */
+typedef struct lom_listener {
+    void *context;
+    /* A pass begins, the number counted from 0 since lom_listen: whether its triangles are told. */
+    bool (*begins)(void *context, uint64_t number, const lom_pass_desc *pass);
+    void (*triangle)(void *context, const lom_told_triangle *triangle);
+    /* So many triangles went into the list of a tile (a rectangle of the frame), in a part of a draw. */
+    void (*bin)(void *context, const lom_rect *tile, size_t triangles);
+    /* Its attachments are complete and may be read. draws: how many it had; blends: one of them blends. */
+    void (*ended)(void *context, uint64_t number, const lom_pass_desc *pass, size_t draws, bool blends);
+} lom_listener;
+
+/* Listens from the next pass on; NULL: nobody does. Copied. Instead of whatever was watched: a device watches or is
+ * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; sprites, and draws
+ * of shaders that were not built at 4 lanes, are not told. False, with an error on the device: in a pass. */
+bool lom_listen(lom_device *device, const lom_listener *listener);
+/* Of a triangle while it is told: its vertices, by the vertex stage, with what their shader names. False: no memory. */
+bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vertex[3]);
 
 LOM_API_END
 

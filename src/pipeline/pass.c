@@ -218,6 +218,8 @@ bool lom_end_pass(lom_device *device)
     lom_float_state state;
     lom_enter_float_state(&state);
     bool done = lom_run_pass(device);
+    if (done && device->recorder != NULL)
+        lom_record_ended(device);
     lom_leave_float_state(&state);
     return done;
 }

@@ -33,7 +33,7 @@ void *lom_record_allocate(struct record_memory *memory, size_t size)
     return result;
 }
 
-static void free_memory(struct record_memory *memory)
+void lom_free_record_memory(struct record_memory *memory)
 {
     while (memory->first != NULL) {
         struct record_block *next = memory->first->next;
@@ -53,11 +53,14 @@ void lom_free_recorder(struct lom_recorder *r)
         return;
     for (size_t i = 0; i < r->watch_count; i++) {
         for (size_t k = 0; r->watch[i].pixels != NULL && k < count_pixels(&r->watch[i]); k++)
-            free_memory(&r->watch[i].pixels[k].memory);
+            lom_free_record_memory(&r->watch[i].pixels[k].memory);
         lom_release(r->watch[i].pixels);
     }
-    for (int i = 0; r->chunks != NULL && i < r->chunk_count; i++)
+    for (int i = 0; r->chunks != NULL && i < r->chunk_count; i++) {
         lom_release(r->chunks[i].items);
+        lom_release(r->chunks[i].pieces);
+    }
+    lom_free_record_memory(&r->told);
     for (int i = 0; r->worker != NULL && i < r->workers; i++)
         lom_free_notes(&r->worker[i].notes);
     lom_release(r->chunks);
@@ -94,6 +97,19 @@ static bool add_watch(lom_device *device, struct record_watch *watch, const lom_
     return watch->pixels != NULL;
 }
 
+struct lom_recorder *lom_renew_recorder(lom_device *device)
+{
+    lom_free_recorder(device->recorder);
+    struct lom_recorder *r = device->recorder = lom_allocate(1, sizeof *r, &device->error);
+    if (r == NULL)
+        return NULL;
+    r->chunk_count = device->desc.batch;
+    r->workers = device->desc.threads;
+    r->chunks = lom_allocate((size_t)r->chunk_count, sizeof *r->chunks, &device->error);
+    r->worker = lom_allocate((size_t)r->workers, sizeof *r->worker, &device->error);
+    return r->chunks != NULL && r->worker != NULL ? r : NULL;
+}
+
 bool lom_watch(lom_device *device, const lom_watch_desc *watches, size_t count)
 {
     if (!lom_check_device(device, NULL))
@@ -104,18 +120,13 @@ bool lom_watch(lom_device *device, const lom_watch_desc *watches, size_t count)
     for (size_t i = 0; i < count; i++)
         if (!check_watch(device, &watches[i]))
             return false;
-    lom_free_recorder(device->recorder);
-    device->recorder = NULL;
-    if (count == 0)
+    if (count == 0) {
+        lom_free_recorder(device->recorder);
+        device->recorder = NULL;
         return true;
-    struct lom_recorder *r = device->recorder = lom_allocate(1, sizeof *r, &device->error);
-    if (r == NULL)
-        return false;
-    r->chunk_count = device->desc.batch;
-    r->workers = device->desc.threads;
-    r->chunks = lom_allocate((size_t)r->chunk_count, sizeof *r->chunks, &device->error);
-    r->worker = lom_allocate((size_t)r->workers, sizeof *r->worker, &device->error);
-    for (size_t i = 0; i < count && lom_check_device(device, NULL); i++)
+    }
+    struct lom_recorder *r = lom_renew_recorder(device);
+    for (size_t i = 0; r != NULL && i < count && lom_check_device(device, NULL); i++)
         add_watch(device, &r->watch[i], &watches[i]);
     return lom_check_device(device, NULL);
 }
@@ -190,7 +201,7 @@ static void begin_pixel(const struct lom_pass *pass, struct record_watch *watch,
 {
     lom_load_action load = watch->attachment < 0 ? pass->desc.depth_load : pass->desc.color_load[watch->attachment];
     if (load == LOM_LOAD_CLEAR) {
-        free_memory(&pixel->memory);
+        lom_free_record_memory(&pixel->memory);
         pixel->pixel.passes = NULL;
     }
     pixel->raw = NULL;
@@ -238,6 +249,11 @@ void lom_record_begin(lom_device *device)
         widen(&r->bounds, watch);
         for (size_t k = 0; k < count_pixels(watch); k++)
             begin_pixel(pass, watch, &watch->pixels[k]);
+    }
+    r->tells = r->listener.begins != NULL && r->listener.begins(r->listener.context, r->passes, &pass->desc);
+    if (r->tells) {
+        pass->recorder = r;
+        pass->one_by_one = true;
     }
     for (int i = 0; i < pass->colors; i++)
         r->failed |= !note_attachment(r, pass->color[i].texture);

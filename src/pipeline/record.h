@@ -34,15 +34,17 @@ struct record_candidate {
     uint32_t index[3];  /* vertices */
     unsigned code[3];
     float clip[3][4];
-    int pieces, packet; /* packet: pieces before the packet that is set up */
-    struct record_piece piece[MAX_PIECES];
-    bool has_box; /* of the snapped vertices: its corners, 1/256 pixel from the viewport's origin */
+    int pieces, packet;         /* packet: pieces before the packet that is set up */
+    size_t first_piece;         /* of the chunk's */
+    struct record_piece *piece; /* the same, while the triangle is set up and when the batch is joined */
+    bool has_box;               /* of the snapped vertices: its corners, 1/256 pixel from the viewport's origin */
     int32_t low[2], high[2];
 };
 
 struct record_chunk {
     struct record_candidate *items;
-    size_t count, capacity;
+    struct record_piece *pieces;
+    size_t count, capacity, piece_count, piece_capacity;
     bool failed;
 };
 
@@ -96,10 +98,16 @@ struct lom_recorder {
     struct record_worker *worker;
     int chunk_count, workers;
     bool failed; /* memory ran out: something is missing */
+    lom_listener listener;
+    struct record_memory told; /* of the triangle at hand */
+    bool tells;                /* the pass at hand */
 };
 
 /* ---- record.c ---- */
 void *lom_record_allocate(struct record_memory *memory, size_t size);
+void lom_free_record_memory(struct record_memory *memory);
+/* A new one in place of the device's; NULL without memory. */
+struct lom_recorder *lom_renew_recorder(lom_device *device);
 void lom_free_recorder(struct lom_recorder *recorder);
 /* The pass has begun: pass->recorder is set where it draws into a watched texture. */
 void lom_record_begin(lom_device *device);
@@ -115,6 +123,12 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
 /* It has been through set-up, alone, since the chunk had `before` triangles. */
 void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before);
 void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stage, const lom_mask *alive);
+
+/* ---- record_listen.c ---- */
+/* The batch's triangles to whoever listens. */
+void lom_record_tell(lom_device *device);
+/* The pass has ended, or failed. */
+void lom_record_ended(lom_device *device);
 
 /* ---- record_join.c ---- */
 void lom_record_batch(lom_device *device);

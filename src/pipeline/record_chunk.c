@@ -94,7 +94,7 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     struct lom_assembly *assembly = chunk->assembly;
     const uint32_t *corner = assembly->corners + 3 * i;
     if (i == 0)
-        record->count = 0;
+        record->count = record->piece_count = 0;
     assembly->candidate = NULL;
     if (corner[0] == NO_VERTEX || chunk->draw->variant != LOM_SLOT_4_recorded)
         return false;
@@ -102,15 +102,15 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     bool has_box = (any & (CODE_CLIP | CODE_INVALID)) == 0;
     int32_t low[2] = { 0, 0 }, high[2] = { 0, 0 };
     float clip[3][4];
-    if ((any & CODE_INVALID) != 0)
+    if ((any & CODE_INVALID) != 0 && !pass->recorder->tells)
         return false;
     if (has_box)
         find_box(chunk, corner, low, high);
     for (int k = 0; k < 3; k++)
         memcpy(clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof clip[k]);
-    if (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, clip))
+    if (!pass->recorder->tells && (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, clip)))
         return false;
-    struct record_candidate c = { .number = chunk->first + i, .has_box = has_box };
+    struct record_candidate c = { .number = chunk->first + i, .has_box = has_box, .first_piece = record->piece_count };
     for (int k = 0; k < 3; k++) {
         c.corner[k] = corner[k];
         c.index[k] = chunk->listed ? assembly->vertex_list[corner[k]] : chunk->vertex_base + corner[k];
@@ -119,10 +119,13 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     memcpy(c.clip, clip, sizeof c.clip);
     memcpy(c.low, low, has_box ? sizeof low : 0);
     memcpy(c.high, high, has_box ? sizeof high : 0);
-    if (!lom_reserve(&record->items, &record->capacity, record->count + 1, sizeof c, NULL)) {
+    if (!lom_reserve(&record->items, &record->capacity, record->count + 1, sizeof c, NULL) ||
+        !lom_reserve(&record->pieces, &record->piece_capacity, record->piece_count + MAX_PIECES, sizeof *record->pieces,
+                     NULL)) {
         record->failed = true;
         return false;
     }
+    c.piece = record->pieces + c.first_piece;
     record->items[record->count] = c;
     assembly->candidate = &record->items[record->count++];
     return true;
@@ -151,7 +154,7 @@ void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stag
 void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before)
 {
     struct record_candidate *c = chunk->assembly->candidate;
-    (void)pass;
+    record_of(pass, chunk)->piece_count += (size_t)c->pieces;
     for (int i = 0; i < c->pieces; i++) {
         struct record_piece *piece = &c->piece[i];
         for (int k = 0; k < 3; k++)

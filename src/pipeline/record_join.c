@@ -266,13 +266,17 @@ void lom_record_batch(lom_device *device)
         j.chunk = &pass->chunks[i];
         r->failed |= record->failed;
         for (size_t k = 0; k < record->count; k++) {
+            record->items[k].piece = record->pieces + record->items[k].first_piece;
             j.candidate = &record->items[k];
             for (size_t w = 0; w < r->watch_count; w++)
                 if (r->watch[w].active)
                     join_watch(&j, &r->watch[w]);
         }
-        record->count = 0;
     }
+    if (r->tells)
+        lom_record_tell(device);
+    for (size_t i = 0; i < pass->chunk_count; i++)
+        r->chunks[i].count = 0;
     for (size_t w = 0; w < r->watch_count; w++)
         for (int i = 0; i < r->watch[w].desc.width * r->watch[w].desc.height; i++)
             r->watch[w].pixels[i].raw = NULL;
