@@ -313,8 +313,9 @@ check-long: $(LONG_TESTS)
 # The program and the library for WebAssembly, by the newest clang; SIMD= leaves out its vectors of 128 bits.
 WASM_CC = $(or $(lastword $(sort $(notdir $(wildcard /usr/bin/clang-[1-9][0-9])))),clang)
 SIMD    = -msimd128
+WASM_GOALS = lom.wasm
 wasm:
-	$(MAKE) CC='$(LAUNCHER) $(WASM_CC) --target=wasm32-wasi $(SIMD)' AR=llvm-ar VARIANTS=4 SAN= BUILD=$(BUILD)/wasm $(BUILD)/wasm/lom.wasm
+	$(MAKE) CC='$(LAUNCHER) $(WASM_CC) --target=wasm32-wasi $(SIMD)' AR=llvm-ar VARIANTS=4 SAN= BUILD=$(BUILD)/wasm $(WASM_GOALS:%=$(BUILD)/wasm/%)
 
 $(BUILD)/lom.wasm: $(BUILD)/lom
 	cp $< $@

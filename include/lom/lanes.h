@@ -6,8 +6,8 @@
  * vectors: use lom_select.
  *
  * The functions named lom_defined_* are the specification: plain C, the same on every machine. Where a measurement says
- * that an instruction does the same faster, lom/lanes_x86.h overrides the name without _defined; a test holds
- * every override to its definition bit for bit. Everything here is inline: vectors cross object files by pointer only.
+ * that an instruction does the same faster, lom/lanes_x86.h or lanes_wasm.h overrides the name without _defined; a test
+ * holds every override to its definition bit for bit. Everything here is inline: vectors cross object files by pointer only.
  *
  * LOM_LANES is 4, 8 or 16 and comes from the compiler's command line (4 when it does not).
  */
@@ -394,6 +394,8 @@ LOM_INLINE lom_float lom_defined_permute(lom_float x, lom_int which)
 
 #if defined __x86_64__ && !defined LOM_NO_OVERRIDES
 #include <lom/lanes_x86.h>
+#elif defined __wasm_simd128__ && !defined LOM_NO_OVERRIDES
+#include <lom/lanes_wasm.h>
 #endif
 
 #ifndef LOM_OVERRIDES_ARITHMETIC
@@ -532,7 +534,7 @@ LOM_INLINE bool lom_all(lom_mask mask)
 /* How many of the lowest 16 bits are set. Where the machine has no instruction for it, by adding neighbours. */
 LOM_INLINE uint32_t lom_count_bits(uint32_t bits)
 {
-#ifdef __POPCNT__
+#if defined __POPCNT__ || defined __wasm__
     return (uint32_t)__builtin_popcount(bits & 0xffff);
 #else
     bits &= 0xffff;

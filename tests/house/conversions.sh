@@ -55,6 +55,6 @@ for found in $(sort -u "$BUILD/conversions.1" "$BUILD/conversions.2" | tr ' ' '_
     status=1
 done
 elsewhere=$(grep -nE '__builtin_convertvector\(.*, *(lom_int|lom_uint|lom_long|lom_mask)\)|_cvtt?[ps][sd]_|\bl?l(rint|round)f?\(' \
-    -r include src | grep -vE '^include/lom/lanes\.h:|^include/lom/lanes_x86\.h:|^include/lom/lanes_mathematics\.h:.*\(mask, ')
+    -r include src | grep -vE '^include/lom/lanes\.h:|^include/lom/lanes_(x86|wasm)\.h:|^include/lom/lanes_mathematics\.h:.*\(mask, ')
 [ -z "$elsewhere" ] || { echo "$elsewhere"; echo "lint: lanes become integers outside lom/lanes.h"; status=1; }
 exit $status

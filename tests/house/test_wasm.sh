@@ -23,13 +23,19 @@ done
 [ -n "$compiler" ] || skip "no clang links for wasm32-wasi (Debian: clang-19 lld-19 wasi-libc libclang-rt-19-dev-wasm32)"
 simd=-msimd128
 [ "$(echo __clang_major__ | $compiler -E -P -x c -)" -ge 16 ] || simd=
-if ! make -s wasm O=1 BUILD="$BUILD/test" WASM_CC="$compiler" SIMD="$simd" >"$folder/log" 2>&1; then
+if ! make -s wasm O=1 BUILD="$BUILD/test" WASM_CC="$compiler" SIMD="$simd" \
+    WASM_GOALS='lom.wasm tests/lanes/test_operations.w4' >"$folder/log" 2>&1; then
     tail -20 "$folder/log"
     result wasm_is_built 1 "make wasm WASM_CC=$compiler SIMD=$simd fails"
     exit 1
 fi
 native() { "$BUILD/lom" "$@"; }
 wasm() { node src/web/lom.mjs "$BUILD/test/wasm/lom.wasm" "$@"; }
+
+# Every override of a lane operation (lom/lanes_wasm.h) against its definition.
+node src/web/lom.mjs "$BUILD/test/wasm/tests/lanes/test_operations.w4" >"$folder/log" 2>&1
+[ $? -eq 0 ] && grep -q '^PASS overrides_equal_definitions_on_random_bits' "$folder/log"
+result wasm_lanes_give_what_is_defined $? "$(grep -v ^PASS "$folder/log" | head -3)"
 
 expected=$(native selftest) drawn=$(wasm selftest 2>&1)
 [ -n "$drawn" ] && [ "$drawn" = "$expected" ]
