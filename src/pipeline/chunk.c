@@ -309,8 +309,12 @@ static void assemble_recorded(const struct lom_pass *pass, struct lom_chunk *chu
     struct group group = { .count = 0 };
     for (size_t i = 0; i < chunk->count; i++) {
         bool near = lom_record_triangle(pass, chunk, i);
-        if (near)
+        if (near) { /* those before it are not it */
+            struct record_candidate *candidate = chunk->assembly->candidate;
+            chunk->assembly->candidate = NULL;
             send(pass, chunk, &group);
+            chunk->assembly->candidate = candidate;
+        }
         size_t before = chunk->triangle_count;
         sort_out(pass, chunk, &group, chunk->assembly->corners + 3 * i);
         if (!near)

@@ -133,21 +133,26 @@ static void recorded_pixels_end_in_the_bytes_of_the_picture(void)
 
 /* ---- coverage and weights ---- */
 
-static void what_covers_is_what_the_oracle_says(void)
+/* Triangles whose corners lie within `reach` of each other, seen from some rows of the window. Returns how many times
+ * one covered a pixel. */
+static int compare_coverage(float reach, int top, int rows)
 {
     stage s = open_stage((lom_device_desc){ .threads = 2 }, SIZE, SIZE, LOM_FORMAT_RGBA8, LOM_FORMAT_NONE);
     for (int i = 0; i < 3 * TRIANGLES; i++) {
-        soup[i] = (vertex){ .position = { random_float(-1, 1), random_float(-1, 1), 0.5f, 1 } };
+        const float *near = soup[i / 3 * 3].position;
+        float x = i % 3 == 0 ? random_float(-1, 1) : near[0] + random_float(-reach, reach);
+        float y = i % 3 == 0 ? random_float(-1, 1) : near[1] + random_float(-reach, reach);
+        soup[i] = (vertex){ .position = { x, y, 0.5f, 1 } };
         for (int k = 0; k < 4; k++)
             soup[i].value[k] = random_float(0, 1);
     }
-    CHECK(lom_watch(s.device, &(lom_watch_desc){ s.color, 0, 0, SIZE, SIZE, 0 }, 1));
+    CHECK(lom_watch(s.device, &(lom_watch_desc){ s.color, 0, top, SIZE, rows, 0 }, 1));
     begin(&s, (lom_pass_desc){ .samples = 1 });
     lom_draw_desc draw = draw_of(&shown, soup, 3 * TRIANGLES);
     lom_draw(s.device, &draw);
     finish(&s);
     int counted = 0;
-    for (int p = 0; p < SIZE * SIZE; p++) {
+    for (int p = top * SIZE; p < (top + rows) * SIZE; p++) {
         const lom_triangle_record *t = first_of(lom_watched_pixel(s.device, 0, p % SIZE, p / SIZE));
         for (size_t i = 0; i < TRIANGLES; i++) {
             snapped v[3];
@@ -173,8 +178,23 @@ static void what_covers_is_what_the_oracle_says(void)
         }
         CHECK(t == NULL);
     }
-    CHECK(counted > 5000, "only %d", counted);
     close_stage(&s);
+    return counted;
+}
+
+static void what_covers_is_what_the_oracle_says(void)
+{
+    int counted = compare_coverage(2, 0, SIZE);
+    CHECK(counted > 5000, "only %d", counted);
+}
+
+/* Triangles that come near a watched pixel lie among others that do not, in the same packets. */
+static void what_covers_a_few_rows_is_what_the_oracle_says(void)
+{
+    int counted = 0;
+    for (int top = 0; top + 3 <= SIZE; top += 3)
+        counted += compare_coverage(0.6f, top, 3);
+    CHECK(counted > 500, "only %d", counted);
 }
 
 /* ---- fates ---- */
@@ -323,6 +343,7 @@ int main(int argc, char **argv)
 {
     RUN(recorded_pixels_end_in_the_bytes_of_the_picture);
     RUN(what_covers_is_what_the_oracle_says);
+    RUN(what_covers_a_few_rows_is_what_the_oracle_says);
     RUN(each_fate_is_told);
     RUN(taps_add_up_and_values_bear_their_names);
     RUN(a_record_begins_with_the_pass_that_cleared);
