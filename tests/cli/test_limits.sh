@@ -32,7 +32,7 @@ END
 }
 
 small_program() {
-    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 4194304
+    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 5242880
 }
 
 lake_in_memory() {

@@ -58,6 +58,27 @@ static void everything(lom_fragment *out, const lom_varyings *in, const void *un
     out->discard = in->varying[3] > lom_splat(0.9f);
 }
 
+/* The axes are the varyings' numbers, so that they are as wild as the positions. */
+static void place_sprite(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    place(out, in, uniforms);
+    out->axis[0] = (lom_float4){ in->attribute[1].x, in->attribute[1].y, lom_splat(0), lom_splat(0) };
+    out->axis[1] = (lom_float4){ in->attribute[1].z, in->attribute[1].w, in->attribute[0].z, in->attribute[0].w };
+}
+
+static void show_sprite(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->color[0] = (lom_float4){ in->st[0], in->st[1], in->varying[2], in->x };
+    out->discard = in->st[0] > lom_splat(0.75f);
+}
+
+static void show_depth_behind(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->color[0] = (lom_float4){ in->target_depth, in->z, in->varying[1], in->varying[3] };
+}
+
 LOM_DEPTH_SHADER(fuzz_depth, place, .attributes = 2, .varyings = 4)
 LOM_SHADER(fuzz_show, place, show, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .flat = 1u << 3,
            .colors = 1)
@@ -68,6 +89,11 @@ LOM_SHADER(fuzz_lookup, place, lookup, .attributes = 2, .varyings = 4, .reads = 
 LOM_SHADER(fuzz_everything, place, everything, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
            .differentiates = 1u << 1, .reads_position = true, .discards = true, .writes_depth = true, .quads = true,
            .colors = 2)
+LOM_SHADER(fuzz_sprite, place_sprite, show_sprite, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .reads_position = true, .clip_distances = 1, .cull_distances = 1, .discards = true, .colors = 1,
+           .sprites = true)
+LOM_SHADER(fuzz_soft, place_sprite, show_depth_behind, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .reads_position = true, .colors = 1, .sprites = true, .round = true, .reads_depth = true)
 
 static const lom_shader *const shaders[] = { &fuzz_show, &fuzz_depth, &fuzz_clipped, &fuzz_lookup, &fuzz_everything };
 enum { SHADERS = sizeof shaders / sizeof *shaders };
@@ -262,6 +288,10 @@ static lom_draw_desc take_draw(fuzz_bytes *in, struct heap *heap, const struct u
         }
     }
     draw.scissor = take_rect(in);
+    if (take_choice(in, 4) == 3) {
+        draw.topology = LOM_SPRITES;
+        draw.shader = take_bool(in) ? &fuzz_sprite : &fuzz_soft;
+    }
     return draw;
 }
 
