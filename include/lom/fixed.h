@@ -30,12 +30,6 @@ typedef enum lom_filtering {
 #define LOM_FIXED_BYTE   32640.0f /* 255 in 15 bits */
 #define LOM_FIXED_LINEAR 32767.0f /* linear light 1 in 15 bits */
 
-/* The low 16 bits of each lane in both halves. */
-LOM_INLINE lom_pairs lom_twice(lom_int x)
-{
-    return (lom_pairs)((x & 0xffff) | x << 16);
-}
-
 /* -round(2^15 t) in both halves, 0 <= t <= 1: the unit of floats in [2^23, 2^24) is 1, and 1.5 2^23 is a multiple of
  * 2^16. */
 LOM_INLINE lom_pairs lom_weight_pairs(lom_float t)

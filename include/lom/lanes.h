@@ -256,6 +256,12 @@ LOM_INLINE lom_pairs lom_defined_multiply_pairs(lom_pairs x, lom_pairs y)
     return (lom_pairs)((low & 0xffff) | high << 16);
 }
 
+/* The low 16 bits of each lane in both halves. */
+LOM_INLINE lom_pairs lom_defined_twice(lom_int x)
+{
+    return (lom_pairs)((x & 0xffff) | x << 16);
+}
+
 /* from[index[i]] in lane i. Every lane is read: indices must be inside. */
 LOM_INLINE lom_float lom_defined_gather(const float *from, lom_int index)
 {
@@ -442,6 +448,12 @@ LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
 LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
 {
     lom_defined_scatter_rows(to, index, x);
+}
+#endif
+#ifndef LOM_OVERRIDES_TWICE
+LOM_INLINE lom_pairs lom_twice(lom_int x)
+{
+    return lom_defined_twice(x);
 }
 #endif
 #ifndef LOM_OVERRIDES_TO_DOUBLE

@@ -33,6 +33,7 @@ LOM_INLINE __m128i lom_load_two_pairs(const int32_t *a, const int32_t *b)
 #define LOM_OVERRIDES_HALVES
 #define LOM_OVERRIDES_PERMUTE
 #define LOM_OVERRIDES_STREAMS
+#define LOM_OVERRIDES_TWICE
 
 LOM_INLINE void lom_split_pairs(const int32_t *from, lom_int *even, lom_int *odd)
 {
@@ -118,6 +119,12 @@ LOM_INLINE uint32_t lom_bits(lom_mask mask)
 LOM_INLINE lom_pairs lom_multiply_pairs(lom_pairs x, lom_pairs y)
 {
     return (lom_pairs)_mm512_mulhrs_epi16((__m512i)x, (__m512i)y);
+}
+
+LOM_INLINE lom_pairs lom_twice(lom_int x)
+{
+    const __m512i low = _mm512_set4_epi32(0x0d0c0d0c, 0x09080908, 0x05040504, 0x01000100);
+    return (lom_pairs)_mm512_shuffle_epi8((__m512i)x, low);
 }
 
 LOM_INLINE lom_float lom_floor(lom_float x)
@@ -231,6 +238,7 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
 #define LOM_OVERRIDES_PAIRS
 #define LOM_OVERRIDES_TO_DOUBLE
 #define LOM_OVERRIDES_STREAMS
+#define LOM_OVERRIDES_TWICE
 #define LOM_OVERRIDES_COMPRESS
 #define LOM_OVERRIDES_PERMUTE
 
@@ -348,6 +356,13 @@ LOM_INLINE lom_pairs lom_multiply_pairs(lom_pairs x, lom_pairs y)
     return (lom_pairs)_mm256_mulhrs_epi16((__m256i)x, (__m256i)y);
 }
 
+LOM_INLINE lom_pairs lom_twice(lom_int x)
+{
+    const __m256i low = _mm256_set_epi32(0x0d0c0d0c, 0x09080908, 0x05040504, 0x01000100, 0x0d0c0d0c, 0x09080908,
+                                         0x05040504, 0x01000100);
+    return (lom_pairs)_mm256_shuffle_epi8((__m256i)x, low);
+}
+
 LOM_INLINE lom_float lom_floor(lom_float x)
 {
     return (lom_float)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -368,14 +383,33 @@ LOM_INLINE lom_int lom_gather_int(const int32_t *from, lom_int index)
     return (lom_int)_mm256_i32gather_epi32(from, (__m256i)index, 4);
 }
 
+/* Two indices each: 0.8 of the time that taking them out one by one needs, half of what they need by way of memory. */
+struct lom_indices {
+    int64_t two[4];
+};
+
+/* gcc would go on in vectors if it saw where the halves come from. */
+LOM_INLINE int64_t lom_hold(int64_t x)
+{
+    __asm__("" : "+r"(x));
+    return x;
+}
+
+LOM_INLINE struct lom_indices lom_take_indices(lom_int index)
+{
+    __m128i low = _mm256_castsi256_si128((__m256i)index), high = _mm256_extracti128_si256((__m256i)index, 1);
+    return (struct lom_indices){ { lom_hold(_mm_cvtsi128_si64(low)), lom_hold(_mm_extract_epi64(low, 1)),
+                                   lom_hold(_mm_cvtsi128_si64(high)), lom_hold(_mm_extract_epi64(high, 1)) } };
+}
+
 LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
 {
-    int32_t at[8];
-    memcpy(at, &index, sizeof at);
-    __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(lom_load_two_pairs(from + at[0], from + at[1])),
-                                        lom_load_two_pairs(from + at[4], from + at[5]), 1);
-    __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(lom_load_two_pairs(from + at[2], from + at[3])),
-                                        lom_load_two_pairs(from + at[6], from + at[7]), 1);
+    struct lom_indices at = lom_take_indices(index);
+    __m128i t[4];
+    for (int i = 0; i < 4; i++)
+        t[i] = lom_load_two_pairs(from + (int32_t)at.two[i], from + (at.two[i] >> 32));
+    __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(t[0]), t[2], 1);
+    __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(t[1]), t[3], 1);
     *first = (lom_int)_mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _MM_SHUFFLE(2, 0, 2, 0));
     *second = (lom_int)_mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _MM_SHUFFLE(3, 1, 3, 1));
 }
@@ -398,14 +432,20 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
     return lom_transpose_halves(t);
 }
 
+/* Rows k and 4 + k. */
+LOM_INLINE __m256 lom_load_two_rows(const float *from, int64_t k, int64_t k4)
+{
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from + k)), _mm_loadu_ps(from + k4), 1);
+}
+
 LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
 {
-    int32_t at[8];
+    struct lom_indices at = lom_take_indices(index);
     __m256 t[4];
-    memcpy(at, &index, sizeof at);
-    for (int i = 0; i < 4; i++)
-        t[i] =
-            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from + at[i])), _mm_loadu_ps(from + at[4 + i]), 1);
+    for (int i = 0; i < 2; i++) {
+        t[2 * i] = lom_load_two_rows(from, (int32_t)at.two[i], (int32_t)at.two[2 + i]);
+        t[2 * i + 1] = lom_load_two_rows(from, at.two[i] >> 32, at.two[2 + i] >> 32);
+    }
     return lom_transpose_halves(t);
 }
 
@@ -414,12 +454,15 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
     __m256 t[4] = { (__m256)x.x, (__m256)x.y, (__m256)x.z, (__m256)x.w };
     lom_float4 rows = lom_transpose_halves(t);
     __m256 row[4] = { (__m256)rows.x, (__m256)rows.y, (__m256)rows.z, (__m256)rows.w };
-    int32_t at[8];
-    memcpy(at, &index, sizeof at);
-    for (int i = 0; i < 4; i++)
-        _mm_storeu_ps(to + at[i], _mm256_castps256_ps128(row[i]));
-    for (int i = 0; i < 4; i++)
-        _mm_storeu_ps(to + at[4 + i], _mm256_extractf128_ps(row[i], 1));
+    struct lom_indices at = lom_take_indices(index);
+    for (int i = 0; i < 4; i++) {
+        int64_t two = at.two[i >> 1];
+        _mm_storeu_ps(to + ((i & 1) != 0 ? two >> 32 : (int32_t)two), _mm256_castps256_ps128(row[i]));
+    }
+    for (int i = 0; i < 4; i++) {
+        int64_t two = at.two[2 + (i >> 1)];
+        _mm_storeu_ps(to + ((i & 1) != 0 ? two >> 32 : (int32_t)two), _mm256_extractf128_ps(row[i], 1));
+    }
 }
 
 #elif LOM_LANES == 4

@@ -27,18 +27,18 @@ LOM_INLINE sample_pairs sample_unpack_pairs(bool srgb, lom_int texel)
     return (sample_pairs){ (lom_pairs)(red | blue << 16), (lom_pairs)(green | (texel >> 1 & 0x7f800000)) };
 }
 
-/* Texels index and index + 1. Decoded ones are two words each: four words in a row. */
-LOM_INLINE void sample_two_pairs(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index,
+/* Texels index and index + 1 after the one numbered `from`. Decoded ones are two words each: four words in a row. */
+LOM_INLINE void sample_two_pairs(const lom_texture *texture, size_t from, lom_storage storage, bool srgb, lom_int index,
                                  sample_pairs *first, sample_pairs *second)
 {
     if (storage == LOM_STORAGE_RGBA32F) {
-        lom_float4 words = lom_gather_rows(texture->decoded, index + index);
+        lom_float4 words = lom_gather_rows((const float *)texture->decoded + 2 * from, index + index);
         *first = (sample_pairs){ (lom_pairs)words.x, (lom_pairs)words.y };
         *second = (sample_pairs){ (lom_pairs)words.z, (lom_pairs)words.w };
         return;
     }
     lom_int a, b;
-    lom_gather_pairs(texture->texels, index, &a, &b);
+    lom_gather_pairs((const int32_t *)texture->texels + from, index, &a, &b);
     *first = sample_unpack_pairs(srgb, a);
     *second = sample_unpack_pairs(srgb, b);
 }
@@ -52,8 +52,8 @@ LOM_INLINE sample_pairs sample_square_pairs(const lom_texture *texture, lom_stor
                                             lom_int pitch, lom_pairs s, lom_pairs t)
 {
     sample_pairs a, b, c, d;
-    sample_two_pairs(texture, storage, srgb, index, &a, &b);
-    sample_two_pairs(texture, storage, srgb, index + pitch, &c, &d);
+    sample_two_pairs(texture, 0, storage, srgb, index, &a, &b);
+    sample_two_pairs(texture, 0, storage, srgb, index + pitch, &c, &d);
     return sample_mix_pairs(sample_mix_pairs(a, b, s), sample_mix_pairs(c, d, s), t);
 }
 
@@ -85,11 +85,19 @@ LOM_INLINE sample_pairs sample_level_pairs(const lom_texture *texture, lom_textu
     return sample_mix_pairs(front, back, lom_weight_pairs(print.r));
 }
 
+/* The quotients n / 32640 and n / 32767 of whole numbers up to that, correctly rounded, as n high + n low: n high is
+ * exact, high having 9 bits or one. The sum before its rounding is within 2^-38 of the quotient's size, which is never
+ * so near to the middle of two floats (tests/image/test_sample_fixed.wide.c has all n). */
+LOM_INLINE lom_float sample_share(lom_float n, bool light)
+{
+    const float high = light ? 0x1p-15f : 0x1.01p-15f, low = light ? 0x1.0002p-30f : 0x1.010102p-31f;
+    return n * high + n * low;
+}
+
 LOM_INLINE lom_float4 sample_finish_pairs(bool srgb, sample_pairs x)
 {
-    float color = srgb ? LOM_FIXED_LINEAR : LOM_FIXED_BYTE;
-    return (lom_float4){ lom_lower_of_pairs(x.rb) / color, lom_lower_of_pairs(x.ga) / color,
-                         lom_upper_of_pairs(x.rb) / color, lom_upper_of_pairs(x.ga) / LOM_FIXED_BYTE };
+    return (lom_float4){ sample_share(lom_lower_of_pairs(x.rb), srgb), sample_share(lom_lower_of_pairs(x.ga), srgb),
+                         sample_share(lom_upper_of_pairs(x.rb), srgb), sample_share(lom_upper_of_pairs(x.ga), false) };
 }
 
 LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
@@ -109,11 +117,62 @@ LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_textu
     return sample_finish_pairs(srgb, value);
 }
 
+/* ---- plain textures (texture.h), of which all lanes take one level or the same two ---- */
+
+/* sample_level_pairs. The largest float below 1 is the same weight as 1 - 2^-23. */
+LOM_INLINE sample_pairs sample_plain_level(const lom_texture *texture, lom_storage storage, bool srgb,
+                                           const sample_point *point, int level)
+{
+    const lom_level_row *row = &texture->row[level];
+    lom_float x = point->s * row->width + 0.5f, y = point->t * row->height + 0.5f;
+    lom_int column = lom_bounded_to_int(x), line = lom_bounded_to_int(y);
+    lom_pairs s = lom_weight_pairs(x - lom_to_float(column)), t = lom_weight_pairs(y - lom_to_float(line));
+    lom_int index = line * row->pitch + column;
+    size_t from = (size_t)row->offset;
+    sample_pairs a, b, c, d;
+    sample_two_pairs(texture, from, storage, srgb, index, &a, &b);
+    sample_two_pairs(texture, from + (size_t)row->pitch, storage, srgb, index, &c, &d);
+    return sample_mix_pairs(sample_mix_pairs(a, b, s), sample_mix_pairs(c, d, s), t);
+}
+
+/* Records want the notes of the general functions. */
+#ifdef LOM_RECORD
+enum { SAMPLE_TAKES_NOTES = true };
+#else
+enum { SAMPLE_TAKES_NOTES = false };
+#endif
+
+/* sample_texture_fixed of such lanes; else it takes over. */
+LOM_INLINE lom_float4 sample_plain(const lom_texture *texture, lom_storage storage, bool srgb, sample_point *point,
+                                   lom_float lod)
+{
+    int last = texture->level_count - 1, first;
+    lom_float chosen = { 0 };
+    lom_int level = { 0 };
+    if (last > 0) {
+        chosen = lom_clamp(lod + texture->sampler.lod_bias, lom_splat(texture->lod_min), lom_splat(texture->lod_max));
+        chosen = lom_min(lom_max(chosen, (lom_float){ 0 }), lom_splat((float)last));
+        level = lom_bounded_to_int(chosen);
+    }
+    first = level[0];
+    if (!lom_all(level == first))
+        return sample_texture_fixed(texture, LOM_TEXTURE_2D, storage, srgb, point, lod);
+    sample_pairs value = sample_plain_level(texture, storage, srgb, point, first);
+    lom_float fraction = chosen - (float)first;
+    if (last > 0 && lom_any(fraction > 0.0f)) {
+        sample_pairs next = sample_plain_level(texture, storage, srgb, point, first < last ? first + 1 : last);
+        value = sample_mix_pairs(value, next, lom_weight_pairs(fraction));
+    }
+    return sample_finish_pairs(srgb, value);
+}
+
 /* ---- both arithmetics, every storage ---- */
 
 LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
                                 bool srgb, sample_point *point, lom_float lod)
 {
+    if (fixed && kind == LOM_TEXTURE_2D && texture->plain && !SAMPLE_TAKES_NOTES)
+        return sample_plain(texture, storage, srgb, point, lod);
     lom_float4 value = fixed ? sample_texture_fixed(texture, kind, storage, srgb, point, lod)
                              : sample_texture(texture, kind, storage, srgb, point, lod);
     LOM_NOTE(LOM_NOTE_RESULT, texture, value.x, value.y, value.z, value.w);

@@ -51,7 +51,8 @@ struct lom_texture {
     /* For the samplers: */
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */
-    float lod_min, lod_max;               /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
+    bool plain;             /* 2D, fixed, linear within levels and between those there are, and no border */
+    float lod_min, lod_max; /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
     lom_level_row row[LOM_MAX_LEVELS];
 };
 

@@ -109,4 +109,37 @@ LOM_INLINE pairs blend_half(struct equation e, pairs source, pairs source_alpha,
     return divide_by_255(combine(e.operation, s, d));
 }
 
+/* Of any equations. */
+LOM_INLINE struct channels blend_bytes(const lom_blend *blend, struct channels source, struct channels target)
+{
+    struct equation color = equation_of(blend, 0), alpha = equation_of(blend, 3);
+    pairs source_alpha = alpha_of(source), target_alpha = alpha_of(target);
+    struct channels result = { blend_half(color, source.rb, source_alpha, target.rb, target_alpha),
+                               blend_half(color, source.ga, source_alpha, target.ga, target_alpha) };
+    if (color.source != alpha.source || color.target != alpha.target || color.operation != alpha.operation) {
+        pairs upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
+        result.ga = select_pairs(upper, blend_half(alpha, source.ga, source_alpha, target.ga, target_alpha), result.ga);
+    }
+    return result;
+}
+
+/* What blend_bytes makes of OUTPUT_STRAIGHT: no sum is above 255^2. */
+LOM_INLINE struct channels blend_straight(struct channels source, struct channels target)
+{
+    pairs alpha = alpha_of(source), rest = 255 - alpha;
+    return (struct channels){ divide_by_255(source.rb * alpha + target.rb * rest),
+                              divide_by_255(source.ga * alpha + target.ga * rest) };
+}
+
+/* What it makes of OUTPUT_MULTIPLIED: round((255 S + D G) / 255) is S + round(D G / 255), and the bound of 255^2 is one
+ * of 255 after the division. */
+LOM_INLINE struct channels blend_multiplied(struct channels source, struct channels target)
+{
+    const pairs largest = splat_pairs(255);
+    pairs rest = 255 - alpha_of(source);
+    pairs rb = source.rb + divide_by_255(target.rb * rest), ga = source.ga + divide_by_255(target.ga * rest);
+    return (struct channels){ select_pairs((pairs)(rb > largest), largest, rb),
+                              select_pairs((pairs)(ga > largest), largest, ga) };
+}
+
 #endif

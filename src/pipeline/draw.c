@@ -153,15 +153,23 @@ static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
     return true;
 }
 
-/* The usual blending of colours that are multiplied by their alpha, into a target that holds what it is given. */
-static bool lays_over(const struct lom_pass *pass, const lom_draw_desc *desc)
+static lom_output_kind output_of(const struct lom_pass *pass, const lom_draw_desc *desc)
 {
     const lom_blend *b = &desc->blend[0];
-    return pass->colors == 1 && desc->shader->colors >= 1 && pass->color[0].kind == COLOR_FLOAT &&
-           lom_describe_format(pass->color[0].format)->bits == 32 && desc->mask_off[0] == 0 && b->enabled &&
-           b->source_color == LOM_FACTOR_ONE && b->target_color == LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA &&
-           b->source_alpha == LOM_FACTOR_ONE && b->target_alpha == LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA &&
-           b->color_operation == LOM_BLEND_ADD && b->alpha_operation == LOM_BLEND_ADD;
+    const struct lom_color_target *target = &pass->color[0];
+    bool bytes = target->kind == COLOR_UNORM8;
+    bool floats = target->kind == COLOR_FLOAT && lom_describe_format(target->format)->bits == 32;
+    if (pass->colors != 1 || desc->shader->colors < 1 || desc->mask_off[0] != 0 || (!bytes && !floats))
+        return OUTPUT_GENERAL;
+    if (!b->enabled)
+        return bytes ? OUTPUT_BYTES : OUTPUT_GENERAL;
+    if (b->color_operation != LOM_BLEND_ADD || b->alpha_operation != LOM_BLEND_ADD ||
+        b->source_color != b->source_alpha || b->target_color != LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA ||
+        b->target_alpha != LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA)
+        return OUTPUT_GENERAL;
+    if (b->source_color == LOM_FACTOR_ONE)
+        return bytes ? OUTPUT_MULTIPLIED : OUTPUT_FLOATS_MULTIPLIED;
+    return bytes && b->source_color == LOM_FACTOR_SOURCE_ALPHA ? OUTPUT_STRAIGHT : OUTPUT_GENERAL;
 }
 
 static void derive(const struct lom_pass *pass, struct lom_draw *draw)
@@ -187,7 +195,7 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     draw->blends = false;
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
-    draw->lays_over = lays_over(pass, desc);
+    draw->output = output_of(pass, desc);
     draw->constant = pass->recorder == NULL && shader->fragment[draw->variant] != NULL && shader->reads == 0 &&
                      !shader->reads_position && !shader->discards && !shader->writes_depth && !shader->quads &&
                      !shader->sprites && !shader->reads_depth;

@@ -2,19 +2,6 @@
  * formats. 8-bit unorm blends in exact integers; sRGB and float attachments blend in float. */
 #include "pipeline/blend_bytes.h"
 
-static struct channels blend_bytes(const lom_blend *blend, struct channels source, struct channels target)
-{
-    struct equation color = equation_of(blend, 0), alpha = equation_of(blend, 3);
-    pairs source_alpha = alpha_of(source), target_alpha = alpha_of(target);
-    struct channels result = { blend_half(color, source.rb, source_alpha, target.rb, target_alpha),
-                               blend_half(color, source.ga, source_alpha, target.ga, target_alpha) };
-    if (color.source != alpha.source || color.target != alpha.target || color.operation != alpha.operation) {
-        pairs upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
-        result.ga = select_pairs(upper, blend_half(alpha, source.ga, source_alpha, target.ga, target_alpha), result.ga);
-    }
-    return result;
-}
-
 /* The value of a blend factor. S and D: source and target, channel c; A of each their alphas. */
 static lom_float float_factor(lom_factor factor, const lom_float *source, const lom_float *target, int c)
 {
@@ -75,32 +62,38 @@ static int32_t kept_bits(uint8_t mask_off)
     return (int32_t)kept;
 }
 
-static void write_unorm8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float *color,
+/* A colour as four bytes, two of them in 16 bits each. */
+LOM_INLINE struct channels quantise(const lom_float4 *color)
+{
+    lom_int red = lom_unorm_of_lanes(color->x, 255.0f), green = lom_unorm_of_lanes(color->y, 255.0f);
+    lom_int blue = lom_unorm_of_lanes(color->z, 255.0f), alpha = lom_unorm_of_lanes(color->w, 255.0f);
+    return (struct channels){ (pairs)(red | blue << 16), (pairs)(green | alpha << 16) };
+}
+
+static void write_unorm8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float4 *color,
                          int i)
 {
     const lom_draw_desc *desc = &tile->draw->desc;
     int32_t *memory = tile->color[i];
-    lom_int source[4];
-    for (int c = 0; c < 4; c++)
-        source[c] = lom_unorm_of_lanes(color[c], 255.0f);
+    struct channels source = quantise(color);
     int32_t kept = kept_bits(desc->mask_off[i]);
-    lom_int result = pack(source);
     if (!desc->blend[i].enabled && kept == 0) {
-        lom_store_places(memory, tile, places, mask, result);
+        lom_store_places(memory, tile, places, mask, join(source));
         return;
     }
     lom_int old = lom_load_places(memory, tile, places);
     if (desc->blend[i].enabled)
-        result = join(blend_bytes(&desc->blend[i], split(result), split(old)));
-    lom_store_places(memory, tile, places, mask, (result & ~kept) | (old & kept));
+        source = blend_bytes(&desc->blend[i], source, split(old));
+    lom_store_places(memory, tile, places, mask, (join(source) & ~kept) | (old & kept));
 }
 
-static void write_srgb8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float *color,
+static void write_srgb8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float4 *from,
                         int i)
 {
     const lom_draw_desc *desc = &tile->draw->desc;
     int32_t *memory = tile->color[i];
     lom_int code[4];
+    const lom_float color[4] = { from->x, from->y, from->z, from->w };
     lom_float source[4], target[4], result[4];
     lom_int old = { 0 };
     int32_t kept = kept_bits(desc->mask_off[i]);
@@ -135,13 +128,14 @@ static lom_float round_to_format(lom_format format, lom_float x)
     return lom_clamp(number, -bound, bound);
 }
 
-static void write_float(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float *color,
+static void write_float(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float4 *from,
                         int i)
 {
     const lom_draw_desc *desc = &tile->draw->desc;
     size_t plane = (size_t)tile->edge * (size_t)tile->edge;
     float *memory = tile->color[i];
     lom_format format = tile->pass->color[i].format;
+    const lom_float color[4] = { from->x, from->y, from->z, from->w };
     lom_float target[4];
     bool blends = desc->blend[i].enabled;
     for (size_t c = 0; c < 4 && blends; c++)
@@ -155,19 +149,45 @@ static void write_float(struct lom_tile *tile, const struct lom_places *places, 
     }
 }
 
+static __attribute__((noinline)) void write_all(struct lom_tile *tile, const struct lom_places *places,
+                                                const lom_mask *mask, const lom_float4 *color)
+{
+    int outputs = tile->draw->desc.shader->colors;
+    for (int i = 0; i < tile->pass->colors && i < outputs; i++)
+        switch (tile->pass->color[i].kind) {
+        case COLOR_UNORM8:
+            write_unorm8(tile, places, *mask, &color[i], i);
+            break;
+        case COLOR_SRGB8:
+            write_srgb8(tile, places, *mask, &color[i], i);
+            break;
+        case COLOR_FLOAT:
+            write_float(tile, places, *mask, &color[i], i);
+            break;
+        }
+}
+
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
                                 const lom_float4 *color)
 {
-    if (tile->draw->lays_over) {
+    int32_t *memory = tile->color[0];
+    struct channels source;
+    switch (tile->draw->output) {
+    case OUTPUT_GENERAL:
+        write_all(tile, places, mask, color);
+        return;
+    case OUTPUT_FLOATS_MULTIPLIED:
         lom_lay_over(tile, places, *mask, color);
         return;
+    case OUTPUT_BYTES:
+        source = quantise(color);
+        break;
+    case OUTPUT_STRAIGHT:
+        source = blend_straight(quantise(color), split(lom_load_places(memory, tile, places)));
+        break;
+    case OUTPUT_MULTIPLIED:
+        source = blend_multiplied(quantise(color), split(lom_load_places(memory, tile, places)));
+        break;
     }
-    static void (*const write[])(struct lom_tile *, const struct lom_places *, lom_mask, const lom_float *, int) = {
-        [COLOR_UNORM8] = write_unorm8, [COLOR_SRGB8] = write_srgb8, [COLOR_FLOAT] = write_float
-    };
-    int outputs = tile->draw->desc.shader->colors;
-    for (int i = 0; i < tile->pass->colors && i < outputs; i++) {
-        lom_float channels[4] = { color[i].x, color[i].y, color[i].z, color[i].w };
-        write[tile->pass->color[i].kind](tile, places, *mask, channels, i);
-    }
+    lom_store_places(memory, tile, places, *mask, join(source));
 }

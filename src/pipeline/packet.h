@@ -155,7 +155,7 @@ LOM_INLINE lom_float lom_make_finite(lom_float x)
     return lom_clamp(number, -bound, bound);
 }
 
-/* What the output stage does for draw->lays_over. */
+/* What the output stage does for OUTPUT_FLOATS_MULTIPLIED. */
 LOM_INLINE void lom_lay_over(struct lom_tile *tile, const struct lom_places *places, lom_mask mask,
                              const lom_float4 *color)
 {

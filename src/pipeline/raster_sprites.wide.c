@@ -82,7 +82,7 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
     if (draw->late_depth)
         LOM_WIDE(lom_write_in_order)(tile, &places, &mask, true, &out);
-    else if (draw->lays_over)
+    else if (draw->output == OUTPUT_FLOATS_MULTIPLIED)
         lom_lay_over(tile, &places, mask, out.color);
     else
         LOM_WIDE(lom_write_packet)(tile, &places, &mask, out.color);

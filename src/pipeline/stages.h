@@ -109,6 +109,17 @@ struct lom_paint {
     uint32_t factor[2], add[2];
 };
 
+/* What a draw does to its targets. Those that have code of their own have one target and write all of its channels:
+ * bytes, as they are or blended by source alpha + target (1 - alpha) or source + target (1 - alpha) in all channels
+ * (blend_bytes.h); or floats, blended the second way. */
+typedef enum lom_output_kind {
+    OUTPUT_GENERAL = 0,
+    OUTPUT_BYTES,
+    OUTPUT_STRAIGHT,
+    OUTPUT_MULTIPLIED,
+    OUTPUT_FLOATS_MULTIPLIED
+} lom_output_kind;
+
 /* A draw as recorded. */
 struct lom_draw {
     lom_draw_desc desc;
@@ -123,9 +134,9 @@ struct lom_draw {
     size_t triangles;    /* or sprites, of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool depth_write, late_depth, blends, constant, biased;
-    bool lays_over;         /* the one colour, in floats: source + target (1 - source alpha) in all channels */
-    bool queues_depth;      /* the fragment stage needs the depth */
-    struct lom_paint paint; /* with `constant`, once the pass runs */
+    lom_output_kind output;
+    bool queues_depth;                        /* the fragment stage needs the depth */
+    struct lom_paint paint;                   /* with `constant`, once the pass runs */
     size_t first_run, run_count, chunk_count; /* with clusters: which of the device's runs; the chunks they make */
 };
 

@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "image/convert.h"
-#include "image/texture.h"
+#include "image/sample_fixed.h"
 
 static lom_error error;
 
@@ -228,6 +228,9 @@ static void compare_with_definition(const lom_texture *t, int packets, uint64_t 
             at.z[i] = coordinate(key, counter + 2);
             lod[i] = (float)(lom_random_uniform(key + 1, counter) * (t->level_count + 2) - 1.5);
         }
+        if ((n & 1) != 0) /* all lanes within a level, as near a large triangle; a sixteenth of them exactly at it */
+            lod = lom_splat(floorf(lod[0]) + (n % 16 == 1 ? 0 : 0.75f)) +
+                  lom_select(at.x > 0.3f, lom_splat(0.125f), (lom_float){ 0 });
         lom_float4 got = sample(t, at, lod);
         for (int i = 0; i < LOM_LANES; i++) {
             float want[4], place[3] = { at.x[i], at.y[i], at.z[i] };
@@ -278,6 +281,17 @@ static void every_lane_is_the_definition(void)
                     lom_free_texture(t);
                     free(pixels);
                 }
+}
+
+/* What mixes come to is divided without a division. */
+static void every_number_is_divided_correctly(void)
+{
+    for (int light = 0; light < 2; light++)
+        for (int n = 0; n <= 32767; n += LOM_LANES) {
+            lom_float x = lom_to_float(lom_lane_index() + n), quotient = x / (light != 0 ? 32767.0f : 32640.0f);
+            lom_float share = sample_share(x, light != 0);
+            CHECK(memcmp(&share, &quotient, sizeof share) == 0, "%d of %d", n, light != 0 ? 32767 : 32640);
+        }
 }
 
 /* Large textures, where a float coordinate leaves few bits of weight. */
@@ -435,6 +449,7 @@ static void an_unknown_filtering_is_an_error(void)
 int main(int argc, char **argv)
 {
     RUN(every_lane_is_the_definition);
+    RUN(every_number_is_divided_correctly);
     RUN(large_textures_too);
     RUN(a_mirrored_texture_gives_the_same_at_the_mirrored_place);
     RUN(the_float_filter_is_within_the_bound);

@@ -54,6 +54,7 @@ static void compare_all(lom_int p, lom_int q)
     lom_pairs x = (lom_pairs)p, y = (lom_pairs)q;
     CHECK(same_int((lom_int)lom_multiply_pairs(x, y), (lom_int)lom_defined_multiply_pairs(x, y)),
           "multiply_pairs of %08x, %08x", p[0], q[0]);
+    CHECK(same_int((lom_int)lom_twice(p), (lom_int)lom_defined_twice(p)), "twice of %08x", p[0]);
 }
 
 static void overrides_equal_definitions_on_specials(void)

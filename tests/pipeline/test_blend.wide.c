@@ -1,6 +1,8 @@
 /* Proves blending at this width (B3, B6, B7): into 8-bit unorm every sum is the exact rational rounded once; many faint
  * layers follow the same rule layer by layer; NaN and colours above their alpha have stated results; and every equation
  * of two factors and an operation is its definition. */
+#include "pipeline/blend_bytes.h"
+
 #include "stage.h"
 
 enum { SIZE = 256 };
@@ -231,6 +233,25 @@ static void every_equation_is_its_definition(void)
     }
 }
 
+/* The two equations that have code of their own, against the code of all: every source, target and alpha, in the two
+ * channels of a half and in the alpha itself. */
+static void equations_with_code_of_their_own_are_the_general_ones(void)
+{
+    const lom_blend straight = with(LOM_FACTOR_SOURCE_ALPHA, LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA);
+    const lom_blend multiplied = with(LOM_FACTOR_ONE, LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA);
+    for (int alpha = 0; alpha < 256; alpha++)
+        for (int n = 0; n < 65536; n += LOM_LANES) {
+            lom_int each = lom_lane_index() + n, from = each & 255, onto = each >> 8;
+            struct channels from_pixel = { (pairs)(from | (255 - from) << 16), (pairs)(from | alpha << 16) };
+            struct channels onto_pixel = { (pairs)(onto | onto << 16), (pairs)((255 - onto) | onto << 16) };
+            lom_int a = join(blend_straight(from_pixel, onto_pixel)),
+                    b = join(blend_bytes(&straight, from_pixel, onto_pixel));
+            lom_int c = join(blend_multiplied(from_pixel, onto_pixel)),
+                    d = join(blend_bytes(&multiplied, from_pixel, onto_pixel));
+            CHECK(lom_all(a == b) && lom_all(c == d), "alpha %d, sources and targets from %d on", alpha, n);
+        }
+}
+
 int main(int argc, char **argv)
 {
     RUN(b3_source_over_is_the_rounded_rational);
@@ -238,5 +259,6 @@ int main(int argc, char **argv)
     RUN(b6_nan_is_never_stored);
     RUN(b7_colours_above_their_alpha_saturate);
     RUN(every_equation_is_its_definition);
+    RUN(equations_with_code_of_their_own_are_the_general_ones);
     return check_result();
 }
