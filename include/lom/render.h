@@ -2,6 +2,7 @@
  *
  * Steps of use, in order: lom_read_scene (lom/scene.h); lom_create_renderer, which loads what the scene names;
  * lom_render_frame for each frame, whose picture is freed with lom_free_image; lom_free_renderer, lom_free_scene.
+ * Between frames lom_change_scene goes on with another scene.
  */
 #ifndef LOM_RENDER_H
 #define LOM_RENDER_H
@@ -13,10 +14,32 @@ LOM_API_BEGIN
 
 typedef struct lom_renderer lom_renderer;
 
-/* Loads everything the scene names and makes ready to draw it. The scene is not copied: it outlives the renderer. NULL
- * on failure. Freed with lom_free_renderer. The zero device descriptor is a good one. */
+/* Loads everything the scene names and makes ready to draw it. The scene is not copied: it outlives the renderer, or its
+ * lom_change_scene. NULL on failure. Freed with lom_free_renderer. The zero device descriptor is a good one. */
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *device, lom_error *error);
 void lom_free_renderer(lom_renderer *renderer); /* NULL is allowed */
+
+/* ---- another scene ---- */
+
+/* What lom_change_scene did. */
+typedef enum lom_change {
+    LOM_CHANGE_NONE,  /* nothing: no key differs */
+    LOM_CHANGE_FRAME, /* nothing was loaded: all keys that differ are looked up in each frame */
+    LOM_CHANGE_PART,  /* some of what the scene names was loaded again: lom_renderer_loaded */
+    LOM_CHANGE_ALL    /* everything was */
+} lom_change;
+
+/* Makes the renderer draw `scene` from the next frame on, and loads only what the keys that differ from those of its
+ * scene are loaded for. Frames then have the bytes that they have with a renderer that was created for the scene; a run
+ * of impostors begins anew. As lom_create_renderer's it is not copied and outlives the renderer or its next change; that
+ * of before is not looked at any more, and may be freed. Files that keep their names are taken as unchanged: a renderer
+ * whose files have been written must be created again. *change (may be NULL) says what was done, LOM_CHANGE_NONE on
+ * failure. False on failure: a file that cannot be read, memory, or what lom_create_renderer refuses; the renderer goes
+ * on drawing the scene of before, with the same bytes. While parts are loaded anew, the old ones are kept in memory. */
+bool lom_change_scene(lom_renderer *renderer, const lom_scene *scene, lom_change *change, lom_error *error);
+/* What the last successful lom_change_scene loaded, as "clouds, waves"; empty when that was nothing, or everything. It
+ * belongs to the renderer. */
+const char *lom_renderer_loaded(const lom_renderer *renderer);
 
 /* Called by the thread that draws, before each pass that runs and at last before the "output": its name as in the plan,
  * and the share (0..1) of the frame's stages that are done, which never falls. False abandons the frame: what is left

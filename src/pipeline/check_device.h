@@ -13,4 +13,10 @@ bool lom_check_device(const lom_device *device, lom_error *error);
 void lom_abandon_passes(lom_device *device);
 void lom_resume_passes(lom_device *device);
 
+/* Forgets a failure outside of passes, such as that of a texture for which there was no memory. */
+void lom_forget_failure(lom_device *device);
+
+/* Textures that are made from now on are filtered so (lom_device_desc.filtering). */
+void lom_set_device_filtering(lom_device *device, lom_filtering filtering);
+
 #endif

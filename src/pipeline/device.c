@@ -122,6 +122,16 @@ void lom_resume_passes(lom_device *device)
         device->error = (lom_error){ .code = LOM_OK };
 }
 
+void lom_forget_failure(lom_device *device)
+{
+    device->error = (lom_error){ .code = LOM_OK };
+}
+
+void lom_set_device_filtering(lom_device *device, lom_filtering filtering)
+{
+    device->desc.filtering = filtering;
+}
+
 lom_device_desc lom_describe_device(const lom_device *device)
 {
     return device != NULL ? device->desc : (lom_device_desc){ .threads = 0 };

@@ -161,7 +161,7 @@ static bool put_out(struct frame *f, bool drawn, lom_image *traced, lom_frame *o
 static void leave_abandoned(struct frame *f)
 {
     lom_resume_passes(f->renderer->device);
-    f->renderer->clouds.impostors.width = 0;
+    lom_end_impostor_run(f->renderer);
 }
 
 static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)

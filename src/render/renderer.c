@@ -2,37 +2,34 @@
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
 #include "reference/reference.h"
-#include "render/renderer.h"
+#include "render/rooms.h"
 #include "water/water_models.h"
 
 #include <assert.h>
 
-/* In the order in which they are loaded: the bed of the water is the ground. */
-static const struct room {
-    bool (*load)(lom_renderer *renderer, lom_error *error);
-    void (*free)(lom_renderer *renderer);
-} rooms[] = {
-    { lom_load_ground, lom_free_ground }, { lom_load_entities, lom_free_entities }, { lom_load_water, lom_free_water },
-    { lom_load_clouds, lom_free_clouds }, { lom_load_spray, lom_free_spray },
-};
-static const size_t room_count = sizeof rooms / sizeof rooms[0];
+bool lom_is_traced(const lom_scene *scene)
+{
+    return lom_water_models[scene->quality.water].is_traced || scene->quality.clouds == LOM_CLOUDS_REFERENCE;
+}
+
+bool lom_load_renderer(lom_renderer *renderer, unsigned parts, lom_error *error)
+{
+    if (renderer->world == NULL || !lom_world_at(renderer->world, 0, &renderer->moment, error))
+        return false;
+    if (lom_is_traced(renderer->world->scene)) {
+        renderer->reference = lom_create_reference_of(renderer->world, error);
+        return renderer->reference != NULL;
+    }
+    if (!lom_load_rooms(renderer, parts, error))
+        return false;
+    lom_release_world_files(renderer->world);
+    return true;
+}
 
 static bool load(lom_renderer *renderer, const lom_scene *scene, lom_error *error)
 {
     renderer->world = lom_create_world(scene, error);
-    if (renderer->world == NULL || !lom_world_at(renderer->world, 0, &renderer->moment, error))
-        return false;
-    if (lom_water_models[scene->quality.water].is_traced || scene->quality.clouds == LOM_CLOUDS_REFERENCE) {
-        renderer->reference = lom_create_reference_of(renderer->world, error);
-        return renderer->reference != NULL;
-    }
-    if (!lom_load_sky(renderer, error))
-        return false;
-    for (size_t i = 0; i < room_count; i++)
-        if (!rooms[i].load(renderer, error))
-            return false;
-    lom_release_world_files(renderer->world);
-    return true;
+    return lom_load_renderer(renderer, LOM_PARTS_ALL, error);
 }
 
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)
@@ -63,8 +60,8 @@ void lom_free_renderer(lom_renderer *renderer)
     if (renderer == NULL)
         return;
     lom_free_reference(renderer->reference);
-    for (size_t i = 0; i < room_count; i++)
-        rooms[i].free(renderer);
+    lom_drop_made(renderer, LOM_PARTS_ALL);
+    lom_free_rooms(renderer, LOM_PARTS_ALL);
     lom_free_textures(renderer);
     lom_free_moment(&renderer->moment);
     lom_free_world(renderer->world);

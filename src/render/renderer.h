@@ -30,6 +30,7 @@ struct lom_renderer {
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
     struct lom_targets targets, other_targets; /* of this frame; of the size before */
+    char loaded[128];                          /* what the last change of the scene loaded */
 };
 
 #endif

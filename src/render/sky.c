@@ -39,6 +39,12 @@ bool lom_load_sky(lom_renderer *renderer, lom_error *error)
     return load_box(renderer, error) && load_sun(renderer, error);
 }
 
+void lom_free_sky(lom_renderer *renderer)
+{
+    lom_release_texture(renderer->device, renderer->sky.box);
+    lom_release_texture(renderer->device, renderer->sky.sun);
+}
+
 void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_light_uniform *light)
 {
     const lom_sky_params *sky = &renderer->scene->sky;

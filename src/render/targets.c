@@ -103,6 +103,12 @@ static void release_targets(lom_device *device, struct lom_targets *targets)
     *targets = (struct lom_targets){ .made_count = 0 };
 }
 
+void lom_drop_targets(lom_renderer *renderer)
+{
+    release_targets(renderer->device, &renderer->targets);
+    release_targets(renderer->device, &renderer->other_targets);
+}
+
 static bool are_of(const struct lom_targets *t, int width, int height, int drawn_width, int drawn_height)
 {
     return t->made_count != 0 && t->width == width && t->height == height && t->drawn_width == drawn_width &&

@@ -29,6 +29,8 @@ uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int dra
 /* Makes the targets for a frame of this size of which drawn_width x drawn_height is drawn. */
 bool lom_make_targets(lom_renderer *renderer, int width, int height, int drawn_width, int drawn_height,
                       lom_error *error);
+/* All are made anew by the next frame. */
+void lom_drop_targets(lom_renderer *renderer);
 /* What was drawn into the colour target, in the scene's output format: the caller's. NULL on failure. */
 lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error);
 /* A picture of the reference in rows of the caller's, as below; frees it. False on failure, or when it is NULL. */

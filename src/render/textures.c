@@ -46,21 +46,52 @@ static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool 
     return texture;
 }
 
+static char *copy_path(const char *path, lom_error *error)
+{
+    size_t size = strlen(path) + 1;
+    char *copy = lom_allocate(size, 1, error);
+    return copy != NULL ? memcpy(copy, path, size) : NULL;
+}
+
 lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error)
 {
     struct lom_texture_cache *cache = &renderer->textures;
     for (size_t i = 0; i < cache->count; i++)
-        if (cache->items[i].color == color && strcmp(cache->items[i].path, path) == 0)
+        if (cache->items[i].color == color && strcmp(cache->items[i].path, path) == 0) {
+            cache->items[i].uses++;
             return cache->items[i].texture;
+        }
     if (!lom_reserve(&cache->items, &cache->capacity, cache->count + 1, sizeof *cache->items, error))
         return NULL;
-    lom_texture *texture = make_texture(renderer, path, color, error);
+    char *copy = copy_path(path, error);
+    lom_texture *texture = copy != NULL ? make_texture(renderer, path, color, error) : NULL;
     if (texture != NULL)
-        cache->items[cache->count++] = (struct lom_cached_texture){ path, color, texture };
+        cache->items[cache->count++] = (struct lom_cached_texture){ copy, color, texture, 1 };
+    else
+        lom_release(copy);
     return texture;
+}
+
+bool lom_drop_texture(lom_renderer *renderer, const lom_texture *texture)
+{
+    struct lom_texture_cache *cache = &renderer->textures;
+    for (size_t i = 0; texture != NULL && i < cache->count; i++) {
+        struct lom_cached_texture *item = &cache->items[i];
+        if (item->texture != texture)
+            continue;
+        if (--item->uses == 0) {
+            lom_release_texture(renderer->device, item->texture);
+            lom_release(item->path);
+            *item = cache->items[--cache->count];
+        }
+        return true;
+    }
+    return false;
 }
 
 void lom_free_textures(lom_renderer *renderer)
 {
+    for (size_t i = 0; i < renderer->textures.count; i++)
+        lom_release(renderer->textures.items[i].path);
     lom_release(renderer->textures.items);
 }

@@ -8,6 +8,7 @@ enum { CELLS = 160 };
 
 struct state {
     const struct lom_wave_site *site;
+    lom_device *device;
     const lom_texture *ripples;
     lom_texture *field;
 };
@@ -32,7 +33,7 @@ static void find_depths(const struct lom_wave_site *site, double *depth)
 static bool load(void *memory, const struct lom_wave_source *source, lom_error *error)
 {
     struct state *state = memory;
-    *state = (struct state){ source->site, source->ripples, NULL };
+    *state = (struct state){ source->site, source->device, source->ripples, NULL };
     double *depth = lom_allocate((size_t)CELLS * CELLS, sizeof *depth, error);
     if (depth == NULL)
         return false;
@@ -49,6 +50,12 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
                                              .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     lom_free_image(field);
     return lom_check_device(source->device, error);
+}
+
+static void unload(void *memory)
+{
+    const struct state *state = memory;
+    lom_release_texture(state->device, state->field);
 }
 
 void lom_fill_river_phases(struct lom_river_uniform *river, double speed, double tile, const double origin[2],
@@ -90,5 +97,5 @@ static void bound(const void *memory, struct lom_waves_uniform *out, double time
 }
 
 const struct lom_wave_kind lom_river_waves = {
-    .size = sizeof(struct state), .exists = exists, .load = load, .bound = bound
+    .size = sizeof(struct state), .exists = exists, .load = load, .free = unload, .bound = bound
 };

@@ -49,6 +49,9 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
 static void unload(void *memory)
 {
     struct state *state = memory;
+    for (int i = 0; i < LOM_SURFACE_CASCADES; i++)
+        for (int k = 0; k < 3; k++)
+            lom_release_texture(state->device, state->field[i][k]);
     lom_free_sea(state->sea);
     lom_release(state->moments);
 }

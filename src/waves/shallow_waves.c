@@ -37,6 +37,8 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
 static void unload(void *memory)
 {
     struct state *state = memory;
+    for (int i = 0; i < 2; i++)
+        lom_release_texture(state->device, state->map[i]);
     lom_close_shallow_region(&state->region);
     lom_release(state->surface);
     lom_release(state->moments);

@@ -8,6 +8,7 @@
 
 struct state {
     const struct lom_wave_site *site;
+    lom_device *device;
     struct lom_surf_map map;
     lom_texture *texture[2];
 };
@@ -41,6 +42,7 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
 {
     struct state *state = memory;
     state->site = source->site;
+    state->device = source->device;
     bool done = lom_make_site_surf(&state->map, source->site, error);
     for (int i = 0; done && i < 2; i++) {
         state->texture[i] = make_texture(source->device, &state->map, 4 * (size_t)i, error);
@@ -51,7 +53,10 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
 
 static void unload(void *memory)
 {
-    lom_free_surf_map(&((struct state *)memory)->map);
+    struct state *state = memory;
+    for (int i = 0; i < 2; i++)
+        lom_release_texture(state->device, state->texture[i]);
+    lom_free_surf_map(&state->map);
 }
 
 /* No part of a wave is more than its height from the level. */

@@ -44,7 +44,7 @@ struct lom_wave_kind {
     bool advances; /* placing it at a time is work: bounds are enough where no water is seen */
     bool (*exists)(const struct lom_wave_source *source);
     bool (*load)(void *state, const struct lom_wave_source *source, lom_error *error);
-    void (*free)(void *state); /* but for its textures, which are the device's */
+    void (*free)(void *state);
     void (*bound)(const void *state, struct lom_waves_uniform *out, double time);
     bool (*place)(void *state, struct lom_waves_uniform *out, double time, lom_error *error);
     bool (*fill)(void *state, struct lom_waves_uniform *out, double time, lom_error *error);
@@ -57,7 +57,8 @@ extern const struct lom_wave_kind lom_trochoid_waves, lom_river_waves, lom_surf_
 
 struct lom_wave_field;
 
-/* The waves of a site, which lives as long as they do; NULL on failure. Freed with lom_free_wave_field. */
+/* The waves of a site and of a device, which live as long as they do; NULL on failure. Freed with
+ * lom_free_wave_field. */
 struct lom_wave_field *lom_load_wave_field(const struct lom_wave_source *source, lom_error *error);
 void lom_free_wave_field(struct lom_wave_field *field); /* NULL is allowed */
 /* Whether placing them at a time is work. */

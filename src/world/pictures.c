@@ -61,7 +61,9 @@ const lom_image *lom_world_picture(struct lom_world *world, const char *path, lo
 bool lom_keep_world_picture(struct lom_world *world, const char *path, const char **kept, lom_error *error)
 {
     const struct lom_world_picture *picture = find(world, path);
-    if (picture == NULL)
+    if (picture == NULL && world->before != NULL && find(world->before, path) != NULL)
+        picture = add(world, path, error); /* it could be read before */
+    else if (picture == NULL)
         picture = keep(world, path, lom_read_image(path, error), error);
     *kept = picture == NULL ? NULL : picture->path;
     return picture != NULL;

@@ -9,13 +9,26 @@
 
 /* ---- the ground ---- */
 
-static bool read_ground(struct lom_world *world, lom_error *error)
+const lom_image *lom_world_height_map(struct lom_world *world, lom_error *error)
+{
+    const lom_terrain *t = &world->scene->terrain;
+    if (world->height_map == NULL && t->present)
+        world->height_map = lom_read_image(t->height_map, error);
+    return world->height_map;
+}
+
+static bool read_ground(struct lom_world *world, bool is_shared, lom_error *error)
 {
     const lom_terrain *t = &world->scene->terrain;
     world->bed = (struct lom_bed){ .size = { t->size[0], t->size[1] }, .base = t->base };
     if (!t->present)
         return true;
-    const lom_image *map = world->height_map = lom_read_image(t->height_map, error);
+    if (is_shared) {
+        world->heights = world->before->heights;
+        world->bed = world->before->bed;
+        return true;
+    }
+    const lom_image *map = lom_world_height_map(world, error);
     if (map == NULL)
         return false;
     world->heights = lom_allocate((size_t)map->width * (size_t)map->height, sizeof *world->heights, error);
@@ -27,15 +40,25 @@ static bool read_ground(struct lom_world *world, lom_error *error)
 
 /* ---- entities ---- */
 
+static lom_mesh *held_mesh(const struct lom_world *world, const char *path)
+{
+    for (size_t i = 0; world != NULL && i < world->mesh_count; i++)
+        if (strcmp(world->meshes[i].path, path) == 0)
+            return world->meshes[i].mesh;
+    return NULL;
+}
+
 /* The mesh of a file, read when the first entity names it. */
 static const lom_mesh *find_mesh(struct lom_world *world, const char *path, lom_error *error)
 {
-    for (size_t i = 0; i < world->mesh_count; i++)
-        if (strcmp(world->meshes[i].path, path) == 0)
-            return world->meshes[i].mesh;
+    lom_mesh *mesh = held_mesh(world, path);
+    if (mesh != NULL)
+        return mesh;
     if (!lom_reserve(&world->meshes, &world->mesh_capacity, world->mesh_count + 1, sizeof *world->meshes, error))
         return NULL;
-    lom_mesh *mesh = lom_read_obj(path, error);
+    mesh = held_mesh(world->before, path);
+    if (mesh == NULL)
+        mesh = lom_read_obj(path, error);
     if (mesh == NULL)
         return NULL;
     lom_add_warnings(&world->warnings, &mesh->warnings);
@@ -43,24 +66,34 @@ static const lom_mesh *find_mesh(struct lom_world *world, const char *path, lom_
     return mesh;
 }
 
+/* Whether the camera is in it. */
+static bool is_hidden(const lom_scene *scene, const lom_entity *entity)
+{
+    const lom_camera *camera = &scene->camera;
+    return camera->person == LOM_PERSON_FIRST && camera->followed != 0 &&
+           entity == &scene->entities[camera->followed - 1];
+}
+
 /* Where it stands, and the camera's place in it. */
-static bool put(const struct lom_world *world, struct lom_world_entity *entity, lom_error *error)
+static bool put(struct lom_world *world, struct lom_world_entity *entity, lom_error *error)
 {
     const lom_entity *source = entity->entity;
     const lom_terrain *t = &world->scene->terrain;
-    const lom_camera *camera = &world->scene->camera;
     struct lom_placement placement;
     entity->home = source->position;
-    if (source->on_ground && world->height_map != NULL)
-        entity->home.y += lom_terrain_height(world->height_map, t->size[0], t->size[1], t->height, t->base,
-                                             entity->home.x, entity->home.z);
+    if (source->on_ground && t->present) {
+        const lom_image *map = lom_world_height_map(world, error);
+        if (map == NULL)
+            return false;
+        entity->home.y +=
+            lom_terrain_height(map, t->size[0], t->size[1], t->height, t->base, entity->home.x, entity->home.z);
+    }
     if (!lom_place_entity(entity, entity->home, source->rotation, &placement, error))
         return false;
     const lom_vec3 sides = lom_vec3_subtract(placement.bounds.high, placement.bounds.low);
     const double flat = sides.x > sides.z ? sides.x : sides.z;
     entity->home_size = sides.y > flat ? sides.y : flat;
-    entity->is_hidden = camera->person == LOM_PERSON_FIRST && camera->followed != 0 &&
-                        source == &world->scene->entities[camera->followed - 1];
+    entity->is_hidden = is_hidden(world->scene, source);
     return true;
 }
 
@@ -84,7 +117,8 @@ static bool read_entities(struct lom_world *world, lom_error *error)
 
 /* ---- all of it ---- */
 
-struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error)
+struct lom_world *lom_create_world_after(const lom_scene *scene, const struct lom_world *before, bool shares_ground,
+                                         lom_error *error)
 {
     struct lom_world *world = lom_allocate(1, sizeof *world, error);
     if (world == NULL)
@@ -92,12 +126,59 @@ struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error)
     lom_float_state state;
     lom_enter_float_state(&state);
     world->scene = scene;
-    bool done = read_ground(world, error) && read_entities(world, error);
+    world->before = before;
+    bool done = read_ground(world, shares_ground, error) && read_entities(world, error);
+    world->before = NULL;
     lom_leave_float_state(&state);
     if (done)
         return world;
+    if (before != NULL)
+        lom_part_worlds(before, world);
     lom_free_world(world);
     return NULL;
+}
+
+struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error)
+{
+    return lom_create_world_after(scene, NULL, false, error);
+}
+
+void lom_part_worlds(const struct lom_world *owner, struct lom_world *other)
+{
+    if (owner == NULL || other == NULL)
+        return;
+    if (other->heights == owner->heights)
+        other->heights = NULL;
+    for (size_t i = 0; i < other->mesh_count; i++)
+        for (size_t k = 0; k < owner->mesh_count; k++)
+            if (other->meshes[i].mesh == owner->meshes[k].mesh) {
+                other->meshes[i].mesh = NULL;
+                break;
+            }
+}
+
+/* A part that has the entity's own texture goes with its name. */
+static void follow_entity(struct lom_world_entity *entity, const lom_scene *scene, const lom_entity *source)
+{
+    entity->entity = source;
+    entity->is_hidden = is_hidden(scene, source);
+    for (size_t i = 0; source->material.texture != NULL && i < entity->mesh->part_count; i++)
+        entity->parts[i].material.texture = source->material.texture;
+}
+
+void lom_follow_scene(struct lom_world *world, const lom_scene *scene)
+{
+    struct lom_world_entity *next = world->entities;
+    world->scene = scene;
+    for (size_t i = 0; i < scene->entity_count; i++)
+        if (scene->entities[i].visible)
+            follow_entity(next++, scene, &scene->entities[i]);
+    for (size_t i = 0; i < world->mesh_count; i++) /* that of an entity, so one of them names it */
+        for (size_t k = 0; k < scene->entity_count; k++)
+            if (scene->entities[k].visible && strcmp(world->meshes[i].path, scene->entities[k].mesh) == 0) {
+                world->meshes[i].path = scene->entities[k].mesh;
+                break;
+            }
 }
 
 void lom_release_world_files(struct lom_world *world)

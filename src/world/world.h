@@ -33,7 +33,7 @@ struct lom_world_entity {
 
 struct lom_world_mesh {
     const char *path; /* the scene's */
-    lom_mesh *mesh;
+    lom_mesh *mesh;   /* NULL: another world's now */
 };
 
 struct lom_world_picture {
@@ -53,12 +53,25 @@ struct lom_world {
     size_t entity_count;
     struct lom_world_picture *pictures;
     size_t picture_count, picture_capacity;
+    const struct lom_world *before; /* while it is made: what it takes over; else NULL */
 };
 
 /* Reads the height map, the meshes and the maps that the meshes' materials name. A map of a mesh that cannot be read is
  * left out with a warning. NULL on failure; freed with lom_free_world. */
 struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error);
 void lom_free_world(struct lom_world *world); /* NULL is allowed */
+
+/* The same of a scene of which there was another world before: meshes with the paths of that one's, and with
+ * shares_ground the heights, are shared with it instead of read. Until lom_part_worlds neither may be freed. */
+struct lom_world *lom_create_world_after(const lom_scene *scene, const struct lom_world *before, bool shares_ground,
+                                         lom_error *error);
+/* What both have is from now on the first one's, and the other can only be freed. NULL is allowed. */
+void lom_part_worlds(const struct lom_world *owner, struct lom_world *other);
+/* The world of another scene, which has the same terrain and the same entities but for their names and their key
+ * frames: nothing of the scene before is looked at any more. */
+void lom_follow_scene(struct lom_world *world, const lom_scene *scene);
+/* The terrain's height map, read again when it was released; NULL without one, and on failure. */
+const lom_image *lom_world_height_map(struct lom_world *world, lom_error *error);
 
 /* The site of the scene's waves; it points into the world. */
 struct lom_wave_site lom_world_wave_site(const struct lom_world *world);

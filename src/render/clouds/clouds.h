@@ -58,6 +58,10 @@ bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lo
 /* The frame's clouds over all that it holds, a step of the plan. */
 bool lom_draw_clouds(struct frame *f, lom_error *error);
 void lom_free_clouds(lom_renderer *renderer);
+/* Their light and the shadow that they throw are made anew by the next frame. */
+void lom_drop_cloud_light(lom_renderer *renderer);
+/* The clouds of another scene, which differ from those of the scene before in what is looked up in each frame alone. */
+void lom_follow_clouds(lom_renderer *renderer, const lom_scene *before, const lom_scene *scene);
 
 /* shadow.c: the map of what they let through of the sun, a step of the plan; the same for places less the eye. */
 bool lom_draw_cloud_shadows(struct frame *f, const double to_light[3]);
@@ -67,6 +71,8 @@ void lom_set_cloud_light(struct lom_light_uniform *light, const lom_renderer *re
 bool lom_begin_impostors(struct frame *f, lom_error *error);
 bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
                         const lom_pass_desc *pass, size_t *count, lom_error *error);
-void lom_free_impostors(lom_renderer *renderer); /* their textures are the device's */
+void lom_free_impostors(lom_renderer *renderer);
+/* The next frame begins a run. */
+void lom_end_impostor_run(lom_renderer *renderer);
 
 #endif

@@ -12,9 +12,21 @@ static const double least_texel =
 
 void lom_free_impostors(lom_renderer *renderer)
 {
-    lom_release(renderer->clouds.impostors.of_eye[0]);
-    lom_release(renderer->clouds.impostors.of_eye[1]);
-    lom_release(renderer->clouds.impostors.suns);
+    struct lom_impostors *state = &renderer->clouds.impostors;
+    for (int e = 0; e < 2; e++) {
+        for (size_t i = 0; state->of_eye[e] != NULL && i < renderer->clouds.set->count; i++)
+            for (int part = 0; part < 2; part++) {
+                lom_release_texture(renderer->device, state->of_eye[e][i].marched[part]);
+                lom_release_texture(renderer->device, state->of_eye[e][i].magnified[part]);
+            }
+        lom_release(state->of_eye[e]);
+    }
+    lom_release(state->suns);
+}
+
+void lom_end_impostor_run(lom_renderer *renderer)
+{
+    renderer->clouds.impostors.width = 0; /* which no frame has */
 }
 
 static double angle_between(const double a[3], const double b[3])

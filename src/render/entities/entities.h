@@ -37,6 +37,8 @@ bool lom_prepare_entities(struct frame *f, lom_error *error);
 void lom_draw_entities(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
                        const struct lom_view_uniform *uniform);
 void lom_free_entities(lom_renderer *renderer);
+/* The maps of their shadows are made anew by the next frame. */
+void lom_drop_entity_shadows(lom_renderer *renderer);
 
 /* Whether any of them would be drawn. */
 bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *culler);

@@ -38,9 +38,25 @@ bool lom_load_entities(lom_renderer *renderer, lom_error *error)
     return entities->items != NULL;
 }
 
+static void free_materials(lom_renderer *renderer, const struct lom_drawn_entity *entity)
+{
+    for (size_t k = 0; entity->materials != NULL && k < entity->source->mesh->part_count; k++)
+        lom_drop_texture(renderer, entity->materials[k].texture);
+    lom_release(entity->materials);
+}
+
 void lom_free_entities(lom_renderer *renderer)
 {
     for (size_t i = 0; i < renderer->entities.count; i++)
-        lom_release(renderer->entities.items[i].materials);
+        free_materials(renderer, &renderer->entities.items[i]);
     lom_release(renderer->entities.items);
+    lom_drop_entity_shadows(renderer);
+}
+
+void lom_drop_entity_shadows(lom_renderer *renderer)
+{
+    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++) {
+        lom_release_texture(renderer->device, renderer->entities.shadows[i].map);
+        renderer->entities.shadows[i] = (struct lom_entity_shadow){ .map = NULL };
+    }
 }

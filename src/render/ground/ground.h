@@ -71,6 +71,8 @@ bool lom_prepare_ground(struct frame *f, lom_error *error);
 void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
                      const struct lom_view_uniform *uniform);
 void lom_free_ground(lom_renderer *renderer);
+/* The shadow is cast anew by the next frame. */
+void lom_drop_ground_shadow(lom_renderer *renderer);
 
 /* Whether any of it would be drawn. */
 bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler);

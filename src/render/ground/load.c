@@ -54,13 +54,27 @@ bool lom_load_ground(lom_renderer *renderer, lom_error *error)
     const lom_terrain *t = &renderer->scene->terrain;
     if (!t->present)
         return true;
-    const struct lom_world *world = renderer->world;
-    return lom_make_ground_blocks(&renderer->ground, t, world->height_map, world->heights, &renderer->scene->quality,
+    const lom_image *map = lom_world_height_map(renderer->world, error);
+    return map != NULL &&
+           lom_make_ground_blocks(&renderer->ground, t, map, renderer->world->heights, &renderer->scene->quality,
                                   renderer->device, error) &&
            load_maps(renderer, error);
 }
 
 void lom_free_ground(lom_renderer *renderer)
 {
+    const struct lom_ground_maps *maps = &renderer->ground.maps;
+    const lom_texture *const used[] = { maps->base, maps->detail, maps->normals };
+    for (size_t i = 0; i < sizeof used / sizeof *used; i++)
+        lom_drop_texture(renderer, used[i]);
+    for (int i = 0; i < LOM_MAX_TERRAIN_LAYERS; i++)
+        lom_drop_texture(renderer, maps->layer[i]);
+    lom_release_texture(renderer->device, renderer->ground.vertex_texture);
     lom_free_ground_blocks(&renderer->ground);
+}
+
+void lom_drop_ground_shadow(lom_renderer *renderer)
+{
+    lom_free_texture(renderer->ground.shadow);
+    renderer->ground.shadow = NULL;
 }

@@ -6,7 +6,7 @@
 #include "water/lake.h"
 #include "water/water_models.h"
 
-static bool load_maps(lom_renderer *renderer, lom_error *error)
+bool lom_load_water_maps(lom_renderer *renderer, lom_error *error)
 {
     const lom_water_params *w = &renderer->scene->water;
     if (!w->present || w->normal_map == NULL)
@@ -26,10 +26,20 @@ static bool load_maps(lom_renderer *renderer, lom_error *error)
            (renderer->water.flow_map != NULL || (w->flow_map == NULL && !is_made));
 }
 
-static bool load_foam(lom_renderer *renderer, lom_error *error)
+bool lom_shows_waves(const lom_scene *scene)
 {
-    const lom_water_foam *foam = &renderer->scene->water.foam;
-    if (!(foam->amount > 0) && !(foam->shore_depth > 0))
+    return scene->water.present && lom_water_models[scene->quality.water].has_waves;
+}
+
+bool lom_shows_foam(const lom_scene *scene)
+{
+    const lom_water_foam *foam = &scene->water.foam;
+    return lom_shows_waves(scene) && (foam->amount > 0 || foam->shore_depth > 0);
+}
+
+bool lom_load_foam(lom_renderer *renderer, lom_error *error)
+{
+    if (!lom_shows_foam(renderer->scene))
         return true;
     lom_image *pattern = lom_make_foam(256, 1, error);
     if (pattern == NULL)
@@ -44,26 +54,26 @@ static bool load_foam(lom_renderer *renderer, lom_error *error)
     return lom_check_device(renderer->device, error);
 }
 
-static bool load_waves(lom_renderer *renderer, lom_error *error)
+bool lom_load_waves(lom_renderer *renderer, lom_error *error)
 {
-    const lom_scene *scene = renderer->scene;
-    if (!scene->water.present || !lom_water_models[scene->quality.water].has_waves)
+    if (!lom_shows_waves(renderer->scene))
         return true;
     renderer->water.site = lom_world_wave_site(renderer->world);
     const struct lom_wave_source source = { &renderer->water.site, renderer->water.normal_map, renderer->device };
-    if (!load_foam(renderer, error))
-        return false;
     renderer->water.waves = lom_load_wave_field(&source, error);
     return renderer->water.waves != NULL;
 }
 
-/* The terrain's heights as a texture, where caustics need them. */
-static bool load_bed(lom_renderer *renderer, lom_error *error)
+bool lom_shows_caustics(const lom_scene *scene)
 {
-    const lom_scene *scene = renderer->scene;
+    return lom_shows_waves(scene) && scene->terrain.present && scene->water.optics.caustics > 0;
+}
+
+/* The terrain's heights as a texture, where caustics need them. */
+bool lom_load_bed(lom_renderer *renderer, lom_error *error)
+{
     const struct lom_bed *bed = &renderer->world->bed;
-    if (bed->heights == NULL || !scene->water.present || !lom_water_models[scene->quality.water].has_waves ||
-        !(scene->water.optics.caustics > 0))
+    if (!lom_shows_caustics(renderer->scene))
         return true;
     renderer->water.bed = lom_make_texture(
         renderer->device, &(lom_texture_desc){ .width = bed->columns + 1,
@@ -75,14 +85,43 @@ static bool load_bed(lom_renderer *renderer, lom_error *error)
     return lom_check_device(renderer->device, error);
 }
 
-bool lom_load_water(lom_renderer *renderer, lom_error *error)
+/* ---- freeing ---- */
+
+void lom_free_water_maps(lom_renderer *renderer)
 {
-    return load_bed(renderer, error) && load_maps(renderer, error) && load_waves(renderer, error);
+    lom_drop_texture(renderer, renderer->water.normal_map);
+    if (!lom_drop_texture(renderer, renderer->water.flow_map))
+        lom_release_texture(renderer->device, renderer->water.flow_map); /* which was made */
 }
 
-void lom_free_water(lom_renderer *renderer)
+void lom_free_foam(lom_renderer *renderer)
+{
+    lom_release_texture(renderer->device, renderer->water.foam);
+}
+
+void lom_free_bed(lom_renderer *renderer)
+{
+    lom_release_texture(renderer->device, renderer->water.bed);
+}
+
+void lom_free_waves(lom_renderer *renderer)
 {
     lom_free_wave_field(renderer->water.waves);
     lom_free_polar_mesh(&renderer->water.polar);
-    lom_free_gathered_light(&renderer->water.light);
+}
+
+void lom_drop_caustics(lom_renderer *renderer)
+{
+    struct lom_drawn_water *water = &renderer->water;
+    lom_release_texture(renderer->device, water->photons);
+    lom_release_texture(renderer->device, water->caustics);
+    lom_free_gathered_light(&water->light);
+    water->photons = water->caustics = NULL;
+    water->light = (struct lom_gathered_light){ .size = 0 };
+}
+
+void lom_follow_water(lom_renderer *renderer)
+{
+    if (renderer->water.waves != NULL)
+        renderer->water.site = lom_world_wave_site(renderer->world);
 }

@@ -14,15 +14,34 @@ struct lom_drawn_water {
     lom_texture *normal_map, *flow_map;
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
-    lom_texture *photons, *caustics;
-    struct lom_gathered_light light; /* what becomes of the photons */
+
     struct lom_wave_site site;
     struct lom_wave_field *waves; /* or NULL */
     struct lom_polar_mesh polar;  /* of displaced water */
+
+    lom_texture *photons, *caustics; /* made by frames */
+    struct lom_gathered_light light; /* what becomes of the photons */
 };
 
-/* After the ground, whose heights are the water's bed. */
-bool lom_load_water(lom_renderer *renderer, lom_error *error);
+/* Its maps; the pattern of its foam; its bed; its waves, which may carry the maps. */
+bool lom_load_water_maps(lom_renderer *renderer, lom_error *error);
+bool lom_load_foam(lom_renderer *renderer, lom_error *error);
+bool lom_load_bed(lom_renderer *renderer, lom_error *error);
+bool lom_load_waves(lom_renderer *renderer, lom_error *error);
+void lom_free_water_maps(lom_renderer *renderer);
+void lom_free_foam(lom_renderer *renderer);
+void lom_free_bed(lom_renderer *renderer);
+void lom_free_waves(lom_renderer *renderer);
+/* The targets of caustics are made anew by the next frame. */
+void lom_drop_caustics(lom_renderer *renderer);
+/* The waves of the renderer's world, which now has another scene with the same waves. */
+void lom_follow_water(lom_renderer *renderer);
+
+/* Whether a scene has the one or the other to load. */
+bool lom_shows_waves(const lom_scene *scene);
+bool lom_shows_foam(const lom_scene *scene);
+bool lom_shows_caustics(const lom_scene *scene);
+
 /* Makes the waves, and what they do to the light on what is drawn after them. */
 bool lom_prepare_water(struct frame *f, lom_error *error);
 /* Draws tinted or planar water over the scene; or finds where the scene leaves water with waves to be seen, and draws
@@ -30,6 +49,5 @@ bool lom_prepare_water(struct frame *f, lom_error *error);
 bool lom_draw_lake(struct frame *f, lom_error *error);
 bool lom_find_surface(struct frame *f, lom_error *error);
 bool lom_draw_surface(struct frame *f, lom_error *error);
-void lom_free_water(lom_renderer *renderer);
 
 #endif

@@ -1,0 +1,164 @@
+/* What each key of a scene is loaded for. In: the paths of keys. Out: parts of a renderer. The table below is where a new
+ * key is classified; a key that it does not name loads everything, and tests/render/test_change.c fails.
+ *
+ * Invariant: a key that a row of `each_frame` names is looked up through the scene while a frame is drawn, whatever
+ * frames have left behind before. */
+#include "render/rooms.h"
+#include "scene/scene_compare.h"
+
+#include <string.h>
+
+enum { each_frame = 0 };
+
+const struct lom_key_row lom_key_rows[] = {
+    { each_frame, "title output output.width output.height output.frames output.fps camera.* light.* haze.*" },
+    { LOM_PART_TARGETS, "output.format" },
+    { LOM_PARTS_ALL, "output.transfer" },
+
+    { LOM_PART_SKY, "sky sky.pattern sky.faces sky.sun sky.sun_rays" },
+    { each_frame, "sky.rotation sky.intensity sky.color sky.gradient sky.zenith sky.horizon sky.haze sky.haze_height "
+                  "sky.glow sky.sun_size" },
+
+    { LOM_PART_HEIGHTS, "terrain terrain.height_map terrain.size terrain.height terrain.base" },
+    { LOM_PART_GROUND, "terrain.texture terrain.detail_map terrain.normal_map terrain.layer terrain.layer.map "
+                       "terrain.layer.grain" },
+    { each_frame, "terrain.tile terrain.detail_tile terrain.material.* terrain.layer.tile terrain.layer.from_height "
+                  "terrain.layer.to_height terrain.layer.from_slope terrain.layer.to_slope terrain.layer.blend "
+                  "terrain.layer.slope_blend terrain.layer.mapping" },
+
+    { LOM_PART_WATER_MAPS | LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES | LOM_PART_TARGETS, "water" },
+    { LOM_PART_WATER_MAPS, "water.normal_map water.flow_map water.flow" },
+    { LOM_PART_TARGETS, "water.enabled" },
+    { LOM_PART_WAVES, "water.level water.position water.size water.tile water.normal_up" },
+    { each_frame, "water.reflection water.refraction water.projection water.normals water.fresnel water.specular "
+                  "water.tint water.soft_shore water.flow_strength water.flow_speed water.reflectivity "
+                  "water.fresnel_power water.shininess water.specular_strength water.color water.tint_color "
+                  "water.tint_amount water.shore_depth water.clip_offset" },
+    { LOM_PART_WAVES, "water.waves water.waves.kind water.waves.direction water.waves.seed water.waves.height "
+                      "water.waves.length water.waves.count water.waves.steepness water.waves.spread "
+                      "water.waves.spectrum water.waves.wind_level water.waves.wind_speed water.waves.fetch "
+                      "water.waves.depth water.waves.height_scale water.waves.choppiness water.waves.cascades "
+                      "water.waves.size water.waves.speed water.waves.patch" },
+    { each_frame, "water.waves.cell" },
+    { LOM_PART_BED, "water.optics.caustics" },
+    { LOM_PART_CAUSTICS, "water.optics.caustics_texels" },
+    { each_frame, "water.optics water.optics.index water.optics.fresnel water.optics.type water.optics.absorption "
+                  "water.optics.scatter water.optics.roughness water.optics.glitter water.optics.reach "
+                  "water.optics.steps water.optics.caustics_size water.optics.opacity" },
+    { LOM_PART_FOAM, "water.foam water.foam.amount water.foam.shore_depth" },
+    { each_frame, "water.foam.threshold water.foam.window water.foam.tile" },
+    { LOM_PART_WAVES, "surf.* shallow.*" },
+
+    { LOM_PART_ENTITIES, "entity entity.mesh entity.position entity.rotation entity.scale entity.material.* "
+                         "entity.on_ground entity.visible entity.key" },
+    { LOM_PART_FOLLOWED, "entity.interpolation entity.key.time entity.key.position entity.key.rotation" },
+    { each_frame, "entity.name" },
+
+    { LOM_PART_CLOUDS, "cloud cloud.kind cloud.file cloud.voxels cloud.seed cloud.position cloud.size cloud.yaw "
+                       "cloud.density cloud.extinction cloud.detail cloud.visible clouds.evolve clouds.wind" },
+    { LOM_PART_CLOUD_LIGHT, "clouds.albedo clouds.forward clouds.original_light clouds.lighter clouds.dark_light" },
+    { each_frame, "cloud.name cloud.detail_size clouds clouds.phase clouds.backward clouds.blend clouds.silver "
+                  "clouds.silver_spread clouds.brightness clouds.sky clouds.ground clouds.haze_color "
+                  "clouds.haze_distance clouds.shadows clouds.shadow_strength clouds.wind.height clouds.wind.speed "
+                  "clouds.wind.direction clouds.wind.gust clouds.wind.gust_period clouds.swell" },
+
+    { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible" },
+    { each_frame, "spray.name spray.seed spray.from spray.to spray.velocity spray.spread spray.spread_up spray.wind "
+                  "spray.drag spray.jets spray.jet_time spray.jet_width spray.life spray.height spray.size "
+                  "spray.stretch spray.color spray.opacity spray.soft spray.forward" },
+
+    { LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES | LOM_PART_TARGETS, "quality.water" },
+    { LOM_PART_CLOUDS, "quality.clouds quality.cloud_jitter quality.cloud_light_scale" },
+    { LOM_PART_CLOUD_LIGHT, "quality.march" },
+    { LOM_PART_SPRAY | LOM_PART_TARGETS, "quality.spray" },
+    { LOM_PARTS_ALL, "quality.texture_filter quality.filtering quality.mipmaps" },
+    { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
+    { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
+    { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
+    { LOM_PART_GROUND, "quality.ambient_occlusion" },
+    { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
+                  "quality.impostor.* quality.shading quality.scissor quality.reference.* quality.terrain_error" },
+};
+const size_t lom_key_row_count = sizeof lom_key_rows / sizeof *lom_key_rows;
+
+/* Whether a name of a row is this path, or stands for it. */
+static bool names(const char *name, size_t length, const char *path)
+{
+    const bool all = length > 2 && memcmp(name + length - 2, ".*", 2) == 0;
+    length -= all ? 2 : 0;
+    return strncmp(name, path, length) == 0 && (path[length] == 0 || (all && path[length] == '.'));
+}
+
+int lom_find_key_parts(const char *path, unsigned *parts)
+{
+    int found = 0;
+    *parts = LOM_PARTS_ALL;
+    for (size_t i = lom_key_row_count; i-- > 0;)
+        for (const char *name = lom_key_rows[i].names; *name != 0;) {
+            size_t length = strcspn(name, " ");
+            if (names(name, length, path)) {
+                *parts = lom_key_rows[i].parts;
+                found++;
+            }
+            name += length + (name[length] == ' ');
+        }
+    return found;
+}
+
+/* ---- between scenes ---- */
+
+struct difference {
+    bool any;
+    unsigned parts;
+};
+
+static void add_key(void *context, const char *path)
+{
+    struct difference *d = context;
+    unsigned parts;
+    lom_find_key_parts(path, &parts);
+    d->any = true;
+    d->parts |= parts;
+}
+
+/* What is made from a part is made anew with it. */
+static unsigned add_made_from(unsigned parts)
+{
+    static const struct {
+        unsigned part, makes;
+    } chain[] = {
+        { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES },
+        { LOM_PART_ENTITIES, LOM_PART_FOLLOWED },
+        { LOM_PART_WATER_MAPS, LOM_PART_WAVES },
+    };
+    for (size_t i = 0; i < sizeof chain / sizeof *chain; i++)
+        if ((parts & chain[i].part) != 0)
+            parts |= chain[i].makes;
+    return parts;
+}
+
+static bool has_followers(const lom_scene *scene)
+{
+    return lom_shows_waves(scene) && scene->shallow.present && scene->shallow.body_count != 0;
+}
+
+unsigned lom_parts_between(const lom_scene *before, const lom_scene *after, bool *differ)
+{
+    struct difference d = { .any = false };
+    lom_compare_scenes(before, after, add_key, &d);
+    *differ = d.any;
+    if (d.any && (lom_is_traced(before) || lom_is_traced(after)))
+        return LOM_PARTS_ALL;
+    if (d.parts == LOM_PARTS_ALL)
+        return d.parts;
+    unsigned parts = add_made_from(d.parts);
+    if ((parts & LOM_PART_FOLLOWED) != 0 && (has_followers(before) || has_followers(after)))
+        parts |= LOM_PART_WAVES;
+    parts &= ~(unsigned)LOM_PART_FOLLOWED;
+    if (!before->terrain.present && !after->terrain.present)
+        parts &= ~(unsigned)LOM_PART_HEIGHTS;
+    for (size_t i = 0; i < LOM_ROOMS; i++)
+        if (!lom_rooms[i].exists(before) && !lom_rooms[i].exists(after))
+            parts &= ~lom_rooms[i].part;
+    return parts;
+}

@@ -1,0 +1,82 @@
+/* The rooms of a renderer, in order. In: the world of a scene. Out: what each room loads of it. Invariant: a room's
+ * members are freed by the room alone, so that one can be loaded anew beside the others. */
+#include "render/rooms.h"
+
+static bool has_sky(const lom_scene *scene)
+{
+    return scene->sky.present;
+}
+
+static bool has_terrain(const lom_scene *scene)
+{
+    return scene->terrain.present;
+}
+
+static bool has_entities(const lom_scene *scene)
+{
+    return scene->entity_count != 0;
+}
+
+static bool has_water(const lom_scene *scene)
+{
+    return scene->water.present;
+}
+
+static bool has_clouds(const lom_scene *scene)
+{
+    return scene->cloud_count != 0;
+}
+
+static bool has_drops(const lom_scene *scene)
+{
+    return lom_count_drops(scene) != 0;
+}
+
+/* The members from the one to the other. */
+#define MEMBERS(first, last)                                                                                           \
+    offsetof(lom_renderer, first),                                                                                     \
+        offsetof(lom_renderer, last) + sizeof((lom_renderer *)NULL)->last - offsetof(lom_renderer, first)
+
+/* The bed of the water is the ground's, and waves may carry the water's maps. */
+const struct lom_room lom_rooms[LOM_ROOMS] = {
+    { LOM_PART_SKY, "sky", MEMBERS(sky, sky), has_sky, lom_load_sky, lom_free_sky },
+    { LOM_PART_GROUND, "ground", MEMBERS(ground, ground), has_terrain, lom_load_ground, lom_free_ground },
+    { LOM_PART_ENTITIES, "entities", MEMBERS(entities, entities), has_entities, lom_load_entities, lom_free_entities },
+    { LOM_PART_WATER_MAPS, "maps of the water", MEMBERS(water.normal_map, water.flow_map), has_water,
+      lom_load_water_maps, lom_free_water_maps },
+    { LOM_PART_FOAM, "foam", MEMBERS(water.foam, water.foam), lom_shows_foam, lom_load_foam, lom_free_foam },
+    { LOM_PART_BED, "bed of the water", MEMBERS(water.bed, water.bed), lom_shows_caustics, lom_load_bed, lom_free_bed },
+    { LOM_PART_WAVES, "waves", MEMBERS(water.site, water.polar), lom_shows_waves, lom_load_waves, lom_free_waves },
+    { LOM_PART_CLOUDS, "clouds", MEMBERS(clouds, clouds), has_clouds, lom_load_clouds, lom_free_clouds },
+    { LOM_PART_SPRAY, "spray", MEMBERS(spray, spray), has_drops, lom_load_spray, lom_free_spray },
+};
+
+bool lom_load_rooms(lom_renderer *renderer, unsigned parts, lom_error *error)
+{
+    for (size_t i = 0; i < LOM_ROOMS; i++)
+        if ((lom_rooms[i].part & parts) != 0 && !lom_rooms[i].load(renderer, error))
+            return false;
+    return true;
+}
+
+void lom_free_rooms(lom_renderer *renderer, unsigned parts)
+{
+    for (size_t i = 0; i < LOM_ROOMS; i++)
+        if ((lom_rooms[i].part & parts) != 0)
+            lom_rooms[i].free(renderer);
+}
+
+void lom_drop_made(lom_renderer *renderer, unsigned parts)
+{
+    static const struct {
+        unsigned part;
+        void (*drop)(lom_renderer *renderer);
+    } rows[] = { { LOM_PART_GROUND_SHADOW, lom_drop_ground_shadow },
+                 { LOM_PART_ENTITY_SHADOWS, lom_drop_entity_shadows },
+                 { LOM_PART_CAUSTICS, lom_drop_caustics },
+                 { LOM_PART_CLOUD_LIGHT, lom_drop_cloud_light },
+                 { LOM_PART_TARGETS, lom_drop_targets } };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if ((rows[i].part & parts) != 0)
+            rows[i].drop(renderer);
+}
