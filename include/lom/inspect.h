@@ -74,6 +74,48 @@ lom_image *lom_show_pass(lom_renderer *renderer, const lom_frame_desc *desc, con
  * bits; vectors halved around middle gray; objects in colours of their own. The picture is freed. */
 lom_image *lom_show_to_eyes(lom_image *raw, const char *name, lom_error *error);
 
+/* ---- overlays: numbers over the picture, counted by the stages while they draw it ---- */
+
+/* A kind of overlay, of a table; NULL behind the last. */
+typedef struct lom_overlay_kind {
+    const char *name;     /* "overdraw" */
+    const char *text;     /* what its numbers are */
+    double low, high;     /* the ends of its scale, unless others are asked for; both 0: it has none */
+    bool is_logarithmic;  /* the scale */
+    bool is_reproducible; /* false: by the clock, other numbers each time */
+} lom_overlay_kind;
+const lom_overlay_kind *lom_describe_overlay(size_t index);
+/* The kind of this name; NULL: the error names one that is like it, and lists all. */
+const lom_overlay_kind *lom_find_overlay(const char *name, lom_error *error);
+
+/* Where the legend stands: what is shown, the scale, the least, mean and greatest number. */
+typedef enum lom_legend {
+    LOM_LEGEND_BELOW = 0, /* the picture, which is that much higher */
+    LOM_LEGEND_INSIDE,    /* over its lowest rows */
+    LOM_LEGEND_NONE
+} lom_legend;
+
+typedef struct lom_overlay_desc {
+    lom_frame_desc frame; /* its `pixels` are not used */
+    const lom_overlay_kind *kind;
+    const char *pass; /* whose target is looked at: "picture" (or NULL), "reflection", "refraction" */
+    double low, high; /* the ends of the scale, low < high; both 0: the kind's */
+    lom_legend legend;
+} lom_overlay_desc;
+
+typedef struct lom_overlay {
+    lom_frame frame;    /* as lom_render_frame gives it, to the same bytes */
+    lom_image *numbers; /* R32F, of normals RGB32F, a number a pixel of the target; NaN: nothing is there to be told */
+    lom_image *shown;   /* RGB8: the numbers in colours; where there is none, the picture in a dark gray; the legend */
+} lom_overlay;
+
+/* Draws a frame as lom_render_frame does, by the stages at 4 lanes that tally (lom/record.h; kinds by the clock: as
+ * ever), and shows the kind's numbers. Called for the frames of a run, it goes on with the run as lom_render_frame does.
+ * False on failure (all of *overlay is NULL then): a scene or frame without that pass, a scale that is none. Freed with
+ * lom_free_overlay, whatever it returned. */
+bool lom_draw_overlay(lom_renderer *renderer, const lom_overlay_desc *desc, lom_overlay *overlay, lom_error *error);
+void lom_free_overlay(lom_overlay *overlay);
+
 LOM_API_END
 
 #endif

@@ -5,7 +5,7 @@
  * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
  * there. Sprites (LOM_SPRITES) are drawn, but not recorded. Named values of a shader (lom/notes.h) are recorded where it
  * was compiled in that variant, as lom's own are. Who wants to know of all triangles of a pass instead of some pixels
- * calls lom_listen.
+ * calls lom_listen; who wants to count at every texel of a target, lom_tally_target. A device does one of these.
  */
 #ifndef LOM_RECORD_H
 #define LOM_RECORD_H
@@ -217,6 +217,46 @@ typedef struct lom_listener {
 bool lom_listen(lom_device *device, const lom_listener *listener);
 /* Of a triangle while it is told: its vertices, by the vertex stage, with what their shader names. False: no memory. */
 bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vertex[3]);
+
+/* ---- tallies: a few numbers for each texel of a target, at a small part of what records cost ---- */
+
+typedef struct lom_tally_desc {
+    const lom_texture *target; /* colour; tallied in each pass that has it as an attachment */
+    bool lookups, steps;       /* whether these are tallied, too (and the levels of detail) */
+    const char *named;         /* the values of this name (lom/notes.h), or NULL */
+    bool clock; /* only the time of tiles: passes are drawn by the usual variant, nothing else is tallied */
+} lom_tally_desc;
+
+/* What the passes into a target did at one texel, from the last one on that cleared it. Packets are of 4 lanes. Sprites,
+ * and shaders that were not built in the recorded variant, are drawn and not tallied. */
+typedef struct lom_tally {
+    uint32_t fragments;      /* drawn: covered, and left by clip distances and an early depth test */
+    uint32_t killed;         /* dropped by the depth test before their shader ran */
+    uint32_t packets, lanes; /* that shaded the fragments; the lanes in use of them */
+    uint32_t lookups;        /* of textures, and single texels read */
+    uint32_t steps;          /* of rays through media */
+    uint32_t broken;         /* fragments whose shader gave a colour or a depth that is NaN or infinite */
+    double seconds;          /* with clock: of the tile that the texel lies in; differs from run to run */
+    /* The last fragment that was stored without blending: */
+    bool is_stored;     /* false: there is none, and what follows is 0 */
+    int object;         /* lom_draw_desc */
+    float depth;        /* 0..1, as it was tested, less a bias */
+    float edge;         /* pixels from the centre to the nearest edge of its triangle */
+    float area;         /* of the triangle after clipping and snapping, square pixels */
+    int made;           /* of its vertices, those that clipping made; */
+    bool at_made;       /* the centre lies within 2.5 pixels of one */
+    bool is_mipped;     /* its shader looked up a texture with mipmaps, the first of these: */
+    float level, asked; /* the level of detail that was chosen; that was asked for, before bias and bounds */
+    /* The last value of the name that a fragment stored since then had, blended or not; a NaN counts as none: */
+    int named_components; /* 0: none */
+    float named[4];
+} lom_tally;
+
+/* Tallies a target from the next pass on, and forgets what was tallied or watched; NULL: nothing any more. False, with an
+ * error on the device: no colour texture of the device, in a pass, no memory. */
+bool lom_tally_target(lom_device *device, const lom_tally_desc *desc);
+/* What was tallied at texel (x, y) so far; owned by the device; NULL outside of the target. */
+const lom_tally *lom_tallied(const lom_device *device, int x, int y);
 
 LOM_API_END
 

@@ -11,6 +11,7 @@ int lom_command_grade(int argc, char **argv);
 int lom_command_info(int argc, char **argv);
 int lom_command_lesson(int argc, char **argv);
 int lom_command_make(int argc, char **argv);
+int lom_command_overlay(int argc, char **argv);
 int lom_command_plan(int argc, char **argv);
 int lom_command_render(int argc, char **argv);
 int lom_command_selftest(int argc, char **argv);

@@ -21,6 +21,8 @@ static const command commands[] = {
     { "make", "make an asset: height map, normal map, sky box, texture, entity", lom_command_make },
     { "plan", "say which passes a scene needs, why, and what was left out", lom_command_plan },
     { "explain", "say what made a pixel: every triangle that touched it, and why", lom_command_explain },
+    { "overlay", "show what the stages did at each pixel: overdraw, mip levels, march steps, ...",
+      lom_command_overlay },
     { "render", "draw a scene", lom_command_render },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
     { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },

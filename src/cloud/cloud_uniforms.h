@@ -40,6 +40,7 @@ struct lom_impostor_uniforms {
     float corner[4][3];              /* of the plate, less the eye: lower left, lower right, upper left, upper right */
     const lom_texture *plate;
     float misting; /* factor on opacity and colour */
+    float age;     /* frames since it was made; for records */
 };
 
 /* A cloud's shadow on the plane of the ground's shadow map. */

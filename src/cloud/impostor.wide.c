@@ -56,6 +56,8 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
         }
     }
     out->color[0] = (lom_float4){ texel.x * factor, texel.y * factor, texel.z * factor, texel.w * factor };
+    LOM_NAME_AS(plate_age,
+                lom_select(texel.w * factor > 0.0f, lom_splat(impostor->age), lom_splat(__builtin_nanf(""))));
 }
 
 static void whole_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)

@@ -48,9 +48,9 @@ bool lom_magnify_plate(lom_device *device, const lom_texture *from, lom_texture 
 }
 
 void lom_show_plate(lom_device *device, const struct lom_placed_cloud *cloud, const struct lom_cloud_view *view,
-                    const struct lom_plate *plate, const lom_texture *texture, double misting)
+                    const struct lom_plate *plate, const lom_texture *texture, double misting, int age)
 {
-    struct lom_impostor_uniforms u = { .plate = texture, .misting = (float)misting };
+    struct lom_impostor_uniforms u = { .plate = texture, .misting = (float)misting, .age = (float)age };
     lom_set_cloud_place(&u.cloud, cloud, view);
     lom_vec3 from_eye = lom_vec3_add(plate->eye, lom_vec3_subtract(cloud->middle, view->eye));
     for (int c = 0; c < 4; c++) {

@@ -13,8 +13,9 @@ bool lom_draw_plate(lom_device *device, const struct lom_cloud_set *set, const s
 /* The first pass of magnification: a picture over all of a larger one, with linear filtering. */
 bool lom_magnify_plate(lom_device *device, const lom_texture *from, lom_texture *to);
 /* Shows a plate in the pass that has begun. Where what is drawn (view->depth) lies within the cloud's box, the part of
- * the cloud before it is shown as if the cloud were uniform along the ray: opacity 1 - (1 - alpha)^part. */
+ * the cloud before it is shown as if the cloud were uniform along the ray: opacity 1 - (1 - alpha)^part. age: frames
+ * since the texture was drawn, for records. */
 void lom_show_plate(lom_device *device, const struct lom_placed_cloud *cloud, const struct lom_cloud_view *view,
-                    const struct lom_plate *plate, const lom_texture *texture, double misting);
+                    const struct lom_plate *plate, const lom_texture *texture, double misting, int age);
 
 #endif

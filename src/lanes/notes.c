@@ -17,7 +17,7 @@ void lom_open_notes(struct lom_notes *notes)
 void lom_note(lom_note_kind kind, const char *name, const void *object, const void *rows, size_t count)
 {
     struct lom_notes *n = watching;
-    if (n == NULL)
+    if (n == NULL || (n->skipped >> kind & 1) != 0)
         return;
     if (!lom_reserve(&n->items, &n->capacity, n->count + 1, sizeof *n->items, NULL) ||
         !lom_reserve(&n->rows, &n->row_capacity, n->row_count + count, sizeof *n->rows, NULL)) {

@@ -16,7 +16,8 @@ struct lom_notes {
     struct lom_note *items;
     float (*rows)[4];
     size_t count, row_count, capacity, row_capacity;
-    bool failed; /* memory ran out: notes are missing */
+    unsigned skipped; /* bit k: notes of kind k are not kept */
+    bool failed;      /* memory ran out: notes are missing */
 };
 
 /* From here on this thread's notes go to these, which begin empty; NULL: nowhere. */

@@ -81,7 +81,7 @@ void lom_close_device(lom_device *device)
     if (device == NULL)
         return;
     lom_free_pool(device->pool);
-    lom_free_recorder(device->recorder);
+    lom_forget_records(device);
     for (int i = 0; device->chunks != NULL && i < device->desc.batch; i++)
         free_chunk(&device->chunks[i]);
     for (int i = 0; device->assemblies != NULL && i < device->desc.threads; i++)

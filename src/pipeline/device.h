@@ -18,6 +18,7 @@ struct lom_device {
     bool one_by_one; /* small triangles are drawn by themselves: the specification of what packs them, for tests */
     bool in_pass;
     struct lom_recorder *recorder; /* watches something (record.h) */
+    struct lom_tallier *tallier;   /* tallies a target (tally.h) */
     struct lom_pass pass;
     struct lom_tile *worker_tiles;   /* one for each worker */
     struct lom_assembly *assemblies; /* likewise */

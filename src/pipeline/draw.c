@@ -113,7 +113,7 @@ static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
 /* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. */
 static int choose_shader_variant(const lom_device *device, const lom_shader *shader)
 {
-    if (device->pass.recorder != NULL && !shader->sprites && shader->vertex[LOM_SLOT_4_recorded] != NULL)
+    if (device->pass.is_recorded && !shader->sprites && shader->vertex[LOM_SLOT_4_recorded] != NULL)
         return LOM_SLOT_4_recorded;
     if (shader->vertex[device->variant] != NULL)
         return device->variant;
@@ -196,7 +196,7 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
     draw->output = output_of(pass, desc);
-    draw->constant = pass->recorder == NULL && shader->fragment[draw->variant] != NULL && shader->reads == 0 &&
+    draw->constant = !pass->is_recorded && shader->fragment[draw->variant] != NULL && shader->reads == 0 &&
                      !shader->reads_position && !shader->discards && !shader->writes_depth && !shader->quads &&
                      !shader->sprites && !shader->reads_depth;
     draw->queues_depth = shader->reads_position || draw->late_depth;

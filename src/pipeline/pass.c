@@ -5,6 +5,7 @@
 #include "image/convert.h"
 #include "pipeline/device.h"
 #include "pipeline/record.h"
+#include "pipeline/tally.h"
 
 static lom_rect or_whole(lom_rect rect, lom_rect whole)
 {
@@ -190,6 +191,8 @@ void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
     device->in_pass = prepare_pass(device, desc);
     if (device->in_pass && device->recorder != NULL)
         lom_record_begin(device);
+    if (device->in_pass && device->tallier != NULL)
+        lom_tally_begin(device);
     lom_leave_float_state(&state);
     device->counters.passes += device->in_pass;
 }

@@ -4,6 +4,7 @@
 #include "pipeline/record.h"
 
 #include "pipeline/check_device.h"
+#include "pipeline/tally.h"
 
 struct record_block {
     struct record_block *next;
@@ -47,7 +48,7 @@ static size_t count_pixels(const struct record_watch *watch)
     return (size_t)watch->desc.width * (size_t)watch->desc.height;
 }
 
-void lom_free_recorder(struct lom_recorder *r)
+static void free_recorder(struct lom_recorder *r)
 {
     if (r == NULL)
         return;
@@ -97,9 +98,17 @@ static bool add_watch(lom_device *device, struct record_watch *watch, const lom_
     return watch->pixels != NULL;
 }
 
+void lom_forget_records(lom_device *device)
+{
+    free_recorder(device->recorder);
+    lom_free_tallier(device->tallier);
+    device->recorder = NULL;
+    device->tallier = NULL;
+}
+
 struct lom_recorder *lom_renew_recorder(lom_device *device)
 {
-    lom_free_recorder(device->recorder);
+    lom_forget_records(device);
     struct lom_recorder *r = device->recorder = lom_allocate(1, sizeof *r, &device->error);
     if (r == NULL)
         return NULL;
@@ -121,8 +130,7 @@ bool lom_watch(lom_device *device, const lom_watch_desc *watches, size_t count)
         if (!check_watch(device, &watches[i]))
             return false;
     if (count == 0) {
-        lom_free_recorder(device->recorder);
-        device->recorder = NULL;
+        lom_forget_records(device);
         return true;
     }
     struct lom_recorder *r = lom_renew_recorder(device);
@@ -243,7 +251,7 @@ void lom_record_begin(lom_device *device)
         if (!watch->active)
             continue;
         pass->recorder = r;
-        pass->one_by_one = true;
+        pass->is_recorded = pass->one_by_one = true;
         watch->origin_x = pass->desc.origin_x;
         watch->origin_y = pass->desc.origin_y;
         widen(&r->bounds, watch);
@@ -253,7 +261,7 @@ void lom_record_begin(lom_device *device)
     r->tells = r->listener.begins != NULL && r->listener.begins(r->listener.context, r->passes, &pass->desc);
     if (r->tells) {
         pass->recorder = r;
-        pass->one_by_one = true;
+        pass->is_recorded = pass->one_by_one = true;
     }
     for (int i = 0; i < pass->colors; i++)
         r->failed |= !note_attachment(r, pass->color[i].texture);

@@ -108,7 +108,8 @@ void *lom_record_allocate(struct record_memory *memory, size_t size);
 void lom_free_record_memory(struct record_memory *memory);
 /* A new one in place of the device's; NULL without memory. */
 struct lom_recorder *lom_renew_recorder(lom_device *device);
-void lom_free_recorder(struct lom_recorder *recorder);
+/* What the device recorded, or tallied (tally.h), is no more. */
+void lom_forget_records(lom_device *device);
 /* The pass has begun: pass->recorder is set where it draws into a watched texture. */
 void lom_record_begin(lom_device *device);
 /* The attachments are complete. */

@@ -3,11 +3,18 @@
  * same in every variant of 4. */
 #include "pipeline/packet.h"
 #include "pipeline/record.h"
+#include "pipeline/tally.h"
 #include "pipeline/window.h"
 
 static struct record_worker *worker_of(const struct lom_tile *tile)
 {
     return &tile->pass->recorder->worker[tile - tile->pass->device->worker_tiles];
+}
+
+/* Whether a fragment of the packet at hand is watched. */
+static bool is_watched(const struct lom_tile *tile)
+{
+    return tile->pass->recorder != NULL && worker_of(tile)->watches;
 }
 
 /* The frame's pixel at a place in tile memory: blocks of 2x2, edge / 2 of them a row. */
@@ -45,8 +52,10 @@ static int place_of(const struct lom_tile *tile, const struct part *at, int lane
 /* Whether a part of a window, a block of 2x2 pixels, holds none that is watched. */
 static bool is_beside(const struct lom_tile *tile, const struct part *at)
 {
-    const struct lom_bounds *b = &tile->pass->recorder->bounds;
     int x, y;
+    if (tile->pass->recorder == NULL)
+        return true;
+    const struct lom_bounds *b = &tile->pass->recorder->bounds;
     find_pixel(tile, place_of(tile, at, 0), &x, &y);
     return x > b->right || x + 1 < b->left || y > b->bottom || y + 1 < b->top;
 }
@@ -54,6 +63,8 @@ static bool is_beside(const struct lom_tile *tile, const struct part *at)
 void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_mask *inside,
                         const lom_float l[3], const lom_float *z)
 {
+    if (tile->pass->tallier != NULL)
+        lom_tally_inside(tile, inside);
     if (is_beside(tile, at))
         return;
     lom_float units = tile->depth != NULL ? lom_depth_units(tile->pass, *z) : *z;
@@ -84,6 +95,8 @@ void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_
 
 void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed)
 {
+    if (tile->pass->tallier != NULL)
+        lom_tally_tested(tile, at, passed);
     if (!tile->tests_early || is_beside(tile, at))
         return;
     for (int i = 0; i < LOM_LANES; i++) {
@@ -108,12 +121,17 @@ static struct record_raw *next_of_lane(const struct lom_tile *tile, int i, size_
 
 void lom_record_sprites(struct lom_tile *tile)
 {
-    worker_of(tile)->watches = false;
+    if (tile->pass->recorder != NULL)
+        worker_of(tile)->watches = false;
     lom_open_notes(NULL);
 }
 
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet)
 {
+    if (tile->pass->tallier != NULL)
+        lom_tally_packet(tile, packet);
+    if (tile->pass->recorder == NULL)
+        return;
     struct record_worker *worker = worker_of(tile);
     worker->packet = packet;
     worker->watches = false;
@@ -126,7 +144,7 @@ void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet)
 
 void lom_record_weights(struct lom_tile *tile, const lom_float *b1, const lom_float *b2)
 {
-    for (int i = 0; i < LOM_LANES && worker_of(tile)->watches; i++) {
+    for (int i = 0; i < LOM_LANES && is_watched(tile); i++) {
         size_t next = 0;
         struct record_raw *raw;
         while ((raw = next_of_lane(tile, i, &next)) != NULL) {
@@ -160,6 +178,10 @@ static struct record_memory *memory_at(const struct lom_tile *tile, int place, s
 
 void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out)
 {
+    if (tile->pass->tallier != NULL)
+        lom_tally_shaded(tile, out);
+    if (tile->pass->recorder == NULL)
+        return;
     struct record_worker *worker = worker_of(tile);
     const lom_shader *shader = tile->draw->desc.shader;
     lom_open_notes(NULL);
@@ -183,7 +205,7 @@ void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_
 
 void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask)
 {
-    for (int i = 0; i < LOM_LANES && worker_of(tile)->watches; i++) {
+    for (int i = 0; i < LOM_LANES && is_watched(tile); i++) {
         size_t next = 0;
         struct record_raw *raw;
         while ((raw = next_of_lane(tile, i, &next)) != NULL) {
@@ -216,7 +238,7 @@ static int count_written(const struct lom_tile *tile)
 
 void lom_record_write_begins(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask)
 {
-    for (int i = 0; i < LOM_LANES && worker_of(tile)->watches; i++) {
+    for (int i = 0; i < LOM_LANES && is_watched(tile); i++) {
         size_t next = 0;
         struct record_raw *raw;
         while ((*mask)[i] != 0 && (raw = next_of_lane(tile, i, &next)) != NULL)
@@ -235,7 +257,9 @@ static float source_of(lom_color_kind kind, float x)
 void lom_record_write_ends(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
                            const lom_float4 *color)
 {
-    for (int i = 0; i < LOM_LANES && worker_of(tile)->watches; i++) {
+    if (tile->pass->tallier != NULL)
+        lom_tally_written(tile, places, mask);
+    for (int i = 0; i < LOM_LANES && is_watched(tile); i++) {
         size_t next = 0;
         struct record_raw *raw;
         while ((*mask)[i] != 0 && (raw = next_of_lane(tile, i, &next)) != NULL)

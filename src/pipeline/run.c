@@ -2,6 +2,7 @@
  * which worker takes what changes nothing, because a chunk and a tile each belong to one worker until they are done. */
 #include "pipeline/device.h"
 #include "pipeline/record.h"
+#include "pipeline/tally.h"
 
 static void run_chunks(void *context, int worker)
 {
@@ -122,9 +123,13 @@ static void run_tiles(void *context, int worker)
         if (i >= tiles)
             return;
         uint8_t *memory = memory_of(pass, (int)i, worker);
+        bool clocked = pass->tallier != NULL && pass->tallier->desc.clock;
+        int64_t since = clocked ? lom_tally_clock() : 0;
         run_tile(pass, tile, (int)i, memory);
         if (pass->last_batch)
             finish_tile(pass, tile, (int)i, memory);
+        if (clocked)
+            lom_tally_time(pass, (int)i, since);
     }
 }
 
@@ -297,5 +302,7 @@ bool lom_run_pass(lom_device *device)
         lom_finish_attachment(device, pass->color[i].texture);
     if (pass->depth != NULL)
         lom_finish_attachment(device, pass->depth);
+    if (pass->tallier != NULL && !lom_tally_end(device))
+        return false;
     return pass->recorder == NULL || lom_record_end(device);
 }

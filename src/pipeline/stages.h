@@ -289,6 +289,9 @@ struct lom_pass {
     size_t chunks_left;            /* of the pass, the batch's included until it runs */
     bool single_batch, last_batch; /* the pass is one batch; this is its last one */
     atomic_size_t next;
+
+    struct lom_tallier *tallier; /* with a tallied attachment (tally.h) */
+    bool is_recorded;            /* with a recorder or a tallier: drawn in the variant 4_recorded */
 };
 
 /* A rectangle of a tile and of an attachment. */

@@ -21,6 +21,7 @@ struct lom_impostor {
     struct lom_plate plate;
     bool is_made, is_small, is_around; /* small: not drawn; around: the cloud is about the eye */
     int parts;
+    uint64_t made_in; /* lom_impostors.frames when it was made */
     double cut;                             /* of two parts: metres along the plate's axis from its eye */
     double sun[3], phase;                   /* of the light and of the shapes when it was made */
     lom_texture *marched[2], *magnified[2]; /* magnified: NULL when the marched picture is shown as it is */
@@ -37,6 +38,7 @@ struct lom_cloud_sun {
 struct lom_impostors {
     struct lom_impostor *of_eye[2]; /* NULL until needed */
     struct lom_cloud_sun *suns;
+    uint64_t frames;          /* begun so far */
     int swept;                /* grids of light, in this frame */
     bool continues;           /* this frame follows the one before in a run */
     int frame, width, height; /* of the last frame */

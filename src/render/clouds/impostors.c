@@ -79,6 +79,7 @@ bool lom_begin_impostors(struct frame *f, lom_error *error)
     if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF || f->renderer->clouds.set == NULL)
         return true;
     state->swept = 0;
+    state->frames++;
     state->continues =
         state->width == f->width && state->height == f->height && (f->desc->continues || state->frame + 1 == f->number);
     state->frame = f->number;
@@ -256,6 +257,7 @@ static bool refresh(const struct looking *l, struct lom_impostor *impostor, cons
     for (int i = 0; i < 3; i++)
         impostor->sun[i] = sun->to_light[i];
     impostor->phase = l->phase;
+    impostor->made_in = l->f->renderer->clouds.impostors.frames;
     impostor->is_made = done;
     return done;
 }
@@ -311,12 +313,14 @@ static void show(const struct looking *l, const struct lom_impostor *impostor, c
 {
     double distance = lom_vec3_length(lom_vec3_subtract(l->seen.eye, cloud->middle));
     double misting = l->dials->misting ? lom_misting(distance, longest_side(cloud)) : 1;
+    uint64_t frames = l->f->renderer->clouds.impostors.frames - impostor->made_in;
+    int age = frames < INT32_MAX ? (int)frames : INT32_MAX;
     for (int part = 0; part < impostor->parts; part++) {
         struct lom_cloud_view seen = l->seen;
         set_slice(&seen, impostor, part);
         const lom_texture *picture =
             impostor->magnified[part] != NULL ? impostor->magnified[part] : impostor->marched[part];
-        lom_show_plate(l->f->renderer->device, cloud, &seen, &impostor->plate, picture, misting);
+        lom_show_plate(l->f->renderer->device, cloud, &seen, &impostor->plate, picture, misting, age);
     }
 }
 
