@@ -40,16 +40,16 @@ static const lom_option options[] = {
       "the picture alone, without legend and scale" },
     { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9, "the frame, 0 when not given" },
     { "run", 0, LOM_OPTION_INTEGER, offsetof(struct values, run), "N", 0, 1e9,
-      "so many frames before it are drawn first, as in a run: plates of clouds have an age then" },
+      "draw so many frames before it, as in a run: plates of clouds age" },
     LOM_SCENE_OPTIONS(struct values),
 };
 
 static const lom_command_line line = {
     .name = "overlay",
     .arguments = "KIND SCENE -o OUT",
-    .summary = "show what the stages did at each pixel: overdraw, mip levels, march steps, ...",
+    .summary = "show what the stages did at each pixel: overdraw, mip levels, steps of rays",
     .choice = lom_picture_choice,
-    .details = "A file of floats (npy, pfm) gets the numbers, others the colours. docs/overlays.md shows them.",
+    .details = "A file of floats (npy, pfm, nrrd) gets the numbers, others the colours. docs/overlays.md shows them.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 2,

@@ -21,7 +21,7 @@ struct lom_impostor {
     struct lom_plate plate;
     bool is_made, is_small, is_around; /* small: not drawn; around: the cloud is about the eye */
     int parts;
-    uint64_t made_in; /* lom_impostors.frames when it was made */
+    uint64_t made_in;                       /* lom_impostors.frames when it was made */
     double cut;                             /* of two parts: metres along the plate's axis from its eye */
     double sun[3], phase;                   /* of the light and of the shapes when it was made */
     lom_texture *marched[2], *magnified[2]; /* magnified: NULL when the marched picture is shown as it is */

@@ -1,0 +1,211 @@
+/* Proves that overlays of scenes are what was drawn: the frame below has the bytes of lom_render_frame, also in a run of
+ * impostors; depths are those of the frame's own target, normals and counts of fragments those of the records of every
+ * pixel (lom/record.h); the legend lies where it was asked for. */
+#include "check.h"
+
+#include <lom/lom.h>
+
+enum { WIDTH = 160, HEIGHT = 90 };
+
+struct open {
+    lom_scene *scene;
+    lom_renderer *renderer;
+};
+
+static struct open open_scene(const char *name)
+{
+    char path[200];
+    lom_error error = { .code = LOM_OK };
+    snprintf(path, sizeof path, "assets/scenes/%s.toml", name);
+    struct open o = { .scene = lom_read_scene(path, NULL, 0, &error) };
+    o.renderer = o.scene != NULL ? lom_create_renderer(o.scene, NULL, &error) : NULL;
+    CHECK(o.renderer != NULL, "%s: %s", name, error.text);
+    return o;
+}
+
+static void close_scene(struct open *o)
+{
+    lom_free_renderer(o->renderer);
+    lom_free_scene(o->scene);
+}
+
+static lom_overlay overlay_of(const struct open *o, const char *kind, int frame, const char *pass, lom_legend legend)
+{
+    lom_error error = { .code = LOM_OK };
+    lom_overlay overlay;
+    const lom_overlay_desc desc = { .frame = { .width = WIDTH, .height = HEIGHT, .frame = frame },
+                                    .kind = lom_find_overlay(kind, &error),
+                                    .pass = pass,
+                                    .legend = legend };
+    CHECK(desc.kind != NULL && lom_draw_overlay(o->renderer, &desc, &overlay, &error), "%s: %s", kind, error.text);
+    return overlay;
+}
+
+static bool same(const lom_image *a, const lom_image *b)
+{
+    return a != NULL && b != NULL && a->format == b->format && lom_image_size(a) == lom_image_size(b) &&
+           memcmp(a->pixels, b->pixels, lom_image_size(a)) == 0;
+}
+
+static lom_image *picture_of(const struct open *o, int frame)
+{
+    lom_frame drawn = { .image = NULL };
+    const lom_frame_desc desc = { .width = WIDTH, .height = HEIGHT, .frame = frame };
+    CHECK(lom_render_frame(o->renderer, &desc, &drawn, NULL));
+    return drawn.image;
+}
+
+static void the_frame_below_is_the_same_bytes(void)
+{
+    static const char *const scenes[] = { "lake", "falls" };
+    for (int i = 0; i < 2; i++) {
+        struct open o = open_scene(scenes[i]);
+        lom_image *picture = picture_of(&o, 0);
+        const lom_overlay_kind *kind;
+        for (size_t k = 0; (kind = lom_describe_overlay(k)) != NULL; k += i == 0 ? 1 : 5) {
+            lom_overlay overlay = overlay_of(&o, kind->name, 0, NULL, LOM_LEGEND_BELOW);
+            CHECK(same(overlay.frame.image, picture), "%s, %s", scenes[i], kind->name);
+            lom_free_overlay(&overlay);
+        }
+        lom_image *again = picture_of(&o, 0);
+        CHECK(same(picture, again), "%s", scenes[i]);
+        lom_free_image(picture);
+        lom_free_image(again);
+        close_scene(&o);
+    }
+}
+
+/* A run, then the same run with every other frame under an overlay: plates grow older from frame to frame. */
+static void a_run_of_impostors_goes_on(void)
+{
+    enum { FRAMES = 6 };
+    struct open o = open_scene("flight");
+    lom_image *pictures[FRAMES];
+    int oldest = 0;
+    for (int frame = 0; frame < FRAMES; frame++)
+        pictures[frame] = picture_of(&o, frame);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        if (frame % 2 == 0) {
+            lom_image *own = picture_of(&o, frame);
+            CHECK(same(own, pictures[frame]), "frame %d", frame);
+            lom_free_image(own);
+        } else {
+            lom_overlay overlay = overlay_of(&o, "impostor-age", frame, "picture", LOM_LEGEND_NONE);
+            CHECK(same(overlay.frame.image, pictures[frame]), "frame %d", frame);
+            for (int i = 0; overlay.numbers != NULL && i < WIDTH * HEIGHT; i++) {
+                float age = ((float *)(void *)overlay.numbers->pixels)[i];
+                CHECK(age != age || (age >= 0 && age <= (float)frame), "frame %d: %g", frame, (double)age);
+                oldest = age > (float)oldest ? lom_int_of((double)age) : oldest;
+            }
+            lom_free_overlay(&overlay);
+        }
+    }
+    CHECK(oldest == FRAMES - 1, "the oldest plate has %d frames", oldest);
+    for (int frame = 0; frame < FRAMES; frame++)
+        lom_free_image(pictures[frame]);
+    close_scene(&o);
+}
+
+/* Where nothing is there an overlay has a NaN, and --show a 0. */
+static void check_shown(const struct open *o, const char *kind, const char *pass, const char *scene)
+{
+    lom_overlay overlay = overlay_of(o, kind, 0, NULL, LOM_LEGEND_NONE);
+    const lom_frame_desc desc = { .width = WIDTH, .height = HEIGHT };
+    lom_image *shown = lom_show_pass(o->renderer, &desc, pass, NULL);
+    CHECK(shown != NULL && overlay.numbers != NULL && lom_image_size(shown) == lom_image_size(overlay.numbers));
+    const float *a = (const float *)(const void *)overlay.numbers->pixels,
+                *b = (const float *)(const void *)shown->pixels;
+    int there = 0;
+    for (size_t i = 0; i < lom_image_size(shown) / sizeof *a; i++) {
+        CHECK((a[i] == a[i] ? a[i] : 0) == b[i], "%s, %s of %s: %zu: %g, not %g", kind, pass, scene, i, (double)a[i],
+              (double)b[i]);
+        there += a[i] == a[i];
+    }
+    CHECK(there > 1000, "%s of %s: %d", kind, scene, there);
+    lom_free_image(shown);
+    lom_free_overlay(&overlay);
+}
+
+static void depths_are_those_of_the_target(void)
+{
+    static const char *const scenes[] = { "lake", "falls", "tarn" };
+    for (int i = 0; i < 3; i++) {
+        struct open o = open_scene(scenes[i]);
+        check_shown(&o, "depth", "depth", scenes[i]);
+        close_scene(&o);
+    }
+}
+
+static void normals_are_those_of_records(void)
+{
+    struct open o = open_scene("lake");
+    check_shown(&o, "normals", "normals", "lake");
+    close_scene(&o);
+}
+
+/* Fragments and early kills of a rectangle, counted from the records of its pixels. */
+static void counts_are_those_of_records(void)
+{
+    enum { X = 30, Y = 30, W = 60, H = 40 };
+    struct open o = open_scene("lake");
+    lom_overlay overdraw = overlay_of(&o, "overdraw", 0, NULL, LOM_LEGEND_NONE);
+    lom_overlay kills = overlay_of(&o, "early-kills", 0, NULL, LOM_LEGEND_NONE);
+    const lom_explain_desc desc = {
+        .frame = { .width = WIDTH, .height = HEIGHT }, .x = X, .y = Y, .width = W, .height = H
+    };
+    lom_explanation *x = lom_explain(o.renderer, &desc, NULL);
+    CHECK(x != NULL);
+    for (int i = 0; x != NULL && i < W * H; i++) {
+        float drawn = 0, killed = 0;
+        const lom_pixel_record *pixel = lom_watched_pixel(lom_renderer_device(o.renderer), 0, i % W, i / W);
+        for (const lom_pass_record *pass = pixel->passes; pass != NULL; pass = pass->next)
+            for (const lom_draw_record *draw = pass->draws; draw != NULL; draw = draw->next)
+                for (const lom_triangle_record *t = draw->triangles; t != NULL; t = t->next) {
+                    const lom_fragment_record *f = &t->fragment;
+                    drawn += (float)f->shaded;
+                    killed += (float)(t->covered && f->inside_distances && !f->shaded);
+                }
+        int px = X + i % W, py = Y + i / W;
+        CHECK(*(float *)lom_image_pixel(overdraw.numbers, px, py, 0) == drawn, "pixel %d,%d", px, py);
+        CHECK(*(float *)lom_image_pixel(kills.numbers, px, py, 0) == killed, "pixel %d,%d", px, py);
+    }
+    lom_free_explanation(o.renderer, x);
+    lom_free_overlay(&overdraw);
+    lom_free_overlay(&kills);
+    close_scene(&o);
+}
+
+static void legends_lie_where_they_are_asked_for(void)
+{
+    struct open o = open_scene("lake");
+    lom_overlay below = overlay_of(&o, "overdraw", 0, NULL, LOM_LEGEND_BELOW);
+    lom_overlay inside = overlay_of(&o, "overdraw", 0, NULL, LOM_LEGEND_INSIDE);
+    lom_overlay none = overlay_of(&o, "overdraw", 0, NULL, LOM_LEGEND_NONE);
+    int strip = below.shown->height - HEIGHT;
+    CHECK(strip > 20 && inside.shown->height == HEIGHT && none.shown->height == HEIGHT);
+    CHECK(memcmp(below.shown->pixels, none.shown->pixels, WIDTH * HEIGHT * 3) == 0);
+    CHECK(memcmp(inside.shown->pixels, none.shown->pixels, (size_t)(WIDTH * (HEIGHT - strip) * 3)) == 0);
+    CHECK(memcmp(inside.shown->pixels, none.shown->pixels, WIDTH * HEIGHT * 3) != 0);
+    lom_free_overlay(&below);
+    lom_free_overlay(&inside);
+    lom_free_overlay(&none);
+    lom_overlay mirror = overlay_of(&o, "overdraw", 0, "reflection", LOM_LEGEND_NONE);
+    float most = 0;
+    for (int i = 0; i < mirror.numbers->width * mirror.numbers->height; i++)
+        most =
+            ((float *)(void *)mirror.numbers->pixels)[i] > most ? ((float *)(void *)mirror.numbers->pixels)[i] : most;
+    CHECK(most >= 1);
+    lom_free_overlay(&mirror);
+    close_scene(&o);
+}
+
+int main(int argc, char **argv)
+{
+    RUN(the_frame_below_is_the_same_bytes);
+    RUN(a_run_of_impostors_goes_on);
+    RUN(depths_are_those_of_the_target);
+    RUN(normals_are_those_of_records);
+    RUN(counts_are_those_of_records);
+    RUN(legends_lie_where_they_are_asked_for);
+    return check_result();
+}
