@@ -52,29 +52,43 @@ size_t lom_format_size(lom_format format);
 
 /* ---- images: plain pixels in memory ---- */
 
-/* Rows from the top, tightly packed, samples in the machine's byte order, slices (depth > 1) from z = 0.
+/* What the slices of an image are. */
+typedef enum lom_slices {
+    LOM_SLICES_VOLUME = 0, /* of a volume, from z = 0; the one of a plain picture */
+    LOM_SLICES_CUBE,       /* the faces of a cube: +X, -X, +Y, -Y, +Z, -Z */
+    LOM_SLICES_LAYERS      /* pictures of one size */
+} lom_slices;
+
+/* Rows from the top, tightly packed, samples in the machine's byte order, slices (depth > 1) one behind the other.
  * A gray picture is R, gray with alpha is RG as far as files go. */
 typedef struct lom_image {
     int width, height, depth;
     lom_format format;
     uint8_t *pixels; /* width * height * depth * lom_format_size(format) bytes */
+    lom_slices slices;
+    /* The next level of the mip chain that a file held (half the size, rounded down, at least 1; of a volume its depth,
+     * too); belongs to this image. NULL: the last, or none were held. */
+    struct lom_image *smaller;
 } lom_image;
 
 enum { LOM_MAX_SIZE = 32768 }; /* the largest width, height or depth of an image */
 #define LOM_MAX_IMAGE_BYTES (UINT64_C(1) << 31)
 
 /* A black (all bytes 0) image; sizes 1..LOM_MAX_SIZE, at most LOM_MAX_IMAGE_BYTES. NULL on failure. Freed with
- * lom_free_image. */
+ * lom_free_image, with its smaller levels. */
 lom_image *lom_create_image(int width, int height, int depth, lom_format format, lom_error *error);
 void lom_free_image(lom_image *image);
-/* Bytes of all pixels. */
+/* Levels with this one: 1 and those that are smaller. */
+int lom_image_levels(const lom_image *image);
+/* Bytes of all pixels of this level. */
 size_t lom_image_size(const lom_image *image);
 /* The address of pixel (x, y) of slice z; inside the image. */
 void *lom_image_pixel(const lom_image *image, int x, int y, int z);
-/* Any format to any other, correctly rounded, sRGB decoded and encoded; a new image, NULL on failure. Missing channels
- * are 0, missing alpha 1; one channel to three is replicated, three to one is Rec. 709 luminance of linear light. */
+/* Any format to any other, correctly rounded, sRGB decoded and encoded; a new image with all levels, NULL on failure.
+ * Missing channels are 0, missing alpha 1; one channel to three is replicated, three to one is Rec. 709 luminance of
+ * linear light. */
 lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_error *error);
-/* FNV-1a of "width height depth format" as 32-bit little-endian numbers and then the samples, little-endian, top row
+/* Of this level: FNV-1a of "width height depth format" as 32-bit little-endian numbers and then the samples, little-endian, top row
  * first: the hash that `lom render --hash` and the golden tests print. */
 uint64_t lom_hash_image(const lom_image *image);
 

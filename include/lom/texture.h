@@ -35,7 +35,11 @@ typedef struct lom_texture lom_texture;
 typedef enum lom_texture_kind {
     LOM_TEXTURE_2D = 0,
     LOM_TEXTURE_CUBE, /* six square faces: +X, -X, +Y, -Y, +Z, -Z, oriented as in OpenGL's table; seamless */
-    LOM_TEXTURE_3D
+    LOM_TEXTURE_3D,
+    LOM_TEXTURE_1D,       /* a row: a 2D texture of height 1 */
+    LOM_TEXTURE_2D_ARRAY, /* layers of one size, with levels each; nothing is filtered from one layer to another */
+    LOM_TEXTURE_1D_ARRAY, /* rows; a 2D array of height 1 */
+    LOM_TEXTURE_KIND_COUNT
 } lom_texture_kind;
 
 typedef enum lom_mips {
@@ -78,10 +82,11 @@ typedef struct lom_sampler_desc {
 /* The zero descriptor with a width and height is an RGBA8 texture of zeros, repeated, linearly filtered. */
 typedef struct lom_texture_desc {
     lom_texture_kind kind;
-    int width, height; /* 1..LOM_MAX_SIZE; of a cube equal */
-    int depth;         /* of a 3D texture; 0 or 1 otherwise */
+    int width, height; /* 1..LOM_MAX_SIZE; of a cube equal; the height of rows is 0 or 1 */
+    int depth;         /* of a 3D texture, or the layers of an array; 0 or 1 otherwise */
     lom_format format; /* NONE: RGBA8 */
-    /* Level 0, tightly packed as in a lom_image (cubes: face after face); copied. NULL: zeros, a render target. */
+    /* Level 0, tightly packed as in a lom_image (face after face, layer after layer); copied. NULL: zeros, a render
+     * target. */
     const void *pixels;
     lom_mips mips;
     /* LOM_MIPS_SUPPLIED: level i + 1 at level_pixels[i], tightly packed, sizes max(1, size >> (i + 1)). */
@@ -95,19 +100,21 @@ typedef struct lom_texture_desc {
  * above 2^123 (about FLT_MAX / 32) become that, so that no filter makes infinities. At most 2^31 - 1 texels with all
  * levels and 2^33 bytes. NULL on failure; freed with lom_free_texture. */
 lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error);
-/* The texture of a picture (2D, or 3D when its depth is above 1), with the default sampler. srgb: the numbers of an
- * 8-bit picture are sRGB-encoded, whatever its format says. */
+/* The texture of a picture, with the default sampler: 3D when its depth is above 1, a cube or a 2D array when its slices
+ * are such, else 2D. srgb: the numbers of an 8-bit picture are sRGB-encoded, whatever its format says. Where mips are
+ * asked for and the picture has smaller levels, those are supplied. */
 lom_texture *lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error);
 void lom_free_texture(lom_texture *texture); /* NULL is allowed */
 
-/* One level as a picture in the texture's format. layer: the face of a cube or the slice of a 3D texture; -1: all of
- * them, as the image's depth. */
+/* One level as a picture in the texture's format. layer: the face of a cube, the slice of a 3D texture or the layer of an
+ * array; -1: all of them, as the image's depth. */
 lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lom_error *error);
 
 /* What a texture is. */
 int lom_texture_width(const lom_texture *texture);
 int lom_texture_height(const lom_texture *texture);
-int lom_texture_depth(const lom_texture *texture);
+int lom_texture_depth(const lom_texture *texture);  /* of a 3D texture; 1 otherwise */
+int lom_texture_layers(const lom_texture *texture); /* of an array; 6 of a cube; 1 otherwise */
 int lom_texture_levels(const lom_texture *texture);
 lom_format lom_texture_format(const lom_texture *texture);
 const char *lom_texture_label(const lom_texture *texture); /* NULL: none */
@@ -120,6 +127,8 @@ void LOM_WIDE(lom_sample_cube_lanes)(const lom_texture *texture, const lom_float
                                      lom_float4 *out);
 void LOM_WIDE(lom_sample_3d_lanes)(const lom_texture *texture, const lom_float3 *at, const lom_float *lod,
                                    lom_float4 *out);
+void LOM_WIDE(lom_sample_array_lanes)(const lom_texture *texture, const lom_float3 *at, const lom_float *lod,
+                                      lom_float4 *out);
 void LOM_WIDE(lom_sample_depth_lanes)(const lom_texture *texture, const lom_float2 *at, lom_float *out);
 void LOM_WIDE(lom_fetch_lanes)(const lom_texture *texture, const lom_int *x, const lom_int *y, int level,
                                lom_float4 *out);
@@ -152,6 +161,28 @@ LOM_INLINE lom_float4 lom_sample_3d(const lom_texture *texture, lom_float s, lom
     lom_float4 out;
     LOM_WIDE(lom_sample_3d_lanes)(texture, &at, &lod, &out);
     return out;
+}
+
+/* A 2D array at (s, t) of a layer: the nearest whole number, ties to the even one, clamped to the first and last; NaN is
+ * layer 0. */
+LOM_INLINE lom_float4 lom_sample_array(const lom_texture *texture, lom_float s, lom_float t, lom_float layer,
+                                       lom_float lod)
+{
+    lom_float3 at = { s, t, layer };
+    lom_float4 out;
+    LOM_WIDE(lom_sample_array_lanes)(texture, &at, &lod, &out);
+    return out;
+}
+
+/* A 1D texture at s, and a layer of a 1D array: what 2D textures of height 1 give in the middle. */
+LOM_INLINE lom_float4 lom_sample_1d(const lom_texture *texture, lom_float s, lom_float lod)
+{
+    return lom_sample(texture, s, lom_splat(0.5f), lod);
+}
+
+LOM_INLINE lom_float4 lom_sample_1d_array(const lom_texture *texture, lom_float s, lom_float layer, lom_float lod)
+{
+    return lom_sample_array(texture, s, lom_splat(0.5f), layer, lod);
 }
 
 /* The first channel of level 0 of a 2D texture, with the magnification filter. */

@@ -29,7 +29,8 @@ static const lom_command_line line = {
     .arguments = "FILE...",
     .summary = "Says what is in images, meshes and scenes",
     .details =
-        "Meshes are *.obj, scenes *.toml, anything else is read as a picture or a volume. Triangles count n - 2 a\n"
+        "Meshes are *.obj, scenes *.toml, anything else is read as a picture, a volume, a cube (of six faces) or an\n"
+        "array (of pictures of one size), with the mip levels that the file holds. Triangles count n - 2 a\n"
         "polygon; vertices are those left after equal corners became one; bounds are the lowest and the highest x, y\n"
         "and z. What a lenient reader passed over is told as warnings. The\n"
         "hash of an image covers its size, its format and its samples; that of a mesh its vertices, its triangles and\n"
@@ -44,7 +45,7 @@ static const lom_command_line line = {
 /* What is known of a file; -1 is what its kind does not have. */
 struct facts {
     const char *file, *kind, *format;
-    int64_t width, height, depth, channels, bits, vertices, triangles, materials, warnings;
+    int64_t width, height, depth, levels, channels, bits, vertices, triangles, materials, warnings;
     lom_box bounds; /* of a mesh */
     uint64_t hash;
 };
@@ -108,11 +109,15 @@ static bool find_image_facts(const char *path, struct facts *facts, lom_error *e
     if (image == NULL)
         return false;
     const lom_format_info *format = lom_describe_format(image->format);
-    facts->kind = image->depth > 1 ? "volume" : "image";
+    static const char *const slices[] = {
+        [LOM_SLICES_VOLUME] = "volume", [LOM_SLICES_CUBE] = "cube", [LOM_SLICES_LAYERS] = "array"
+    };
+    facts->kind = image->depth > 1 ? slices[image->slices] : "image";
     facts->format = format->name;
     facts->width = image->width;
     facts->height = image->height;
     facts->depth = image->depth;
+    facts->levels = lom_image_levels(image);
     facts->channels = format->channels;
     facts->bits = format->bits;
     facts->hash = lom_hash_image(image);
@@ -166,8 +171,9 @@ static const struct {
 static bool find_facts(const char *path, struct facts *facts, lom_error *error)
 {
     *facts = (struct facts){ .file = path };
-    int64_t *const numbers[] = { &facts->width,    &facts->height,    &facts->depth,     &facts->channels, &facts->bits,
-                                 &facts->vertices, &facts->triangles, &facts->materials, &facts->warnings };
+    int64_t *const numbers[] = { &facts->width,     &facts->height,  &facts->depth,    &facts->levels,
+                                 &facts->channels,  &facts->bits,    &facts->vertices, &facts->triangles,
+                                 &facts->materials, &facts->warnings };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         *numbers[i] = -1;
     size_t kind = 0;
@@ -182,9 +188,10 @@ static void print_json(const struct facts *facts)
         const char *name;
         int64_t value;
     } numbers[] = {
-        { "width", facts->width },         { "height", facts->height },       { "depth", facts->depth },
-        { "channels", facts->channels },   { "bits", facts->bits },           { "vertices", facts->vertices },
-        { "triangles", facts->triangles }, { "materials", facts->materials }, { "warnings", facts->warnings },
+        { "width", facts->width },       { "height", facts->height },       { "depth", facts->depth },
+        { "levels", facts->levels },     { "channels", facts->channels },   { "bits", facts->bits },
+        { "vertices", facts->vertices }, { "triangles", facts->triangles }, { "materials", facts->materials },
+        { "warnings", facts->warnings },
     };
     lom_json json = lom_json_begin(stdout);
     lom_json_text(&json, "file", facts->file);
@@ -223,6 +230,8 @@ static void print_line(const struct facts *facts)
         printf(" x %" PRId64, facts->depth);
     if (facts->format != NULL)
         printf(", %s", facts->format);
+    if (facts->levels > 1)
+        printf(", %" PRId64 " levels", facts->levels);
     if (facts->vertices >= 0) {
         print_point(", from", facts->bounds.low);
         print_point(" to", facts->bounds.high);

@@ -14,6 +14,11 @@ static inline uint32_t load_32_big(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
+static inline uint32_t load_16_little(const uint8_t *p)
+{
+    return (uint32_t)p[1] << 8 | p[0];
+}
+
 static inline uint32_t load_32_little(const uint8_t *p)
 {
     return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];

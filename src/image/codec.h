@@ -11,6 +11,8 @@ lom_image *lom_decode_pnm(const uint8_t *data, size_t size, const char *name, lo
 lom_image *lom_decode_pam(const uint8_t *data, size_t size, const char *name, lom_error *error);
 lom_image *lom_decode_pfm(const uint8_t *data, size_t size, const char *name, lom_error *error);
 
+lom_image *lom_decode_dds(const uint8_t *data, size_t size, const char *name, lom_error *error);
+lom_image *lom_decode_ktx(const uint8_t *data, size_t size, const char *name, lom_error *error);
 lom_image *lom_decode_nrrd(const uint8_t *data, size_t size, const char *name, lom_error *error);
 lom_image *lom_decode_qoi(const uint8_t *data, size_t size, const char *name, lom_error *error);
 

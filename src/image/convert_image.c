@@ -32,7 +32,7 @@ static void copy_colors(const uint8_t *in, int from, uint8_t *out, int to, size_
     }
 }
 
-static lom_image *convert(const lom_image *image, lom_format format, lom_error *error)
+static lom_image *convert_level(const lom_image *image, lom_format format, lom_error *error)
 {
     const lom_format_info *from = lom_describe_format(image->format), *to = lom_describe_format(format);
     if (from == NULL || to == NULL) {
@@ -43,6 +43,7 @@ static lom_image *convert(const lom_image *image, lom_format format, lom_error *
     lom_image *out = lom_create_image(image->width, image->height, image->depth, format, error);
     if (out == NULL)
         return NULL;
+    out->slices = image->slices;
     if (format == image->format) {
         memcpy(out->pixels, image->pixels, lom_image_size(image));
         return out;
@@ -66,6 +67,19 @@ static lom_image *convert(const lom_image *image, lom_format format, lom_error *
     }
     lom_release(rgba);
     return out;
+}
+
+static lom_image *convert(const lom_image *image, lom_format format, lom_error *error)
+{
+    lom_image *first = convert_level(image, format, error), *last = first;
+    while (last != NULL && image->smaller != NULL) {
+        image = image->smaller;
+        last = last->smaller = convert_level(image, format, error);
+    }
+    if (last != NULL)
+        return first;
+    lom_free_image(first);
+    return NULL;
 }
 
 lom_image *lom_convert_image(const lom_image *image, lom_format format, lom_error *error)

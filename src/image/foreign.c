@@ -27,6 +27,7 @@ static const struct {
     { 0, "II*\0", 4, "; it is TIFF" PHOTO },
     { 0, "MM\0*", 4, "; it is TIFF" PHOTO },
     { 0, "v/1\1", 4, "; it is OpenEXR" FLOATS },
+    { 0, "\xabKTX 20", 7, "; it is KTX of version 2: save it as version 1, or as DDS" },
     { 0, "#?RADIANCE", 10, "; it is Radiance HDR" FLOATS },
     { 0, "YUV4MPEG2", 9, "; it is y4m, a video: its frames are pictures once an encoder has unpacked them" },
 };

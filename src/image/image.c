@@ -35,10 +35,20 @@ lom_image *lom_create_image(int width, int height, int depth, lom_format format,
 
 void lom_free_image(lom_image *image)
 {
-    if (image == NULL)
-        return;
-    lom_release(image->pixels);
-    lom_release(image);
+    while (image != NULL) {
+        lom_image *smaller = image->smaller;
+        lom_release(image->pixels);
+        lom_release(image);
+        image = smaller;
+    }
+}
+
+int lom_image_levels(const lom_image *image)
+{
+    int count = 1;
+    while ((image = image->smaller) != NULL)
+        count++;
+    return count;
 }
 
 size_t lom_image_size(const lom_image *image)

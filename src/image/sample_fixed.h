@@ -75,12 +75,14 @@ LOM_INLINE sample_pairs sample_level_pairs(const lom_texture *texture, lom_textu
                                            bool srgb, const sample_point *point, const sample_place *place)
 {
     sample_footprint print = sample_footprint_of(texture, kind, point, place);
-    if (kind != LOM_TEXTURE_3D)
+    if (kind != LOM_TEXTURE_3D && kind != LOM_TEXTURE_2D_ARRAY)
         return sample_square_pairs(texture, storage, srgb, print.index, print.pitch, lom_weight_pairs(print.s),
                                    lom_weight_pairs(print.t));
     sample_pairs front, back;
     lom_int behind = print.index + print.slice;
     sample_square_pairs_apart(texture, storage, srgb, &print.index, &print, &front);
+    if (kind == LOM_TEXTURE_2D_ARRAY)
+        return front;
     sample_square_pairs_apart(texture, storage, srgb, &behind, &print, &back);
     return sample_mix_pairs(front, back, lom_weight_pairs(print.r));
 }

@@ -20,7 +20,8 @@ typedef struct sample_place {
     lom_int pitch, slice, offset;
 } sample_place;
 
-/* What to sample: wrapped coordinates, the face of a cube, and which lanes take the nearest texel. */
+/* What to sample: wrapped coordinates, the face of a cube or the layer of an array, and which lanes take the nearest
+ * texel. */
 typedef struct sample_point {
     lom_float s, t, r;
     lom_int face;
@@ -105,7 +106,7 @@ LOM_INLINE sample_footprint sample_footprint_of(const lom_texture *texture, lom_
     lom_int x = sample_locate(point->s, place->width, flat && sampler->wrap_s == LOM_WRAP_BORDER, point, &print.s);
     lom_int y = sample_locate(point->t, place->height, flat && sampler->wrap_t == LOM_WRAP_BORDER, point, &print.t);
     print.index = place->offset + y * place->pitch + x;
-    if (kind == LOM_TEXTURE_CUBE)
+    if (kind == LOM_TEXTURE_CUBE || kind == LOM_TEXTURE_2D_ARRAY)
         print.index += point->face * place->slice;
     if (kind == LOM_TEXTURE_3D)
         print.index +=
@@ -175,8 +176,8 @@ LOM_INLINE lom_float4 sample_square(const lom_texture *texture, lom_storage stor
     return sample_mix(storage, sample_mix(storage, a, b, print->s), sample_mix(storage, c, d, print->s), print->t);
 }
 
-/* The same as a function of its own, of storages chosen while it runs: 3D textures call it up to four times a sample, and
- * written out for each they would be 150 kB more of the program (bench/results/limits.md). */
+/* The same as a function of its own, of storages chosen while it runs: 3D textures and arrays call it up to four times a
+ * sample, and written out for each they would be 150 kB more of the program (bench/results/limits.md). */
 __attribute__((noinline, unused)) static void sample_square_apart(const lom_texture *texture, lom_storage storage,
                                                                   bool srgb, const lom_int *index,
                                                                   const sample_footprint *print, lom_float4 *out)
@@ -197,11 +198,13 @@ LOM_INLINE lom_float4 sample_level(const lom_texture *texture, lom_texture_kind 
     sample_footprint print = sample_footprint_of(texture, kind, point, place);
     if (point->all_nearest)
         return sample_texel(texture, storage, srgb, print.index);
-    if (kind != LOM_TEXTURE_3D)
+    if (kind != LOM_TEXTURE_3D && kind != LOM_TEXTURE_2D_ARRAY)
         return sample_square(texture, storage, srgb, print.index, &print);
     lom_float4 front, back;
     lom_int behind = print.index + print.slice;
     sample_square_apart(texture, storage, srgb, &print.index, &print, &front);
+    if (kind == LOM_TEXTURE_2D_ARRAY)
+        return front;
     sample_square_apart(texture, storage, srgb, &behind, &print, &back);
     return sample_mix(storage, front, back, print.r);
 }
@@ -242,7 +245,8 @@ LOM_INLINE lom_float sample_choose(const lom_texture *texture, sample_point *poi
 /* For records: where a sampler looks, and which levels it chose. */
 #define SAMPLE_NOTE(texture, kind, point, lod, chosen)                                                                 \
     LOM_NOTE(LOM_NOTE_LOOKUP, texture, point->s, point->t, kind == LOM_TEXTURE_3D ? point->r : (lom_float){ 0 }, lod,  \
-             chosen, kind == LOM_TEXTURE_CUBE ? lom_as_float(point->face) : (lom_float){ 0 })
+             chosen,                                                                                                   \
+             kind == LOM_TEXTURE_CUBE || kind == LOM_TEXTURE_2D_ARRAY ? lom_as_float(point->face) : (lom_float){ 0 })
 
 LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kind kind, lom_storage storage, bool srgb,
                                      sample_point *point, lom_float lod)

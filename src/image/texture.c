@@ -15,19 +15,32 @@ static int full_level_count(int width, int height, int depth)
     return count;
 }
 
+static bool is_row(lom_texture_kind kind)
+{
+    return kind == LOM_TEXTURE_1D || kind == LOM_TEXTURE_1D_ARRAY;
+}
+
+static bool is_array(lom_texture_kind kind)
+{
+    return kind == LOM_TEXTURE_2D_ARRAY || kind == LOM_TEXTURE_1D_ARRAY;
+}
+
 static bool check_sizes(const lom_texture_desc *desc, lom_error *error)
 {
-    int depth = desc->kind == LOM_TEXTURE_3D ? desc->depth : 1;
+    bool deep = desc->kind == LOM_TEXTURE_3D || is_array(desc->kind);
+    int depth = deep ? desc->depth : 1;
     if (desc->width < 1 || desc->height < 1 || depth < 1 || desc->width > LOM_MAX_SIZE || desc->height > LOM_MAX_SIZE ||
         depth > LOM_MAX_SIZE)
         return lom_fail(error, LOM_ERROR_USAGE, "A texture of %d x %d x %d texels is outside 1..%d.", desc->width,
                         desc->height, depth, LOM_MAX_SIZE);
-    if (desc->kind != LOM_TEXTURE_3D && desc->depth != 0 && desc->depth != 1)
-        return lom_fail(error, LOM_ERROR_USAGE, "A 2D or cube texture has no depth of %d.", desc->depth);
+    if (!deep && desc->depth != 0 && desc->depth != 1)
+        return lom_fail(error, LOM_ERROR_USAGE, "A 1D, 2D or cube texture has no depth of %d.", desc->depth);
+    if (is_row(desc->kind) && desc->height != 1)
+        return lom_fail(error, LOM_ERROR_USAGE, "A 1D texture has no height of %d.", desc->height);
     if (desc->kind == LOM_TEXTURE_CUBE && desc->width != desc->height)
         return lom_fail(error, LOM_ERROR_USAGE, "The faces of a cube texture are square, not %d x %d.", desc->width,
                         desc->height);
-    int full = full_level_count(desc->width, desc->height, depth);
+    int full = full_level_count(desc->width, desc->height, desc->kind == LOM_TEXTURE_3D ? depth : 1);
     if (desc->mips == LOM_MIPS_SUPPLIED &&
         (desc->level_count < 1 || desc->level_count > full || (desc->level_count > 1 && desc->level_pixels == NULL)))
         return lom_fail(error, LOM_ERROR_USAGE, "A texture of this size has 1..%d levels, not %d.", full,
@@ -38,7 +51,7 @@ static bool check_sizes(const lom_texture_desc *desc, lom_error *error)
 static bool check_desc(const lom_texture_desc *desc, lom_error *error)
 {
     const lom_sampler_desc *s = &desc->sampler;
-    if ((unsigned)desc->kind > LOM_TEXTURE_3D || (unsigned)desc->mips > LOM_MIPS_SUPPLIED)
+    if ((unsigned)desc->kind >= LOM_TEXTURE_KIND_COUNT || (unsigned)desc->mips > LOM_MIPS_SUPPLIED)
         return lom_fail(error, LOM_ERROR_USAGE, "There is no texture of kind %d with mips %d.", (int)desc->kind,
                         (int)desc->mips);
     if (desc->format != LOM_FORMAT_NONE && lom_describe_format(desc->format) == NULL)
@@ -138,7 +151,7 @@ static bool lay_out(lom_texture *texture, const lom_texture_desc *desc, lom_erro
 
 int lom_level_layers(const lom_texture *texture, int level)
 {
-    return texture->kind == LOM_TEXTURE_CUBE ? 6 : texture->level[level].depth;
+    return texture->kind == LOM_TEXTURE_3D ? texture->level[level].depth : texture->layers;
 }
 
 size_t lom_texel_size(const lom_texture *texture)
@@ -176,10 +189,11 @@ static void prepare_decoded(lom_texture *texture, const lom_texture_desc *desc)
 
 /* ---- public ---- */
 
-static lom_texture *create(const lom_texture_desc *desc, lom_error *error)
+static lom_texture *create(const lom_texture_desc *asked, lom_error *error)
 {
-    static const lom_texture_desc none = { .width = 0 };
-    desc = desc != NULL ? desc : &none;
+    lom_texture_desc full = asked != NULL ? *asked : (lom_texture_desc){ .width = 0 }, *desc = &full;
+    if (is_row(desc->kind) && desc->height == 0)
+        desc->height = 1;
     if (!check_desc(desc, error))
         return NULL;
     lom_texture *texture = lom_allocate(1, sizeof *texture, error);
@@ -192,6 +206,7 @@ static lom_texture *create(const lom_texture_desc *desc, lom_error *error)
     texture->srgb = info->is_srgb;
     texture->builds_mips = desc->mips == LOM_MIPS_ALL;
     int depth = desc->kind == LOM_TEXTURE_3D ? desc->depth : 1;
+    texture->layers = desc->kind == LOM_TEXTURE_CUBE ? 6 : is_array(desc->kind) ? desc->depth : 1;
     texture->level_count = desc->mips == LOM_MIPS_NONE       ? 1
                            : desc->mips == LOM_MIPS_SUPPLIED ? desc->level_count
                                                              : full_level_count(desc->width, desc->height, depth);
@@ -216,19 +231,34 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
     return texture;
 }
 
+int lom_list_levels(const lom_image *image, const void *pixels[LOM_MAX_LEVELS])
+{
+    int count = 1;
+    while ((image = image->smaller) != NULL && count < LOM_MAX_LEVELS)
+        pixels[count++ - 1] = image->pixels;
+    return count;
+}
+
 lom_texture *lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error)
 {
     lom_format format = image->format;
     if (srgb && format >= LOM_FORMAT_R8 && format <= LOM_FORMAT_RGBA8)
         format = (lom_format)(format + (LOM_FORMAT_R8_SRGB - LOM_FORMAT_R8));
+    static const lom_texture_kind kinds[] = { [LOM_SLICES_VOLUME] = LOM_TEXTURE_3D,
+                                              [LOM_SLICES_CUBE] = LOM_TEXTURE_CUBE,
+                                              [LOM_SLICES_LAYERS] = LOM_TEXTURE_2D_ARRAY };
+    const void *smaller[LOM_MAX_LEVELS];
+    int levels = lom_list_levels(image, smaller);
     lom_texture_desc desc = {
-        .kind = image->depth > 1 ? LOM_TEXTURE_3D : LOM_TEXTURE_2D,
+        .kind = image->slices == LOM_SLICES_VOLUME && image->depth == 1 ? LOM_TEXTURE_2D : kinds[image->slices],
         .width = image->width,
         .height = image->height,
-        .depth = image->depth,
+        .depth = image->slices == LOM_SLICES_CUBE ? 1 : image->depth,
         .format = format,
         .pixels = image->pixels,
-        .mips = mips,
+        .mips = mips != LOM_MIPS_NONE && levels > 1 ? LOM_MIPS_SUPPLIED : mips,
+        .level_pixels = smaller,
+        .level_count = levels,
     };
     return lom_create_texture(&desc, error);
 }
@@ -255,6 +285,11 @@ int lom_texture_height(const lom_texture *texture)
 int lom_texture_depth(const lom_texture *texture)
 {
     return texture->level[0].depth;
+}
+
+int lom_texture_layers(const lom_texture *texture)
+{
+    return texture->layers;
 }
 
 int lom_texture_levels(const lom_texture *texture)

@@ -34,6 +34,7 @@ struct lom_texture {
     lom_format format;
     lom_storage storage;
     int level_count;
+    int layers; /* 6 for a cube, those of an array, else 1 */
     lom_level level[LOM_MAX_LEVELS];
     void *texels;             /* what a pass writes must be finite; missing channels 0, missing alpha 255 or 1 */
     lom_sampler_desc sampler; /* no DEFAULT filters any more */
@@ -56,6 +57,8 @@ struct lom_texture {
     lom_level_row row[LOM_MAX_LEVELS];
 };
 
+/* The pixels of an image's smaller levels, level i + 1 at pixels[i]; returns how many levels there are with the first. */
+int lom_list_levels(const lom_image *image, const void *pixels[LOM_MAX_LEVELS]);
 /* Level `level` from tightly packed pixels of the texture's format (texture_pixels.c). */
 void lom_store_level(lom_texture *texture, int level, const void *pixels);
 /* The same for some of its rows, counted through all layers. */
@@ -68,7 +71,7 @@ bool lom_store_texture(lom_texture *texture, const void *pixels, size_t size, lo
 /* After level 0 was written: rebuilds its apron and, if the texture was made with LOM_MIPS_ALL, all levels. */
 void lom_finish_texture(lom_texture *texture);
 
-/* Slices of a level: 6 for a cube, its depth for a 3D texture, else 1. */
+/* Slices of a level: its depth for a 3D texture, else the layers. */
 int lom_level_layers(const lom_texture *texture, int level);
 /* Bytes of a texel: 4 or 16. */
 size_t lom_texel_size(const lom_texture *texture);

@@ -211,7 +211,7 @@ bool lom_renew_texture(lom_device *device, lom_texture **texture, const lom_text
         *texture = lom_make_texture(device, desc);
         return *texture != NULL;
     }
-    size_t layers = desc->kind == LOM_TEXTURE_CUBE ? 6 : desc->kind == LOM_TEXTURE_3D ? (size_t)desc->depth : 1;
+    size_t layers = desc->kind == LOM_TEXTURE_CUBE ? 6 : desc->depth > 1 ? (size_t)desc->depth : 1;
     size_t texels = (size_t)desc->width * (size_t)desc->height * layers;
     return lom_update_texture(device, *texture, desc->pixels, texels * lom_format_size(desc->format));
 }

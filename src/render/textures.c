@@ -1,6 +1,7 @@
-/* Pictures as textures, each loaded once. In: pictures of the world. Out: textures of the renderer's device, filtered as
- * the scene's quality says. */
+/* Pictures as textures, each loaded once, with the levels that its file has or those made of it. In: pictures of the
+ * world. Out: textures of the renderer's device, filtered as the scene's quality says. */
 #include "base/reserve.h"
+#include "image/texture.h"
 #include "pipeline/check_device.h"
 #include "render/renderer.h"
 
@@ -31,14 +32,19 @@ static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool 
     bool srgb = color && scene->output.transfer == LOM_TRANSFER_SRGB;
     if (image == NULL)
         return NULL;
-    lom_texture *texture = lom_make_texture(
-        renderer->device, &(lom_texture_desc){ .width = image->width,
-                                               .height = image->height,
-                                               .format = format_of(image, srgb),
-                                               .pixels = image->pixels,
-                                               .label = path,
-                                               .mips = scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
-                                               .sampler = sampler_of(&scene->quality) });
+    const void *smaller[LOM_MAX_LEVELS];
+    int levels = lom_list_levels(image, smaller);
+    lom_mips mips = levels > 1 ? LOM_MIPS_SUPPLIED : LOM_MIPS_ALL;
+    lom_texture *texture =
+        lom_make_texture(renderer->device, &(lom_texture_desc){ .width = image->width,
+                                                                .height = image->height,
+                                                                .format = format_of(image, srgb),
+                                                                .pixels = image->pixels,
+                                                                .label = path,
+                                                                .mips = scene->quality.mipmaps ? mips : LOM_MIPS_NONE,
+                                                                .level_pixels = smaller,
+                                                                .level_count = levels,
+                                                                .sampler = sampler_of(&scene->quality) });
     lom_error failed = { 0 };
     if (!lom_check_device(renderer->device, &failed))
         lom_fail(error, failed.code, "%s: %s", path, failed.text);

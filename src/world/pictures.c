@@ -36,6 +36,11 @@ static struct lom_world_picture *add(struct lom_world *world, const char *path, 
 /* Keeps an image, converted, under a path; NULL is passed on. The image is freed. */
 static struct lom_world_picture *keep(struct lom_world *world, const char *path, lom_image *file, lom_error *error)
 {
+    if (file != NULL && file->depth > 1) {
+        lom_fail(error, LOM_ERROR_INPUT, "%s: this is no single picture, but %d.", path, file->depth);
+        lom_free_image(file);
+        return NULL;
+    }
     bool deep = file != NULL && lom_describe_format(file->format)->bits > 8;
     lom_image *image =
         file == NULL ? NULL : lom_convert_image(file, deep ? LOM_FORMAT_RGBA16 : LOM_FORMAT_RGBA8, error);

@@ -79,7 +79,22 @@ lenient_meshes() {
         exits 0 "$lom" render odd.toml -o odd.png --set 'quality.water="reference"' && complains "photo.jpg"
 }
 
+# Files that hold more than a picture: levels, faces, layers.
+containers() {
+    corpus=$OLDPWD/tests/fuzz/corpus
+    exits 0 "$lom" info "$corpus/fuzz_dds/bc1_levels" "$corpus/fuzz_ktx/bc3_cube" "$corpus/fuzz_dds/array_bc5" "$corpus/fuzz_dds/volume" &&
+        says "bc1_levels: image, 9 x 6, RGBA8, 4 levels, hash " && says "bc3_cube: cube, 4 x 4 x 6, RGBA8, 3 levels, hash " &&
+        says "array_bc5: array, 8 x 4 x 2, RG8, 2 levels, hash " && says "volume: volume, 4 x 2 x 3, R8, 3 levels, hash " &&
+        exits 0 "$lom" info --json "$corpus/fuzz_ktx/bc3_cube" && says '"kind": "cube"' && says '"levels": 3' &&
+        exits 0 "$lom" info --json gray.pgm && says '"levels": 1' || return 1
+    exits 0 "$lom" convert "$corpus/fuzz_dds/bc1_levels" first.png && exits 0 "$lom" info first.png && says "9 x 6, RGBA8, hash" &&
+        exits 2 "$lom" convert "$corpus/fuzz_ktx/bc3_cube" none.png && complains "one slice, not 6" && [ ! -e none.png ] &&
+        exits 2 "$lom" convert "$corpus/fuzz_dds/short" none.png && complains "too short for" && [ ! -e none.png ] &&
+        exits 2 "$lom" convert first.png none.dds && [ ! -e none.dds ]
+}
+
 check info_text text
+check info_of_levels_and_slices containers
 check info_lenient_meshes lenient_meshes
 if command -v python3 >/dev/null; then
     check info_json json

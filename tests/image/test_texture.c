@@ -312,7 +312,7 @@ static void bad_descriptors_are_refused(void)
         { .width = 1, .height = 1, .depth = 2 },
         { .width = 2, .height = 1, .kind = LOM_TEXTURE_CUBE },
         { .width = 1, .height = 1, .kind = LOM_TEXTURE_3D },
-        { .width = 1, .height = 1, .kind = 3 },
+        { .width = 1, .height = 1, .kind = LOM_TEXTURE_KIND_COUNT },
         { .width = 1, .height = 1, .format = LOM_FORMAT_COUNT },
         { .width = 1, .height = 1, .mips = 7 },
         { .width = 4, .height = 4, .mips = LOM_MIPS_SUPPLIED, .level_count = 4 },

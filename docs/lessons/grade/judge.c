@@ -199,7 +199,9 @@ bool lom_grade_write_picture(const char *path, const uint8_t *student, size_t *p
 {
     enum { SCALE = 2, GAP = 8, WIDE = 3 * SCALE * GALLERY_WIDTH + 2 * GAP, HIGH = SCALE * GALLERY_HEIGHT };
     static uint8_t out[WIDE * HIGH][3];
-    const lom_image image = { WIDE, HIGH, 1, LOM_FORMAT_RGB8_SRGB, out[0] };
+    const lom_image image = {
+        .width = WIDE, .height = HIGH, .depth = 1, .format = LOM_FORMAT_RGB8_SRGB, .pixels = out[0]
+    };
     lom_image *scene = draw_gallery_image(&right_stages, error);
     *pixels = 0;
     memset(out, 255, sizeof out);

@@ -127,7 +127,11 @@ static bool draw_gallery_scene(const struct stages *others, uint8_t (*color)[4])
 static lom_image *draw_gallery_image(const struct stages *stages, lom_error *error)
 {
     static uint8_t color[GALLERY_WIDTH * GALLERY_HEIGHT][4];
-    const lom_image image = { GALLERY_WIDTH, GALLERY_HEIGHT, 1, LOM_FORMAT_RGBA8_SRGB, color[0] };
+    const lom_image image = { .width = GALLERY_WIDTH,
+                              .height = GALLERY_HEIGHT,
+                              .depth = 1,
+                              .format = LOM_FORMAT_RGBA8_SRGB,
+                              .pixels = color[0] };
     return draw_gallery_scene(stages, color) ? lom_convert_image(&image, LOM_FORMAT_RGB8_SRGB, error) : NULL;
 }
 

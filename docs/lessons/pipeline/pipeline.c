@@ -468,7 +468,7 @@ int main(int argc, char **argv)
     lom_mat4 camera = lom_multiply(&lens, &view), model = lom_model_matrix(place, turn, (lom_vec3){ 1, 1, 1 });
     lom_mesh *mesh[2] = { lom_make_quad(60, 60, NULL), lom_make_torus(0.8, 0.36, 96, 48, NULL) };
     struct picture picture = { WIDTH, HEIGHT, { 2.0f * BAND / WIDTH, 2.0f * BAND / HEIGHT }, color, depth, NULL };
-    const lom_image image = { WIDTH, HEIGHT, 1, LOM_FORMAT_RGBA8_SRGB, color[0] };
+    const lom_image image = { WIDTH, HEIGHT, 1, LOM_FORMAT_RGBA8_SRGB, color[0], LOM_SLICES_VOLUME, NULL };
     for (int i = 0; i < SIZE * SIZE; i++)
         memcpy(rgba[i], colors[(i % SIZE / TILE + i / SIZE / TILE) % 2], 4);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
