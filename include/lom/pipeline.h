@@ -299,6 +299,27 @@ LOM_INLINE lom_float lom_quad_dy(lom_float value)
     LOM_SHADER_DECLARE(LOM_SHADER_VERTEX_ENTRY, name)                                                                  \
     LOM_SHADER_DEFINE(name, LOM_SHADER_EACH(LOM_SHADER_VERTEX_SLOT, name) LOM_SHADER_OTHER_VERTEX(name), __VA_ARGS__)
 
+/* ---- samples ---- */
+
+enum { LOM_MAX_SAMPLES = 16 };
+
+/* Where sample `i` of `samples` lies in its pixel, from the centre, right and down, in 1/16 of a pixel (-8..7): the
+ * standard patterns of Direct3D 11.3 (19.2.4, D3D11_STANDARD_MULTISAMPLE_PATTERN), which are Vulkan's standard sample
+ * locations. samples: 1 (the centre), 2, 4, 8, 16. False, and the centre, for others and for an i that is none. */
+bool lom_sample_position(int samples, int i, int position[2]);
+
+/* A pass of n samples tests coverage, clip distances and depth at each of them, exactly as at centres (a primitive that
+ * covers a sample of a pixel owns it by the same top-left rule), and keeps n colours and depths a pixel.
+ * - Shading: the fragment shader runs once for a pixel that the primitive covers a sample of, at the centre where the
+ *   primitive covers that, else at its first sample that the primitive covers (before the depth test); in shaders that
+ *   ask for quads at the centre always. Its colours go to all samples that are covered and pass. Varyings, window
+ *   position, depth and target_depth are those of the place of shading, target_depth of the centre is sample 0's. With
+ *   draw.per_sample it runs for each sample, at the sample.
+ * - Depths are the triangle's at each sample; one that the shader writes counts for all samples of the fragment.
+ * - Resolve: a texel is the mean of the pixel's samples in linear light: 8-bit codes the whole number nearest to the mean
+ *   (the upper one of two); sRGB codes are decoded, and the mean is encoded, each rounded to nearest; floats are added in
+ *   pairs, (s0 + s1) + (s2 + s3) and so on, and rounded to the format. The depth is that of sample 0. */
+
 /* ---- passes ---- */
 
 typedef struct lom_rect {
@@ -319,7 +340,7 @@ typedef struct lom_pass_desc {
     lom_texture
         *color[LOM_MAX_COLORS];    /* 2D textures of one size, made without pixels; NULL from the first unused one on */
     lom_texture *depth;            /* depth format, same size; NULL: no depth test */
-    int samples;                   /* 0 or 1 */
+    int samples;                   /* of a pixel, lom_sample_position; 0: 1 */
     int frame_width, frame_height; /* the whole frame; 0: the attachments' size */
     int origin_x, origin_y;        /* the frame's pixel that the attachments' pixel (0, 0) is */
     lom_rect viewport;             /* of the frame; empty: the whole frame; at most 32768 x 32768 */
@@ -459,8 +480,12 @@ typedef struct lom_draw_desc {
     lom_blend blend[LOM_MAX_COLORS];
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
-    const char *label;                /* what records (lom/record.h) say is drawn; not copied; may be NULL */
-    int object;                       /* a number of the caller's for it, in records */
+    bool per_sample;                  /* the fragment shader runs for each sample */
+    /* Of a fragment the samples 0..k - 1 alone may be written, k = floor(n a + 1/2) of the pass's n samples, a the first
+     * colour's alpha, clamped to 0..1 (NaN: 0). With one sample: where a is 1/2 or more. Depth is tested after the shader. */
+    bool alpha_to_coverage;
+    const char *label; /* what records (lom/record.h) say is drawn; not copied; may be NULL */
+    int object;        /* a number of the caller's for it, in records */
     lom_culling
         culling; /* with clusters: LOM_TRIANGLES, indices of 32 bits, no first, base_vertex, restart; 1 instance */
 } lom_draw_desc;

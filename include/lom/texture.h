@@ -93,6 +93,9 @@ typedef struct lom_texture_desc {
     const void *const *level_pixels;
     int level_count; /* LOM_MIPS_SUPPLIED: levels with level 0; at most floor(log2(largest size)) + 1 */
     lom_sampler_desc sampler;
+    /* Of a 2D target: passes of so many samples a pixel (2, 4, 8, 16) keep them with the texture, for the passes that go on
+     * with LOM_LOAD_KEEP. 0 and 1: those begin from the texel in each sample. */
+    int samples;
     const char *label; /* what records (lom/record.h) call it; not copied, stays valid with the texture; may be NULL */
 } lom_texture_desc;
 

@@ -67,6 +67,11 @@ static bool check_desc(const lom_texture_desc *desc, lom_error *error)
                         (int)s->wrap_t, (int)s->wrap_r);
     if (s->lod_bias != s->lod_bias || s->lod_min != s->lod_min || s->lod_max != s->lod_max)
         return lom_fail(error, LOM_ERROR_USAGE, "A sampler's bias and bounds of the level of detail cannot be NaN.");
+    if (desc->samples < 0 || desc->samples > 16 || (desc->samples & (desc->samples - 1)) != 0 ||
+        (desc->samples > 1 && desc->kind != LOM_TEXTURE_2D))
+        return lom_fail(error, LOM_ERROR_USAGE,
+                        "A texture keeps 1, 2, 4, 8 or 16 samples a pixel, and only a 2D one more than 1; not %d.",
+                        desc->samples);
     return check_sizes(desc, error);
 }
 
@@ -212,6 +217,7 @@ static lom_texture *create(const lom_texture_desc *asked, lom_error *error)
                                                              : full_level_count(desc->width, desc->height, depth);
     set_sampler(texture, desc);
     texture->label = desc->label;
+    texture->samples = desc->samples > 1 ? desc->samples : 0;
     if (!lay_out(texture, desc, error)) {
         lom_free_texture(texture);
         return NULL;
@@ -269,6 +275,8 @@ void lom_free_texture(lom_texture *texture)
         return;
     lom_release(texture->decoded);
     lom_release(texture->texels);
+    lom_release(texture->kept.memory);
+    lom_release(texture->kept.held);
     lom_release(texture);
 }
 

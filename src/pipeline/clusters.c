@@ -3,7 +3,8 @@
  *
  * Invariant: a cluster that is left out has no fragment. All of its box lies outside one plane, by more than the
  * shader's arithmetic rounds: its vertices do, then, as the pipeline computes them, and so do the pixels of triangles
- * between them, whose centres are half a pixel inside the scissor. */
+ * between them, whose centres are half a pixel inside the scissor; of samples on its edge the top-left rule gives none to
+ * a triangle outside of it. */
 #include "pipeline/clusters.h"
 #include "pipeline/device.h"
 

@@ -200,6 +200,7 @@ bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pi
     lom_enter_float_state(&state);
     size_t rows = (size_t)texture->level[0].height * (size_t)lom_level_layers(texture, 0);
     lom_share_work(device, rows, ROWS, store_rows, &(struct update){ texture, pixels });
+    lom_forget_samples(texture);
     lom_finish_attachment(device, texture);
     lom_leave_float_state(&state);
     return true;

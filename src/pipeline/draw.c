@@ -190,14 +190,15 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
                     : desc->depth_compare == LOM_COMPARE_DEFAULT ? LOM_COMPARE_GREATER
                                                                  : desc->depth_compare;
     draw->depth_write = depth && !desc->depth_write_off;
-    draw->late_depth = shader->discards || shader->writes_depth;
+    draw->late_depth = shader->discards || shader->writes_depth || desc->alpha_to_coverage;
     draw->biased = pass->depth != NULL && (desc->depth_bias != 0 || desc->depth_bias_slope != 0);
     draw->blends = false;
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
     draw->output = output_of(pass, desc);
-    draw->constant = !pass->is_recorded && shader->fragment[draw->variant] != NULL && shader->reads == 0 &&
-                     !shader->reads_position && !shader->discards && !shader->writes_depth && !shader->quads &&
+    draw->sampled = pass->samples > 1 || desc->alpha_to_coverage;
+    draw->constant = !pass->is_recorded && pass->samples == 1 && shader->fragment[draw->variant] != NULL &&
+                     shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&
                      !shader->sprites && !shader->reads_depth;
     draw->queues_depth = shader->reads_position || draw->late_depth;
     draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);

@@ -29,9 +29,9 @@ static void scale_distances(const struct lom_chunk *chunk, const lom_triangle *t
 /* Where a triangle crosses a user clip distance the sign of sum(l d / w) decides; it is odd in d, so d and -d share the
  * pixels exactly. Where the sum is 0 the sign of its gradient decides, as the top-left rule does for edges; the steps
  * of the edge functions add up to 0. */
-static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *t, const lom_float l[3])
+void LOM_WIDE(lom_test_distances)(const struct lom_tile *tile, const lom_triangle *t, const lom_float l[3],
+                                  lom_mask *inside)
 {
-    lom_mask inside = lom_splat_int(-1);
     double x1 = t->step_x1, y1 = t->step_y1, x2 = t->step_x2, y2 = t->step_y2;
     for (uint32_t clip = t->state >> TRIANGLE_CLIP; clip != 0; clip &= clip - 1) {
         float d[3];
@@ -39,13 +39,13 @@ static lom_mask test_distances(const struct lom_tile *tile, const lom_triangle *
         lom_float sum = l[0] * d[0] + l[1] * d[1] + l[2] * d[2];
         double gx = -(x1 + x2) * d[0] + x1 * d[1] + x2 * d[2], gy = -(y1 + y2) * d[0] + y1 * d[1] + y2 * d[2];
         bool keeps_zero = gx > 0 || (gx == 0 && gy >= 0);
-        inside &= keeps_zero ? sum >= 0.0f : sum > 0.0f;
+        *inside &= keeps_zero ? sum >= 0.0f : sum > 0.0f;
     }
-    return inside;
 }
 
 /* The depth with the draw's bias, rounded once to what the attachment holds. Not inlined: few draws have one. */
-static __attribute__((noinline)) void offset_depth(const struct lom_tile *tile, const lom_triangle *t, lom_float *z)
+__attribute__((noinline)) void LOM_WIDE(lom_offset_depth)(const struct lom_tile *tile, const lom_triangle *t,
+                                                          lom_float *z)
 {
     double scale = tile->pass->depth_scale;
     lom_double one = lom_splat_double(1), sum = lom_widen(*z) + lom_depth_offset(tile->pass, tile->chunk, t);
@@ -63,12 +63,12 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
     lom_mask covered = *mask;
     lom_float z = { 0 };
     if (t->state >> TRIANGLE_CLIP != 0)
-        covered &= test_distances(tile, t, l);
+        LOM_WIDE(lom_test_distances)(tile, t, l, &covered);
     if (tile->depth != NULL || draw->queues_depth)
         z = interpolate_depth(&at->depth, l);
     if (draw->biased) {
         lom_float moved = z;
-        offset_depth(tile, t, &moved);
+        LOM_WIDE(lom_offset_depth)(tile, t, &moved);
         z = moved;
     }
     LOM_RECORD_HOOK(lom_record_covered, tile, at, mask, &covered, l, &z);

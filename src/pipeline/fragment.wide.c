@@ -170,19 +170,6 @@ static void find_position(const struct lom_tile *tile, const struct lom_packet *
     in->front = spread(packet, front);
 }
 
-/* The lanes of pending that are the first at their pixel. */
-static lom_mask first_at_pixels(struct lom_tile *tile, const int32_t *pixel, lom_mask pending)
-{
-    uint32_t bits = lom_bits(pending), first = 0;
-    for (int i = LOM_LANES - 1; i >= 0; i--)
-        if (bits >> i & 1)
-            tile->owner[pixel[i]] = (uint8_t)i;
-    for (int i = 0; i < LOM_LANES; i++)
-        if ((bits >> i & 1) && tile->owner[pixel[i]] == i)
-            first |= 1u << i;
-    return lom_mask_of_bits(first);
-}
-
 /* Depth test and write after the shader, for lanes at different pixels. */
 static lom_mask late_depth(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, lom_float depth)
 {
@@ -212,7 +199,7 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
         return;
     }
     while (lom_any(mask)) {
-        lom_mask round = rounds ? first_at_pixels(tile, places->pixel, mask) : mask;
+        lom_mask round = rounds ? lom_first_at_pixels(tile, places->pixel, mask) : mask;
         mask &= ~round;
         if (late)
             round = late_depth(tile, places, round, out->depth);
@@ -227,6 +214,10 @@ void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *pa
     const struct lom_draw *draw = tile->draw;
     const lom_shader *shader = draw->desc.shader;
     lom_fragment out;
+    if (draw->sampled) {
+        LOM_WIDE(lom_run_sampled)(tile, packet, in);
+        return;
+    }
     if (shader->reads_depth)
         in->target_depth = lom_depth_of_units(
             tile->pass, lom_as_float(lom_load_places((const int32_t *)tile->depth, tile, &packet->places)));

@@ -20,6 +20,10 @@ struct lom_packet {
     int32_t
         triangle[LOM_LANES]; /* numbers in the chunk's triangles, `triangles` of them, each different from the last */
     lom_mask covered;
+    /* Only with several samples (struct lom_sample_queue): bits, the place of shading, and rows of depths, one a sample. */
+    lom_int samples, place;
+    const float *sample_depth;
+    size_t depth_pitch;
 };
 
 /* Fragments on their way to the queue: LOM_LANES of any triangles, in order. */
@@ -27,6 +31,8 @@ struct lom_fragments {
     lom_int pixel, triangle; /* place in tile memory; number in the chunk */
     lom_mask covered, taken; /* taken: covered, or a helper that goes with it */
     lom_float l[3], depth;
+    lom_int samples, place; /* as in a packet */
+    const lom_float *sample_depth;
 };
 
 /* Adds the lanes that are taken to the queue; shades it when it is full. */
@@ -41,6 +47,15 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
 /* Its second half: the shader on varyings that are found, and what follows; of the packet: places, depth, triangles and
  * covered. */
 void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in);
+/* The same with draw->sampled (write_samples.wide.c). */
+void LOM_WIDE(lom_run_sampled)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in);
+/* What follows a shader there: the lanes of mask to their samples; of the packet all but weights and triangles. `apart`: no
+ * two lanes are the same sample. */
+void LOM_WIDE(lom_write_samples)(struct lom_tile *tile, const struct lom_packet *packet, const lom_mask *mask,
+                                 bool apart, const lom_fragment *out);
+/* Draws a list of triangles or sprites there (raster_samples.wide.c, raster_sprites.wide.c). */
+void LOM_WIDE(lom_raster_samples)(struct lom_tile *tile, const uint32_t *list, size_t count);
+void LOM_WIDE(lom_raster_sprite_samples)(struct lom_tile *tile, const uint32_t *list, size_t count);
 /* The lanes of mask, whose fragments are shaded, through the late depth test and the output stage, in lane order;
  * `apart`: they are different pixels. */
 void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
@@ -99,6 +114,19 @@ LOM_INLINE void lom_store_places(int32_t *memory, const struct lom_tile *tile, c
         int i = __builtin_ctz(bits);
         memory[places->pixel[i]] = values[i];
     }
+}
+
+/* The lanes of pending that are the first at their pixel. */
+LOM_INLINE lom_mask lom_first_at_pixels(struct lom_tile *tile, const int32_t *pixel, lom_mask pending)
+{
+    uint32_t bits = lom_bits(pending), first = 0;
+    for (int i = LOM_LANES - 1; i >= 0; i--)
+        if (bits >> i & 1)
+            tile->owner[pixel[i]] = (uint8_t)i;
+    for (int i = 0; i < LOM_LANES; i++)
+        if ((bits >> i & 1) && tile->owner[pixel[i]] == i)
+            first |= 1u << i;
+    return lom_mask_of_bits(first);
 }
 
 /* Depth in the attachment's units: the float itself, or a whole number for DEPTH16 and DEPTH24. */

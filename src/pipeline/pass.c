@@ -130,6 +130,8 @@ static bool lay_tiles(lom_device *device)
     for (int i = 0; i < pass->colors; i++)
         pass->tile_bytes += pass->color[i].kind == COLOR_FLOAT ? 16 : 4;
     pass->tile_bytes *= (size_t)edge * (size_t)edge;
+    if (pass->samples > 1 && !lom_lay_samples(device, pass))
+        return false;
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     if (!lom_reserve(&device->tile_touched, &device->tile_touched_capacity, tiles, 1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
@@ -149,12 +151,28 @@ static bool exceeds_caches(const struct lom_pass *pass)
     return cache != 0 && bytes * (uint64_t)pass->width * (uint64_t)pass->height > cache;
 }
 
+static bool choose_samples(lom_device *device, struct lom_pass *pass)
+{
+    pass->samples = pass->desc.samples != 0 ? pass->desc.samples : 1;
+    pass->offset = lom_sample_offsets(pass->samples);
+    if (pass->offset == NULL)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has 1, 2, 4, 8 or 16 samples a pixel, not %d.",
+                        pass->samples);
+    for (int i = 0; i < pass->samples; i++) {
+        const struct lom_sample_offset *at = &pass->offset[i];
+        const int low = at->x < at->y ? at->x : at->y, high = at->x > at->y ? at->x : at->y;
+        pass->reach_low = low * (SUBPIXELS / 16) < pass->reach_low ? low * (SUBPIXELS / 16) : pass->reach_low;
+        pass->reach_high = high * (SUBPIXELS / 16) > pass->reach_high ? high * (SUBPIXELS / 16) : pass->reach_high;
+    }
+    return true;
+}
+
 static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
     *pass = (struct lom_pass){ .device = device, .desc = *desc };
-    if (desc->samples < 0 || desc->samples > 1)
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has 1 sample a pixel, not %d.", desc->samples);
+    if (!choose_samples(device, pass))
+        return false;
     for (int i = 0; i < LOM_MAX_COLORS && desc->color[i] != NULL; i++)
         if (!add_color(device, i))
             return false;

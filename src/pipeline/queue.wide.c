@@ -36,6 +36,31 @@ static void take_packet(const struct lom_tile *tile, int first, int count, struc
     packet->covered = tile->draw->desc.shader->quads ? taken & lom_load_int(q->covered + first) : taken;
     packet->places.block = false;
     lom_store_int(packet->places.pixel, lom_select_int(taken, pixel, lom_splat_int(pixel[0])));
+    if (tile->pass->samples > 1) {
+        packet->samples = lom_load_int(tile->sample_queue.samples + first);
+        packet->place = lom_load_int(tile->sample_queue.place + first);
+        packet->sample_depth = tile->sample_queue.depth[0] + first;
+        packet->depth_pitch = QUEUE_ROOM;
+    }
+}
+
+/* What the queue holds of samples, from an entry on, goes to its begin. */
+static void move_samples(struct lom_tile *tile, int first)
+{
+    struct lom_sample_queue *q = &tile->sample_queue;
+    lom_store_int(q->samples, lom_load_int(q->samples + first));
+    lom_store_int(q->place, lom_load_int(q->place + first));
+    for (int s = 0; tile->draw->late_depth && s < tile->pass->samples; s++)
+        lom_store(q->depth[s], lom_load(q->depth[s] + first));
+}
+
+static void enqueue_samples(struct lom_tile *tile, const struct lom_fragments *f, int first)
+{
+    struct lom_sample_queue *q = &tile->sample_queue;
+    lom_compress((float *)q->samples + first, f->taken, lom_as_float(f->samples));
+    lom_compress((float *)q->place + first, f->taken, lom_as_float(f->place));
+    for (int s = 0; tile->draw->late_depth && s < tile->pass->samples; s++)
+        lom_compress(q->depth[s] + first, f->taken, f->sample_depth[s]);
 }
 
 /* Shades the packets that are full; what is left comes first then. */
@@ -55,6 +80,8 @@ static void shade_full_packets(struct lom_tile *tile)
     lom_store_int(q->pixel, lom_load_int(q->pixel + first));
     lom_store_int(q->covered, lom_load_int(q->covered + first));
     lom_store_int(q->triangle, lom_load_int(q->triangle + first));
+    if (tile->pass->samples > 1)
+        move_samples(tile, first);
 }
 
 void LOM_WIDE(lom_enqueue)(struct lom_tile *tile, const struct lom_fragments *f)
@@ -69,6 +96,8 @@ void LOM_WIDE(lom_enqueue)(struct lom_tile *tile, const struct lom_fragments *f)
         lom_compress(q->depth + first, f->taken, f->depth);
     if (tile->draw->desc.shader->quads)
         lom_compress((float *)q->covered + first, f->taken, lom_as_float(f->covered));
+    if (tile->pass->samples > 1)
+        enqueue_samples(tile, f, first);
     q->count += (int)lom_count(f->taken);
     if (q->count >= QUEUE_SIZE)
         shade_full_packets(tile);
@@ -86,6 +115,10 @@ static void shade_part(struct lom_tile *tile, const struct lom_fragments *f)
     packet.places.block = true;
     for (int k = 0; k < 3; k++)
         packet.l[k] = f->l[k];
+    packet.samples = f->samples;
+    packet.place = f->place;
+    packet.sample_depth = (const float *)f->sample_depth;
+    packet.depth_pitch = LOM_LANES;
     lom_store_int(packet.places.pixel, f->pixel);
     LOM_WIDE(lom_shade_packet)(tile, &packet);
 }

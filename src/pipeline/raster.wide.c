@@ -121,16 +121,20 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
 {
     const struct lom_draw *draw = chunk->draw;
     struct lom_list *packed = &tile->list;
-    bool together = packs(draw) && !tile->pass->one_by_one;
+    bool together = packs(draw) && !tile->pass->one_by_one, sprites = draw->desc.topology == LOM_SPRITES;
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
     tile->tests_early =
         tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
+    if (tile->pass->samples > 1) {
+        (sprites ? LOM_WIDE(lom_raster_sprite_samples) : LOM_WIDE(lom_raster_samples))(tile, list, count);
+        return;
+    }
     size_t folded = tile->is_whole ? LOM_WIDE(lom_fold)(tile, list, count) : 0;
     if (tile->is_whole && folded < count)
         lom_load_whole_tile(tile);
-    if (draw->desc.topology == LOM_SPRITES) {
+    if (sprites) {
         LOM_WIDE(lom_raster_sprites)(tile, list, count);
         return;
     }

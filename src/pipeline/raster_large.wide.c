@@ -3,34 +3,8 @@
  *
  * Invariant: weights are fl(fl(E) * fl(1 / area)) of exact integers, here by double, which holds every edge function
  * exactly. */
+#include "pipeline/edges.h"
 #include "pipeline/window.h"
-
-/* Edge functions over one tile in 64 bits: value at the tile's first pixel, steps a pixel right and down. */
-struct edges {
-    int64_t start[3], dx[3], dy[3], area;
-};
-
-static struct edges find_edges(const struct lom_tile *tile, const lom_triangle *t)
-{
-    struct edges e;
-    int32_t v[3][2];
-    for (int k = 0; k < 3; k++)
-        memcpy(v[k], tile->chunk->rows + t->row[k], sizeof v[k]);
-    int64_t px = ((int64_t)(tile->x - tile->pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    int64_t py = ((int64_t)(tile->y - tile->pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    e.dx[1] = lom_int64_of(t->step_x1);
-    e.dy[1] = lom_int64_of(t->step_y1);
-    e.dx[2] = lom_int64_of(t->step_x2);
-    e.dy[2] = lom_int64_of(t->step_y2);
-    e.dx[0] = -(e.dx[1] + e.dx[2]);
-    e.dy[0] = -(e.dy[1] + e.dy[2]);
-    for (int i = 0; i < 3; i++) {
-        const int32_t *on = v[i == 2 ? 0 : i + 1];
-        e.start[i] = e.dy[i] / SUBPIXELS * (py - on[1]) + e.dx[i] / SUBPIXELS * (px - on[0]);
-    }
-    e.area = e.start[0] + e.start[1] + e.start[2];
-    return e;
-}
 
 /* An edge of a large triangle over one tile in units of 256: (E + bias) >> 8 steps by exact integers, since E steps by
  * multiples of 256, and has the sign of E + bias. */
@@ -40,7 +14,7 @@ struct tile_edge {
 
 typedef enum { EDGE_CROSSES, EDGE_INSIDE, EDGE_OUTSIDE } edge_class;
 
-static edge_class reduce_edge(const struct edges *e, int i, int edge, struct tile_edge *k)
+static edge_class reduce_edge(const struct lom_edges *e, int i, int edge, struct tile_edge *k)
 {
     int bias = bias_of(e->dx[i], e->dy[i]);
     int64_t start = (e->start[i] + bias) >> SUBPIXEL_BITS, dx = e->dx[i] >> SUBPIXEL_BITS,
@@ -61,7 +35,7 @@ struct large {
     const lom_triangle *triangle;
     struct lom_bounds bounds;
     struct depth_plane depth;
-    struct edges edges;
+    struct lom_edges edges;
     struct tile_edge k[3];
     lom_double offset[2][PARTS]; /* edge functions 1 and 2 of a window's pixels less that of its first, exact */
     bool needs_weights;
@@ -112,7 +86,7 @@ LOM_INLINE lom_mask cover_large(const struct tile_edge k[3], int x, int y, int p
 /* The window at (x, y) of the tile. */
 static void raster_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y, bool full)
 {
-    const struct edges *e = &g->edges;
+    const struct lom_edges *e = &g->edges;
     struct part at = { g->triangle, number, memory_index(tile, x, y), 0, g->depth };
     double start1 = (double)(e->start[1] + e->dx[1] * x + e->dy[1] * y);
     double start2 = (double)(e->start[2] + e->dx[2] * x + e->dy[2] * y), area = (double)e->area;
@@ -154,7 +128,7 @@ static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struc
     g->bounds = lom_bounds_of(t);
     g->depth = find_depth(t);
     g->cut = t->state >> TRIANGLE_CUT & 1;
-    g->edges = find_edges(tile, t);
+    g->edges = lom_find_edges(tile, t);
     for (int i = 0; i < 3; i++)
         if (reduce_edge(&g->edges, i, tile->edge, &g->k[i]) == EDGE_OUTSIDE)
             return false;
@@ -218,7 +192,7 @@ struct sides {
     unsigned whole, empty;
 };
 
-static struct sides find_sides(const struct lom_tile *tile, const struct edges *e, const struct lom_bounds *b)
+static struct sides find_sides(const struct lom_tile *tile, const struct lom_edges *e, const struct lom_bounds *b)
 {
     struct sides sides = { 0, 0 };
     int64_t x = b->left - tile->x, y = b->top - tile->y, width = b->right - b->left, height = b->bottom - b->top;
@@ -234,10 +208,10 @@ static struct sides find_sides(const struct lom_tile *tile, const struct edges *
 /* Whether two triangles share an edge, each on its side of it, and have all pixels of b inside their other edges. Their
  * functions of that edge are each other's negative, so a pixel is inside one of them exactly: every pixel of b is
  * covered once. */
-static bool cover_together(const struct lom_tile *tile, const struct edges *e, unsigned whole, const lom_triangle *u,
-                           const struct lom_bounds *b)
+static bool cover_together(const struct lom_tile *tile, const struct lom_edges *e, unsigned whole,
+                           const lom_triangle *u, const struct lom_bounds *b)
 {
-    struct edges f = find_edges(tile, u);
+    struct lom_edges f = lom_find_edges(tile, u);
     unsigned others = find_sides(tile, &f, b).whole;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -259,7 +233,7 @@ size_t LOM_WIDE(lom_fold)(struct lom_tile *tile, const uint32_t *list, size_t co
     int pixels = (b.right - b.left + 1) * (b.bottom - b.top + 1);
     size_t done = 0;
     while (done < count && is_foldable(tile, &triangles[list[done]], &b)) {
-        struct edges e = find_edges(tile, &triangles[list[done]]);
+        struct lom_edges e = lom_find_edges(tile, &triangles[list[done]]);
         struct sides sides = find_sides(tile, &e, &b);
         bool pair = sides.whole != 7 && sides.empty == 0;
         if (pair && (done + 1 == count || !is_foldable(tile, &triangles[list[done + 1]], &b) ||

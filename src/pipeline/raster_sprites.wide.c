@@ -80,6 +80,8 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
     shader->fragment[draw->variant](&out, in, draw->uniforms);
     tile->packets++;
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
+    if (draw->desc.alpha_to_coverage)
+        mask &= out.color[0].w >= 0.5f;
     if (draw->late_depth)
         LOM_WIDE(lom_write_in_order)(tile, &places, &mask, true, &out);
     else if (draw->output == OUTPUT_FLOATS_MULTIPLIED)
@@ -130,5 +132,82 @@ void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, s
             for (int x = r.x0; x <= r.x1; x += 4)
                 raster_window(tile, &sprite, x, y, shader->round, shades);
         }
+    }
+}
+
+/* ---- several samples a pixel ---- */
+
+/* s and t at a place of the pixels of a part, which lies so far from their centres; the lanes that are inside. */
+LOM_INLINE lom_mask cover_place(const struct sprite *sprite, int x, int y, int part,
+                                struct lom_sample_offset from_centre, bool round, lom_float st[2])
+{
+    const lom_triangle *t = sprite->record;
+    lom_float right = lom_to_float(lane_x(part)) + (sprite->x + (float)x + (float)from_centre.x * (1.0f / 16));
+    lom_float down = lom_to_float(lane_y(part)) + (sprite->y + (float)y + (float)from_centre.y * (1.0f / 16));
+    lom_float p = st[0] = right * t->step_x1 + down * t->step_y1, q = st[1] = right * t->step_x2 + down * t->step_y2;
+    return round ? p * p + q * q < 1.0f : (p >= -1.0f) & (p < 1.0f) & (q >= -1.0f) & (q < 1.0f);
+}
+
+/* A packet of the sprite: the lanes of these samples, shaded at a place. */
+static void shade_samples(struct lom_tile *tile, struct sprite *sprite, int x, int y, struct lom_packet *packet,
+                          int part)
+{
+    lom_varyings *in = &sprite->in;
+    packet->covered = packet->samples != 0;
+    if (!lom_any(packet->covered))
+        return;
+    tile->fragments += lom_count(packet->covered);
+    if (tile->draw->desc.shader->fragment[tile->draw->variant] == NULL)
+        return;
+    packet->depth = in->z;
+    packet->triangles = 1;
+    packet->sample_depth = (const float *)&in->z; /* one for all samples */
+    packet->depth_pitch = 0;
+    packet->places.block = true;
+    in->x = lom_to_float(lane_x(part) + (tile->x + x)) + 0.5f;
+    in->y = lom_to_float(lane_y(part) + (tile->y + y)) + 0.5f;
+    LOM_WIDE(lom_run_sampled)(tile, packet, in);
+}
+
+static void raster_sampled_part(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part)
+{
+    static const struct lom_sample_offset centre = { 0, 0 };
+    const bool round = tile->draw->desc.shader->round, cut = sprite->record->state >> TRIANGLE_CUT & 1;
+    const bool each = tile->draw->desc.per_sample;
+    const struct lom_sample_offset *offset = tile->pass->offset;
+    lom_mask allowed = cut ? inside_bounds(tile, &sprite->bounds, x, y, part) : lom_splat_int(-1);
+    lom_float st[2], *at = sprite->in.st;
+    int index = memory_index(tile, x, y) + tile->offset[part * LOM_LANES];
+    struct lom_packet packet = { .samples = { 0 }, .place = { 0 } };
+    lom_store_int(packet.places.pixel,
+                  lom_load_int(tile->offset + part * LOM_LANES) + (index - tile->offset[part * LOM_LANES]));
+    lom_mask placed = cover_place(sprite, x, y, part, centre, round, at) & allowed;
+    for (int s = 0; s < tile->pass->samples; s++) {
+        lom_mask covered = cover_place(sprite, x, y, part, offset[s], round, st) & allowed;
+        lom_mask here = each ? covered : covered & ~placed;
+        for (int k = 0; k < 2; k++)
+            at[k] = lom_select(here, st[k], at[k]);
+        packet.place = lom_select_int(here, lom_splat_int(s + 1), packet.place);
+        placed |= covered;
+        if (tile->tests_early && lom_any(covered))
+            covered = lom_test_depth(tile, index + s * tile->edge * tile->edge, covered, sprite->in.z);
+        packet.samples = each ? covered & 1 << s : packet.samples | (covered & 1 << s);
+        if (each)
+            shade_samples(tile, sprite, x, y, &packet, part);
+    }
+    if (!each)
+        shade_samples(tile, sprite, x, y, &packet, part);
+}
+
+void LOM_WIDE(lom_raster_sprite_samples)(struct lom_tile *tile, const uint32_t *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct sprite sprite;
+        begin_sprite(tile, &tile->chunk->triangles[list[i]], &sprite);
+        struct window_range r = windows_of(tile, &sprite.bounds);
+        for (int y = r.y0; y <= r.y1; y += 4)
+            for (int x = r.x0; x <= r.x1; x += 4)
+                for (int part = 0; part < PARTS; part++)
+                    raster_sampled_part(tile, &sprite, x, y, part);
     }
 }

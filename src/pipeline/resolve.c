@@ -34,8 +34,7 @@ static size_t tile_pixels(const struct lom_pass *pass)
     return (size_t)pass->tile * (size_t)pass->tile;
 }
 
-/* Bytes of attachment i in a tile's memory. */
-static size_t color_bytes(const struct lom_pass *pass, int i)
+size_t lom_image_bytes(const struct lom_pass *pass, int i)
 {
     return tile_pixels(pass) * (pass->color[i].kind == COLOR_FLOAT ? 16 : 4);
 }
@@ -148,7 +147,7 @@ static void clear_color(const struct lom_pass *pass, int i, void *memory)
                                     tile_pixels(pass));
 }
 
-static void load_depth(const struct lom_pass *pass, const struct part *p, float *memory)
+static void load_depth_texels(const struct lom_pass *pass, const struct part *p, float *memory)
 {
     load_words(pass, pass->depth, p, (uint32_t *)(void *)memory);
     for (int y = p->y0; pass->depth_scale != 0 && y < p->y1; y++)
@@ -158,22 +157,33 @@ static void load_depth(const struct lom_pass *pass, const struct part *p, float 
         }
 }
 
-void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
+void lom_load_depth(const struct lom_pass *pass, int number, float *memory)
 {
     struct part p = part_of(pass, number);
+    stages_of(pass)->fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
+    if (pass->desc.depth_load == LOM_LOAD_KEEP)
+        load_depth_texels(pass, &p, memory);
+}
+
+void lom_load_color(const struct lom_pass *pass, int i, int number, void *memory)
+{
+    struct part p = part_of(pass, number);
+    clear_color(pass, i, memory);
+    if (pass->color[i].keep && pass->color[i].kind == COLOR_FLOAT)
+        load_floats(pass, pass->color[i].texture, &p, memory);
+    else if (pass->color[i].keep)
+        load_words(pass, pass->color[i].texture, &p, memory);
+}
+
+void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
+{
     if (pass->uses_depth) {
-        stages_of(pass)->fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
-        if (pass->desc.depth_load == LOM_LOAD_KEEP)
-            load_depth(pass, &p, (float *)(void *)memory);
+        lom_load_depth(pass, number, (float *)(void *)memory);
         memory += tile_pixels(pass) * 4;
     }
     for (int i = 0; i < pass->colors; i++) {
-        clear_color(pass, i, memory);
-        if (pass->color[i].keep && pass->color[i].kind == COLOR_FLOAT)
-            load_floats(pass, pass->color[i].texture, &p, (float *)(void *)memory);
-        else if (pass->color[i].keep)
-            load_words(pass, pass->color[i].texture, &p, (uint32_t *)(void *)memory);
-        memory += color_bytes(pass, i);
+        lom_load_color(pass, i, number, memory);
+        memory += lom_image_bytes(pass, i);
     }
 }
 
@@ -194,29 +204,40 @@ static void resolve_floats(const struct lom_pass *pass, int i, const struct part
 }
 
 /* A depth attachment that no draw of the pass writes ends as it began. */
-static void resolve_depth(const struct lom_pass *pass, const struct part *p, const uint8_t *memory)
+static void resolve_depth(const struct lom_pass *pass, const struct part *p, const void *memory)
 {
     struct lom_rectangle r = depth_rectangle(pass, p);
     if (memory != NULL)
-        stages_of(pass)->store_rectangle(&r, (const uint32_t *)(const void *)memory);
+        stages_of(pass)->store_rectangle(&r, memory);
     else if (pass->desc.depth_load != LOM_LOAD_KEEP)
         stages_of(pass)->fill_rectangle(&r, bits_of(pass->clear_depth));
 }
 
-void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory)
+void lom_resolve_depth(const struct lom_pass *pass, int number, const void *memory)
 {
     struct part p = part_of(pass, number);
+    resolve_depth(pass, &p, memory);
+}
+
+void lom_resolve_color(const struct lom_pass *pass, int i, int number, const void *memory)
+{
+    struct part p = part_of(pass, number);
+    struct lom_rectangle r = byte_rectangle(pass, i, &p);
+    if (pass->color[i].kind == COLOR_FLOAT)
+        resolve_floats(pass, i, &p, memory);
+    else
+        stages_of(pass)->store_rectangle(&r, memory);
+}
+
+void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory)
+{
     if (pass->depth != NULL)
-        resolve_depth(pass, &p, pass->writes_depth ? memory : NULL);
+        lom_resolve_depth(pass, number, pass->writes_depth ? memory : NULL);
     if (pass->uses_depth)
         memory += tile_pixels(pass) * 4;
     for (int i = 0; i < pass->colors; i++) {
-        struct lom_rectangle r = byte_rectangle(pass, i, &p);
-        if (pass->color[i].kind == COLOR_FLOAT)
-            resolve_floats(pass, i, &p, (const float *)(const void *)memory);
-        else
-            stages_of(pass)->store_rectangle(&r, (const uint32_t *)(const void *)memory);
-        memory += color_bytes(pass, i);
+        lom_resolve_color(pass, i, number, memory);
+        memory += lom_image_bytes(pass, i);
     }
 }
 

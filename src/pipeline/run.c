@@ -33,16 +33,20 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
     tile->depth = NULL;
     tile->number = number;
     tile->memory = memory;
+    for (int k = 0; k < 16; k++)
+        tile->offset[k] = (k & 7) + (k >> 3) * 2 * pass->tile;
+    if (pass->samples > 1) {
+        lom_place_samples(pass, tile, memory);
+        return;
+    }
     if (pass->uses_depth) {
         tile->depth = (float *)(void *)memory;
         memory += pixels * 4;
     }
     for (int i = 0; i < pass->colors; i++) {
         tile->color[i] = memory;
-        memory += pixels * (pass->color[i].kind == COLOR_FLOAT ? 16 : 4);
+        memory += lom_image_bytes(pass, i);
     }
-    for (int k = 0; k < 16; k++)
-        tile->offset[k] = (k & 7) + (k >> 3) * 2 * pass->tile;
 }
 
 /* Whether a chunk has a list for a tile, which may be empty. */
@@ -65,6 +69,10 @@ static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
 static void begin_tile(struct lom_pass *pass, struct lom_tile *tile)
 {
     const struct lom_color_target *target = &pass->color[0];
+    if (pass->samples > 1) {
+        lom_begin_samples(pass, tile);
+        return;
+    }
     tile->is_whole = pass->single_batch && pass->colors == 1 && target->kind != COLOR_FLOAT && !target->keep;
     tile->whole = target->clear_bytes;
     if (!tile->is_whole)
@@ -103,9 +111,12 @@ static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, u
 
 /* After the last batch a tile is resolved at once; one that no triangle came near holds its clear values, or keeps what
  * the attachments hold. */
-static void finish_tile(struct lom_pass *pass, const struct lom_tile *tile, int number, uint8_t *memory)
+static void finish_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
 {
-    if (tile->is_whole)
+    if (pass->samples > 1) {
+        place_tile(pass, tile, number, memory);
+        lom_end_samples(pass, tile, pass->tile_touched[number]);
+    } else if (tile->is_whole)
         lom_resolve_whole_tile(pass, number, tile->whole);
     else if (pass->tile_touched[number])
         lom_resolve_tile(pass, number, memory);
@@ -241,11 +252,15 @@ static bool lay_tile_memory(lom_device *device)
     for (size_t i = 0; i < pass->draw_count; i++)
         pass->chunks_left += count_chunks(device, &device->draws[i]);
     pass->single_batch = pass->chunks_left <= (size_t)device->desc.batch;
-    size_t count = pass->single_batch ? (size_t)device->desc.threads : tiles;
-    if (!lom_reserve(&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes, 1, NULL))
+    size_t threads = (size_t)device->desc.threads, count = pass->single_batch ? threads : tiles;
+    size_t scratch = pass->samples > 1 ? lom_scratch_bytes(pass) : 0;
+    if (!lom_reserve(&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes + threads * scratch,
+                     1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
                         pass->width, pass->height);
     pass->tile_memory = device->tile_memory;
+    for (size_t i = 0; i < threads && scratch != 0; i++)
+        device->worker_tiles[i].scratch = device->tile_memory + count * pass->tile_bytes + i * scratch;
     return true;
 }
 
@@ -283,6 +298,7 @@ bool lom_run_pass(lom_device *device)
     pass->chunk_count = 0;
     for (size_t i = 0; i < pass->draw_count; i++)
         note_depth(pass, &device->draws[i]);
+    lom_forget_other_samples(pass);
     if (!cull_draws(device))
         return false;
     if (!lay_tile_memory(device))

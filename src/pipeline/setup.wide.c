@@ -119,14 +119,15 @@ LOM_INLINE void order(struct packet *p, int a, int b)
     p->sign = (p->sign ^ swap) - swap;
 }
 
-/* The pixels whose centres may be inside, cut by the scissor. */
+/* The pixels of which a sample may be inside, cut by the scissor. */
 LOM_INLINE void bound(const struct lom_pass *pass, const struct lom_draw *draw, struct packet *p)
 {
     const lom_rect *s = &draw->scissor;
-    lom_int left = ((p->x0 + (SUBPIXELS / 2 - 1)) >> SUBPIXEL_BITS) + pass->viewport.x;
-    lom_int top = ((p->y0 + (SUBPIXELS / 2 - 1)) >> SUBPIXEL_BITS) + pass->viewport.y;
-    lom_int right = ((p->x1 - SUBPIXELS / 2) >> SUBPIXEL_BITS) + pass->viewport.x;
-    lom_int bottom = ((p->y1 - SUBPIXELS / 2) >> SUBPIXEL_BITS) + pass->viewport.y;
+    const int first = SUBPIXELS / 2 - 1 - pass->reach_high, last = SUBPIXELS / 2 + pass->reach_low;
+    lom_int left = ((p->x0 + first) >> SUBPIXEL_BITS) + pass->viewport.x;
+    lom_int top = ((p->y0 + first) >> SUBPIXEL_BITS) + pass->viewport.y;
+    lom_int right = ((p->x1 - last) >> SUBPIXEL_BITS) + pass->viewport.x;
+    lom_int bottom = ((p->y1 - last) >> SUBPIXEL_BITS) + pass->viewport.y;
     p->cut = (left < s->x) | (top < s->y) | (right > s->x + s->width - 1) | (bottom > s->y + s->height - 1);
     p->left = lom_max_int(left, lom_splat_int(s->x));
     p->top = lom_max_int(top, lom_splat_int(s->y));
@@ -137,6 +138,7 @@ LOM_INLINE void bound(const struct lom_pass *pass, const struct lom_draw *draw, 
     lom_int wx = p->left & ~1, wy = p->top & ~1;
     lom_mask window =
         (p->right - wx < 4) & (p->bottom - wy < 4) & ((wx & edge) <= edge - 3) & ((wy & edge) <= edge - 3);
+    window &= lom_splat_int(pass->samples == 1 ? -1 : 0); /* masks are of centres */
     p->kind =
         lom_select_int(p->small, lom_select_int(window, lom_splat_int(TRIANGLE_WINDOW), lom_splat_int(TRIANGLE_SMALL)),
                        lom_splat_int(TRIANGLE_LARGE));

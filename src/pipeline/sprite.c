@@ -73,8 +73,11 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
         if (!(size_of(a[i]) <= largest_side))
             return false;
     memcpy(middle, row, sizeof middle);
-    struct extent x = bound(middle[0], size_of(a[0]) + size_of(b[0]), pass->viewport.x, s->x, s->x + s->width - 1);
-    struct extent y = bound(middle[1], size_of(a[1]) + size_of(b[1]), pass->viewport.y, s->y, s->y + s->height - 1);
+    const float more = pass->samples > 1 ? 0.5f : 0; /* samples lie so far from centres */
+    struct extent x =
+        bound(middle[0], size_of(a[0]) + size_of(b[0]) + more, pass->viewport.x, s->x, s->x + s->width - 1);
+    struct extent y =
+        bound(middle[1], size_of(a[1]) + size_of(b[1]) + more, pass->viewport.y, s->y, s->y + s->height - 1);
     if (!(size_of(area) >= smallest_area) || x.low > x.high || y.low > y.high)
         return false;
     t->step_x1 = b[1] / area;

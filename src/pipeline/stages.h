@@ -134,6 +134,7 @@ struct lom_draw {
     size_t triangles;    /* or sprites, of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool depth_write, late_depth, blends, constant, biased;
+    bool sampled; /* several samples a pixel, or alpha as coverage */
     lom_output_kind output;
     bool queues_depth;                        /* the fragment stage needs the depth */
     struct lom_paint paint;                   /* with `constant`, once the pass runs */
@@ -227,6 +228,13 @@ struct lom_list {
     int kept; /* triangles of which only the fragments that are there are left */
 };
 
+/* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where
+ * they are shaded (0: the centre, i + 1: sample i); the depth at each sample, only with draw->late_depth. */
+struct lom_sample_queue {
+    int32_t samples[QUEUE_ROOM], place[QUEUE_ROOM];
+    float depth[LOM_MAX_SAMPLES][QUEUE_ROOM];
+};
+
 struct lom_pass;
 
 /* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
@@ -249,6 +257,11 @@ struct lom_tile {
     struct lom_list list;
     uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
                                  write often lies far apart */
+    /* Where pixels have several samples: depth is a plane for each, and color an image for each. A block of 2x2 pixels has
+     * one colour for all samples, which is in image 0 alone, unless its flag is set. */
+    uint8_t *several[LOM_MAX_COLORS];
+    uint8_t *scratch; /* an image */
+    struct lom_sample_queue sample_queue;
 };
 
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
@@ -262,6 +275,11 @@ struct lom_color_target {
     bool keep;
 };
 
+/* A sample's place from its pixel's centre, in 1/16 of a pixel. */
+struct lom_sample_offset {
+    int8_t x, y;
+};
+
 struct lom_pass {
     lom_device *device;
     struct lom_recorder *recorder; /* with a watched attachment (record.h) */
@@ -272,11 +290,14 @@ struct lom_pass {
     int colors;
     struct lom_color_target color[LOM_MAX_COLORS];
     lom_texture *depth;
-    double depth_scale;                           /* 65535, 16777215, or 0 for float depth */
-    float clear_depth;                            /* in tile units */
-    bool uses_depth, writes_depth;                /* a draw tests, reads or writes depth; one writes it */
-    bool one_by_one;                              /* small triangles are drawn by themselves, for tests */
-    bool streams;                                 /* the attachments are larger than the caches */
+    double depth_scale;                     /* 65535, 16777215, or 0 for float depth */
+    float clear_depth;                      /* in tile units */
+    int samples;                            /* of a pixel */
+    const struct lom_sample_offset *offset; /* of each */
+    int reach_low, reach_high;     /* how far they lie from centres along x and y, in 1/SUBPIXELS; <= 0, >= 0 */
+    bool uses_depth, writes_depth; /* a draw tests, reads or writes depth; one writes it */
+    bool one_by_one;               /* small triangles are drawn by themselves, for tests */
+    bool streams;                  /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
     size_t tile_bytes;
     uint8_t *tile_memory;  /* tile_bytes for each tile, or for each worker when there is a single batch */
@@ -328,6 +349,8 @@ struct lom_stages {
     void (*fill_words)(uint32_t *to, uint32_t value, size_t count);
     /* Two rows of pixels as blocks of tile memory. */
     void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
+    /* The means of the samples of colour attachment i, from a tile's images and flags; `to` may be image 0. */
+    void (*find_means)(const struct lom_pass *pass, int i, const void *images, const uint8_t *several, void *to);
 };
 
 /* NULL where the variant is not built. */
@@ -346,7 +369,9 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_store_rectangle_##variant(const struct lom_rectangle *rectangle, const uint32_t *memory);                 \
     void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
-    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
+    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
+    void lom_find_means_##variant(const struct lom_pass *pass, int i, const void *images, const uint8_t *several,      \
+                                  void *to);
 LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
 LOM_DECLARE_STAGES(, 4_recorded)
 
@@ -379,10 +404,34 @@ double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chu
 /* Tile memory from the clear values or the attachments, and to the attachments. */
 void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory);
 void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *memory);
+/* One attachment of it. The depth without memory ends as it began. */
+void lom_load_depth(const struct lom_pass *pass, int number, float *memory);
+void lom_load_color(const struct lom_pass *pass, int i, int number, void *memory);
+void lom_resolve_depth(const struct lom_pass *pass, int number, const void *memory);
+void lom_resolve_color(const struct lom_pass *pass, int i, int number, const void *memory);
+/* Bytes of an image of colour attachment i in tile memory. */
+size_t lom_image_bytes(const struct lom_pass *pass, int i);
 /* The same for a tile that is one colour; and tile memory of such a tile, which then is none any more. */
 void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t color);
 void lom_load_whole_tile(struct lom_tile *tile);
 /* The clear values to the attachments that do not keep their texels; memory is scratch. */
 void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
+
+/* ---- several samples a pixel (samples.c) ---- */
+
+/* The positions of 1, 2, 4, 8 or 16 samples; NULL for other numbers. */
+const struct lom_sample_offset *lom_sample_offsets(int samples);
+/* Room in the pass's textures that keep samples, for a grid as the pass's; the bytes that its tiles need besides. */
+bool lom_lay_samples(lom_device *device, struct lom_pass *pass);
+/* Bytes of the largest image of a colour attachment: of a worker's scratch. */
+size_t lom_scratch_bytes(const struct lom_pass *pass);
+/* Where the tile's images are; its first samples; and, when the pass ends, its texels, from the samples if it was `touched`. */
+void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *memory);
+void lom_begin_samples(struct lom_pass *pass, struct lom_tile *tile);
+void lom_end_samples(struct lom_pass *pass, struct lom_tile *tile, bool touched);
+/* The texels of a texture are new: all its samples are they. Likewise of the attachments that a pass writes in which it has
+ * another number of samples than they keep. */
+void lom_forget_samples(lom_texture *texture);
+void lom_forget_other_samples(const struct lom_pass *pass);
 
 #endif

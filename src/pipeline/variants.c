@@ -6,7 +6,7 @@
     [LOM_SLOT_##variant] = { lom_find_extremes_##variant, lom_rebase_indices_##variant,  lom_shade_vertices_##variant, \
                              lom_set_up_##variant,        lom_raster_##variant,          lom_flush_##variant,          \
                              lom_find_paint_##variant,    lom_store_rectangle_##variant, lom_fill_rectangle_##variant, \
-                             lom_fill_words_##variant,    lom_join_rows_##variant },
+                             lom_fill_words_##variant,    lom_join_rows_##variant,       lom_find_means_##variant },
 
 static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, ) STAGES(, 4_recorded) };
 

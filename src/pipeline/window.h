@@ -81,6 +81,10 @@ LOM_INLINE int bias_of(int64_t dx, int64_t dy)
  * fragment stage (early.wide.c). */
 void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_float l[3],
                         bool alone);
+/* Leaves the lanes inside the clip distances that change sign in the triangle; gives depths the draw's bias. */
+void LOM_WIDE(lom_test_distances)(const struct lom_tile *tile, const lom_triangle *t, const lom_float l[3],
+                                  lom_mask *inside);
+void LOM_WIDE(lom_offset_depth)(const struct lom_tile *tile, const lom_triangle *t, lom_float *z);
 /* Large triangles (raster_large.wide.c). */
 void LOM_WIDE(lom_raster_large)(struct lom_tile *tile, const lom_triangle *t, int32_t number);
 /* Draws the first triangles of a list into a tile that is one colour, as long as it stays one; returns how many. */

@@ -236,7 +236,7 @@ static void t12_impossible_passes_are_refused(void)
                                          { .origin_x = 1 },
                                          { .min_depth = -0.5f },
                                          { .max_depth = 1.5f },
-                                         { .samples = 4 } };
+                                         { .samples = 3 } };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         stage s = open_depth(0);
         begin(&s, bad[i]);

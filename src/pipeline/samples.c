@@ -1,0 +1,213 @@
+/* Passes of several samples a pixel: where samples lie, and the two ends of their memory. In: clear values, texels, or the
+ * samples that a texture keeps from the pass before. Out: texels, and the samples for the pass after.
+ *
+ * A depth attachment has a plane for each sample; a colour attachment an image for each, then a flag for each block of 2x2
+ * pixels: where it is not set, the block's samples are all those of image 0. A texture that keeps samples has this memory for
+ * each tile of the grid, and a pass works in it; what the pass has elsewhere lasts as long as its tile.
+ *
+ * Invariant: a tile's samples are those that were left, whichever passes, of whatever draws, lie between. */
+#include "pipeline/device.h"
+
+static const struct lom_sample_offset centre[] = { { 0, 0 } };
+static const struct lom_sample_offset two[] = { { 4, 4 }, { -4, -4 } };
+static const struct lom_sample_offset four[] = { { -2, -6 }, { 6, -2 }, { -6, 2 }, { 2, 6 } };
+static const struct lom_sample_offset eight[] = { { 1, -3 }, { -1, 3 },  { 5, 1 }, { -3, -5 },
+                                                  { -5, 5 }, { -7, -1 }, { 3, 7 }, { 7, -7 } };
+static const struct lom_sample_offset sixteen[] = { { 1, 1 },  { -1, -3 }, { -3, 2 }, { 4, -1 }, { -5, -2 }, { 2, 5 },
+                                                    { 5, 3 },  { 3, -5 },  { -2, 6 }, { 0, -7 }, { -4, -6 }, { -6, 4 },
+                                                    { -8, 0 }, { 7, -4 },  { 6, 7 },  { -7, -8 } };
+
+const struct lom_sample_offset *lom_sample_offsets(int samples)
+{
+    static const struct lom_sample_offset *const patterns[LOM_MAX_SAMPLES + 1] = {
+        [1] = centre, [2] = two, [4] = four, [8] = eight, [16] = sixteen
+    };
+    return samples >= 1 && samples <= LOM_MAX_SAMPLES ? patterns[samples] : NULL;
+}
+
+bool lom_sample_position(int samples, int i, int position[2])
+{
+    const struct lom_sample_offset *offset = lom_sample_offsets(samples);
+    bool exists = offset != NULL && i >= 0 && i < samples;
+    position[0] = exists ? offset[i].x : 0;
+    position[1] = exists ? offset[i].y : 0;
+    return exists;
+}
+
+static size_t tile_pixels(const struct lom_pass *pass)
+{
+    return (size_t)pass->tile * (size_t)pass->tile;
+}
+
+static size_t depth_bytes(const struct lom_pass *pass)
+{
+    return tile_pixels(pass) * 4 * (size_t)pass->samples;
+}
+
+static size_t color_bytes(const struct lom_pass *pass, int i)
+{
+    return lom_image_bytes(pass, i) * (size_t)pass->samples + tile_pixels(pass) / 4;
+}
+
+size_t lom_scratch_bytes(const struct lom_pass *pass)
+{
+    size_t most = 0;
+    for (int i = 0; i < pass->colors; i++)
+        most = lom_image_bytes(pass, i) > most ? lom_image_bytes(pass, i) : most;
+    return most;
+}
+
+static bool keeps(const struct lom_pass *pass, const lom_texture *texture)
+{
+    return texture->samples == pass->samples;
+}
+
+void lom_forget_samples(lom_texture *texture)
+{
+    if (texture->kept.held != NULL)
+        memset(texture->kept.held, 0, texture->kept.held_capacity);
+}
+
+void lom_forget_other_samples(const struct lom_pass *pass)
+{
+    if (pass->depth != NULL && !keeps(pass, pass->depth) &&
+        (pass->writes_depth || pass->desc.depth_load != LOM_LOAD_KEEP))
+        lom_forget_samples(pass->depth);
+    for (int i = 0; i < pass->colors; i++)
+        if (!keeps(pass, pass->color[i].texture))
+            lom_forget_samples(pass->color[i].texture);
+}
+
+/* Room for the tiles of the pass. What a texture holds for another grid is forgotten. */
+static bool keep(lom_device *device, const struct lom_pass *pass, lom_texture *texture, size_t bytes)
+{
+    struct lom_kept_samples *kept = &texture->kept;
+    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
+    int x0 = pass->tile_x0 - pass->desc.origin_x, y0 = pass->tile_y0 - pass->desc.origin_y;
+    if (kept->edge != pass->tile || kept->x0 != x0 || kept->y0 != y0)
+        lom_forget_samples(texture);
+    kept->edge = pass->tile;
+    kept->x0 = x0;
+    kept->y0 = y0;
+    if (lom_reserve(&kept->memory, &kept->capacity, tiles * bytes, 1, NULL) &&
+        lom_reserve(&kept->held, &kept->held_capacity, tiles, 1, NULL))
+        return true;
+    return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for %d samples a pixel of %dx%d.",
+                    pass->samples, pass->width, pass->height);
+}
+
+bool lom_lay_samples(lom_device *device, struct lom_pass *pass)
+{
+    pass->tile_bytes = 0;
+    if (pass->depth != NULL && !keeps(pass, pass->depth))
+        pass->tile_bytes += depth_bytes(pass);
+    else if (pass->depth != NULL && !keep(device, pass, pass->depth, depth_bytes(pass)))
+        return false;
+    for (int i = 0; i < pass->colors; i++) {
+        lom_texture *texture = pass->color[i].texture;
+        if (!keeps(pass, texture))
+            pass->tile_bytes += color_bytes(pass, i);
+        else if (!keep(device, pass, texture, color_bytes(pass, i)))
+            return false;
+    }
+    return true;
+}
+
+/* The tile's memory of an attachment: the texture's, or the next of the pass's. */
+static uint8_t *place(const struct lom_pass *pass, const lom_texture *texture, int number, size_t bytes,
+                      uint8_t **memory)
+{
+    uint8_t *here = *memory;
+    if (keeps(pass, texture))
+        return texture->kept.memory + (size_t)number * bytes;
+    *memory += bytes;
+    return here;
+}
+
+void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *memory)
+{
+    if (pass->depth != NULL) {
+        uint8_t *depth = place(pass, pass->depth, tile->number, depth_bytes(pass), &memory);
+        tile->depth = pass->uses_depth ? (float *)(void *)depth : NULL;
+    }
+    for (int i = 0; i < pass->colors; i++) {
+        uint8_t *images = place(pass, pass->color[i].texture, tile->number, color_bytes(pass, i), &memory);
+        tile->color[i] = images;
+        tile->several[i] = images + lom_image_bytes(pass, i) * (size_t)pass->samples;
+    }
+}
+
+/* Whether memory has the tile's samples as the pass before left them. */
+static bool holds(const struct lom_pass *pass, const lom_texture *texture, int number)
+{
+    return keeps(pass, texture) && texture->kept.held[number];
+}
+
+void lom_begin_samples(struct lom_pass *pass, struct lom_tile *tile)
+{
+    size_t pixels = tile_pixels(pass);
+    if (tile->depth != NULL && (pass->desc.depth_load != LOM_LOAD_KEEP || !holds(pass, pass->depth, tile->number))) {
+        lom_load_depth(pass, tile->number, tile->depth);
+        for (int s = 1; s < pass->samples; s++)
+            memcpy(tile->depth + (size_t)s * pixels, tile->depth, pixels * sizeof *tile->depth);
+    }
+    for (int i = 0; i < pass->colors; i++) {
+        if (pass->color[i].keep && holds(pass, pass->color[i].texture, tile->number))
+            continue;
+        lom_load_color(pass, i, tile->number, tile->color[i]);
+        memset(tile->several[i], 0, pixels / 4);
+    }
+}
+
+/* Says whether a texture's memory holds the tile's samples from now on. */
+static void note(const struct lom_pass *pass, lom_texture *texture, int number, bool held)
+{
+    if (keeps(pass, texture))
+        texture->kept.held[number] = held;
+}
+
+static void end_depth(struct lom_pass *pass, struct lom_tile *tile)
+{
+    lom_resolve_depth(pass, tile->number, pass->writes_depth ? tile->depth : NULL);
+    if (pass->writes_depth)
+        note(pass, pass->depth, tile->number, true);
+    else if (pass->desc.depth_load != LOM_LOAD_KEEP)
+        note(pass, pass->depth, tile->number, false);
+}
+
+static void end_color(struct lom_pass *pass, struct lom_tile *tile, int i)
+{
+    const struct lom_stages *stages = lom_stages_of(pass->device->variant);
+    lom_texture *texture = pass->color[i].texture;
+    size_t blocks = tile_pixels(pass) / 4;
+    void *image = tile->color[i];
+    if (memchr(tile->several[i], 1, blocks) != NULL) {
+        image = keeps(pass, texture) ? (void *)tile->scratch : tile->color[i];
+        stages->find_means(pass, i, tile->color[i], tile->several[i], image);
+    }
+    lom_resolve_color(pass, i, tile->number, image);
+    note(pass, texture, tile->number, true);
+}
+
+/* A tile that nothing came near: its texels are cleared or left, and so are its samples. */
+static void end_untouched(struct lom_pass *pass, struct lom_tile *tile)
+{
+    lom_clear_tile(pass, tile->number, tile->scratch);
+    if (pass->depth != NULL && pass->desc.depth_load != LOM_LOAD_KEEP)
+        note(pass, pass->depth, tile->number, false);
+    for (int i = 0; i < pass->colors; i++)
+        if (!pass->color[i].keep)
+            note(pass, pass->color[i].texture, tile->number, false);
+}
+
+void lom_end_samples(struct lom_pass *pass, struct lom_tile *tile, bool touched)
+{
+    if (!touched) {
+        end_untouched(pass, tile);
+        return;
+    }
+    if (pass->depth != NULL)
+        end_depth(pass, tile);
+    for (int i = 0; i < pass->colors; i++)
+        end_color(pass, tile, i);
+}
