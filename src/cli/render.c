@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "scene_options.h"
 #include "show_pass.h"
+#include "watch.h"
 
 #include <lom/lom.h>
 
@@ -59,19 +60,10 @@ static const lom_command_line line = {
     .print_more = lom_print_shown_passes,
 };
 
-/* The files of a scene, itself the first, and what they were before they were read. */
-enum { MAX_WATCHED = 4096 };
-
-struct watched {
-    size_t count;
-    char *path[MAX_WATCHED];
-    uint64_t facts[MAX_WATCHED];
-};
-
 /* What is open while frames are drawn. */
 struct run {
     const struct values *values;
-    struct watched *watched; /* NULL: draws once */
+    struct lom_watched *watched; /* NULL: draws once */
     lom_scene *scene;
     lom_renderer *renderer;
     struct lom_frame_output output;
@@ -214,81 +206,6 @@ static void hint_at_frames(const struct run *run)
                 frames);
 }
 
-/* ---- watching ---- */
-
-/* A number that changes when the file is written, replaced, removed or comes back. */
-static uint64_t facts_of(const char *path)
-{
-    struct stat s;
-    int64_t facts[4] = { -1, -1, -1, -1 };
-    if (stat(path, &s) == 0) {
-        facts[0] = (int64_t)s.st_mtim.tv_sec;
-        facts[1] = (int64_t)s.st_mtim.tv_nsec;
-        facts[2] = (int64_t)s.st_size;
-        facts[3] = (int64_t)s.st_ino;
-    }
-    return lom_hash_bytes(LOM_HASH_START, facts, sizeof facts);
-}
-
-static void look(struct watched *w)
-{
-    for (size_t i = 0; i < w->count; i++)
-        w->facts[i] = facts_of(w->path[i]);
-}
-
-static bool has_changed(const struct watched *w)
-{
-    size_t i = 0;
-    while (i < w->count && facts_of(w->path[i]) == w->facts[i])
-        i++;
-    return i < w->count;
-}
-
-static void watch_file(struct watched *w, const char *path)
-{
-    size_t size = strlen(path) + 1;
-    char *copy = w->count < MAX_WATCHED ? lom_allocate(size, 1, NULL) : NULL;
-    if (copy == NULL)
-        return;
-    w->facts[w->count] = facts_of(path);
-    w->path[w->count++] = memcpy(copy, path, size);
-}
-
-/* The files that an OBJ names: its materials and their pictures. */
-static void watch_mesh(struct watched *w, const char *path)
-{
-    lom_bytes paths = lom_list_obj_files(path, NULL);
-    for (size_t at = 0; at < paths.size; at += strlen((const char *)paths.data + at) + 1)
-        watch_file(w, (const char *)paths.data + at);
-    lom_release(paths.data);
-}
-
-static bool is_mesh(const lom_scene *scene, const char *path)
-{
-    for (size_t i = 0; i < scene->entity_count; i++)
-        if (scene->entities[i].mesh != NULL && strcmp(scene->entities[i].mesh, path) == 0)
-            return true;
-    return false;
-}
-
-/* Of a scene that has been read and whose files have not: their facts are taken now and the scene's own, the first, have
- * been before, so that a change while they are read or drawn is seen. */
-static void watch_scene(struct watched *w, const lom_scene *scene)
-{
-    size_t count = 0;
-    const char *const *files = lom_scene_files(scene, &count);
-    uint64_t facts = w->facts[0];
-    for (size_t i = 0; i < w->count; i++)
-        lom_release(w->path[i]);
-    w->count = 0;
-    for (size_t i = 0; i < count; i++) {
-        watch_file(w, files[i]);
-        if (is_mesh(scene, files[i]))
-            watch_mesh(w, files[i]);
-    }
-    w->facts[0] = facts;
-}
-
 /* ---- drawing ---- */
 
 static bool render_once(struct run *run, const char *path, lom_error *error)
@@ -299,7 +216,7 @@ static bool render_once(struct run *run, const char *path, lom_error *error)
     if (run->scene == NULL)
         return false;
     if (run->watched != NULL)
-        watch_scene(run->watched, run->scene);
+        lom_watch_scene(run->watched, run->scene);
     run->output = (struct lom_frame_output){ v->output, v->format, run->scene->output.fps, NULL };
     if (!check_run(run, error))
         return false;
@@ -323,18 +240,18 @@ static void close_run(struct run *run)
 /* After an error in the scene the files of the last good one are watched, since the new ones are not known. */
 static void render_again_and_again(struct run *run, const char *path)
 {
-    struct watched *watched = run->watched;
-    watch_file(watched, path);
+    struct lom_watched *watched = run->watched;
+    lom_watch_file(watched, path);
     for (;;) {
         lom_error error = { .code = LOM_OK };
-        look(watched);
+        lom_look_at_watched(watched);
         if (!render_once(run, path, &error))
             lom_complain_error(&error);
         else
             fprintf(stderr, "lom: drawn; waiting for a change (ctrl-C ends)\n");
         fflush(stdout);
         close_run(run);
-        while (!has_changed(watched))
+        while (!lom_has_changed(watched))
             nanosleep(&(struct timespec){ .tv_nsec = 50000000 }, NULL);
     }
 }
@@ -367,7 +284,7 @@ int lom_command_render(int argc, char **argv)
         return LOM_EXIT_FAILED;
     if (values.frame.given && values.frames.given)
         return lom_complain("--frame and --frames exclude one another.");
-    struct watched watched = { .count = 0 };
+    struct lom_watched watched = { .count = 0 };
     struct run run = { .values = &values, .watched = values.watch ? &watched : NULL };
     if (values.watch)
         render_again_and_again(&run, arguments.items[0]);

@@ -1,0 +1,27 @@
+/* The files of a scene, looked at for changes. */
+#ifndef LOM_CLI_WATCH_H
+#define LOM_CLI_WATCH_H
+
+#include <lom/scene.h>
+
+enum { LOM_MAX_WATCHED = 4096 };
+
+/* The scene file is the first; what they were before they were read. */
+struct lom_watched {
+    size_t count;
+    char *path[LOM_MAX_WATCHED];
+    uint64_t facts[LOM_MAX_WATCHED];
+};
+
+/* One more, with its facts of now. What lies beyond LOM_MAX_WATCHED is not looked at. */
+void lom_watch_file(struct lom_watched *watched, const char *path);
+/* Of a scene that has been read and whose files have not: their facts are taken now and the scene's own, the first, have
+ * been before, so that a change while they are read or drawn is seen. */
+void lom_watch_scene(struct lom_watched *watched, const lom_scene *scene);
+/* Takes the facts of now. */
+void lom_look_at_watched(struct lom_watched *watched);
+bool lom_has_changed(const struct lom_watched *watched);
+/* None is watched any more. */
+void lom_forget_watched(struct lom_watched *watched);
+
+#endif
