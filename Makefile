@@ -16,6 +16,7 @@
 #
 #   CC=clang O=0 BUILD=dir      another compiler, level and folder
 #   SAN=address                 address, undefined, thread or memory sanitizer
+#   SDL=                        no window for lom view, whose SDL2 pkg-config finds else
 #   VARIANTS="4 8"              these lane widths alone: quicker to compile, the same pictures
 #   V=1                         whole commands instead of one short line a file
 
@@ -95,12 +96,20 @@ endif
 
 # What the system has chooses among files: WebAssembly has no threads, signals and owners of files (docs/wasm.md). Its
 # stack lies first, so that one that overflows is an error and never another object's bytes.
-elsewhere = src/base/threads_none.c src/base/system_wasi.c src/cli/start_wasi.c src/cli/processes_none.c
+elsewhere = src/base/threads_none.c src/base/system_wasi.c src/cli/start_wasi.c src/cli/processes_none.c src/cli/background_none.c
 ifneq ($(filter wasm32%,$(MACHINE)),)
-elsewhere = src/base/threads.c src/base/system_posix.c src/cli/signals.c src/cli/processes.c
+elsewhere = src/base/threads.c src/base/system_posix.c src/cli/signals.c src/cli/processes.c src/cli/background.c
 PIC    =
 LDLIBS = -Wl,--stack-first -Wl,-z,stack-size=4194304 -Wl,--strip-all
 endif
+
+# The window of lom view, where pkg-config knows SDL2 and the compiler makes programs for this machine; SDL= leaves it out.
+# What a sanitizer has not compiled may hide its errors, or show those of others.
+ifeq ($(firstword $(subst -, ,$(MACHINE))),$(shell uname -m))
+SDL = $(if $(SAN),,$(shell pkg-config --exists sdl2 2>/dev/null && echo sdl2))
+endif
+SDL_LIBS := $(if $(SDL),$(shell pkg-config --libs $(SDL)))
+elsewhere += src/cli/$(if $(SDL),view_sdl_none,view_sdl).c
 
 sources      := $(filter-out $(elsewhere),$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 cli_sources  := $(filter src/cli/%,$(sources))
@@ -174,8 +183,20 @@ $(BUILD)/measure.a: $(measure_objects)
 	@rm -f $@
 	$(call short,AR)$(AR) rcs $@ $^
 
-$(BUILD)/lom: $(cli_objects) $(lesson_objects) $(COUNTING) $(BUILD)/measure.a $(BUILD)/liblom.a
-	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+$(BUILD)/lom: $(cli_objects) $(lesson_objects) $(COUNTING) $(BUILD)/measure.a $(BUILD)/liblom.a $(BUILD)/window
+	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(SDL_LIBS) $(LDLIBS)
+
+# Linked again when it gets a window or loses it.
+$(BUILD)/window: FORCE
+	@mkdir -p $(@D)
+	@echo "$(SDL_LIBS)" | cmp -s - $@ || echo "$(SDL_LIBS)" > $@
+
+$(BUILD)/src/cli/view_sdl.o: private CPPFLAGS += $(shell pkg-config --cflags sdl2)
+
+# The program's parts, for their tests.
+$(BUILD)/cli.a: $(filter-out $(BUILD)/src/cli/main.o,$(cli_objects))
+	@rm -f $@
+	$(call short,AR)$(AR) rcs $@ $^
 
 # Rebuilt when the flags change, so that a build folder never mixes two. They are read before any target adds its own.
 build_flags := $(CC) $(CPPFLAGS) $(CFLAGS) $(foreach v,$(VARIANTS) $(RECORDED),$(FLAGS_$(v)))
@@ -226,6 +247,10 @@ $(BUILD)/docs/lessons/grade/judge.o: docs/lessons/grade/judge.c $(BUILD)/flags
 $(BUILD)/tests/measure/%: private LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
 $(patsubst %.c,$(BUILD)/%,$(wildcard tests/measure/*.c)): $(BUILD)/measure.a
 
+# The tests of the program's parts.
+$(BUILD)/tests/cli/%: private LDLIBS := $(BUILD)/cli.a $(BUILD)/liblom.a $(LDLIBS)
+$(patsubst %.c,$(BUILD)/%,$(wildcard tests/cli/*.c)): $(BUILD)/cli.a
+
 # The calls that tests/faults lets fail in turn.
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
@@ -274,8 +299,8 @@ NM = nm
 cpu           := $(if $(filter demo,$(MAKECMDGOALS)),$(shell grep -m1 ^flags /proc/cpuinfo 2>/dev/null))
 widest        := $(if $(filter-out $(cpu),avx512f avx512dq avx512bw avx512vl avx512cd),$(if $(filter avx2,$(cpu)),8),16)
 demo_variants := $(filter 4 $(widest),$(VARIANTS))
-demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o), \
-	$(cli_objects) $(lesson_objects) $(measure_objects) $(lib_objects))
+demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o) %/view_sdl.o, \
+	$(sort $(cli_objects) $(BUILD)/src/cli/view_sdl_none.o) $(lesson_objects) $(measure_objects) $(lib_objects))
 
 $(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o
 	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)

@@ -23,6 +23,7 @@ static const command commands[] = {
     { "explain", "say what made a pixel: every triangle that touched it, and why", lom_command_explain },
     { "overlay", "show what the stages did at each pixel: overdraw, mip levels, steps of rays", lom_command_overlay },
     { "render", "draw a scene", lom_command_render },
+    { "view", "show a scene in a window, fly through it, change it", lom_command_view },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
     { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },
     { "grade", "compare a student's stage of the pipeline with the right one, name the broken rule",

@@ -1,0 +1,60 @@
+/* Settings. In: keys and values. Out: a list of overrides. Invariant: a key stands in it once. */
+#include "view_settings.h"
+
+#include <string.h>
+
+static int find(const struct lom_settings *settings, const char *key)
+{
+    size_t length = strlen(key);
+    for (int i = 0; i < settings->count; i++)
+        if (strncmp(settings->text[i], key, length) == 0 && settings->text[i][length] == '=')
+            return i;
+    return -1;
+}
+
+bool lom_set_setting(struct lom_settings *settings, const char *key, const char *value)
+{
+    int at = find(settings, key);
+    if (at < 0)
+        at = settings->count;
+    if (at == LOM_MAX_SETTINGS || strlen(key) + 1 + strlen(value) >= LOM_MAX_SETTING)
+        return false;
+    snprintf(settings->text[at], LOM_MAX_SETTING, "%s=%s", key, value);
+    settings->count += at == settings->count;
+    return true;
+}
+
+bool lom_set_numbers(struct lom_settings *settings, const char *key, const double *values, int count)
+{
+    char text[LOM_MAX_SETTING] = "", number[32];
+    size_t used = 0;
+    for (int i = 0; i < count && used + 40 < sizeof text; i++) {
+        lom_print_double(number, values[i]);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i > 0 ? ", " : count > 1 ? "[" : "", number);
+    }
+    if (count > 1)
+        snprintf(text + used, sizeof text - used, "]");
+    return lom_set_setting(settings, key, text);
+}
+
+bool lom_drop_setting(struct lom_settings *settings, const char *key)
+{
+    int at = find(settings, key);
+    if (at < 0)
+        return false;
+    settings->count--;
+    memmove(settings->text[at], settings->text[at + 1], (size_t)(settings->count - at) * LOM_MAX_SETTING);
+    return true;
+}
+
+const char *lom_find_setting(const struct lom_settings *settings, const char *key)
+{
+    int at = find(settings, key);
+    return at < 0 ? NULL : settings->text[at] + strlen(key) + 1;
+}
+
+void lom_list_settings(const struct lom_settings *settings, lom_option_list *list)
+{
+    for (int i = 0; i < settings->count && list->count < LOM_OPTION_LIST_MAX; i++)
+        list->items[list->count++] = settings->text[i];
+}
