@@ -60,7 +60,7 @@ struct lom_view *lom_open_view(const char *path, const struct lom_scene_options 
     view->host = *host;
     view->watched = lom_allocate(1, sizeof *view->watched, error);
     view->menu = view->watched != NULL ? lom_create_menu(error) : NULL;
-    view->pass = view->explained_x = -1;
+    view->pass = view->overlay = view->explained_x = -1;
     view->divisor = 1;
     view->speed = 10;
     view->adapts = view->shows_status = true;

@@ -101,6 +101,7 @@ struct lom_view {
     struct lom_view_load *load;         /* a scene that is being read; NULL: none */
     struct lom_settings settings, good; /* what the scene has instead of its file; of the scene that is shown */
     bool has_changed;                   /* the settings or a file have: the scene is to be read again */
+    bool needs_renderer;                /* by another renderer, since a file that it names was written */
 
     int width, height; /* of the window */
     double time;       /* of the scene, seconds */
@@ -125,6 +126,7 @@ struct lom_view {
     double drawn_at;                     /* by the host's clock */
     int pictures;                        /* drawn so far */
     int pass;                            /* the pass that is shown, of lom_describe_shown_pass; -1: none */
+    int overlay;                         /* the overlay, of lom_describe_overlay; -1: none */
     bool explains;                       /* the pixel is to be explained */
     int explained_x, explained_y;        /* -1: none is marked */
     bool saves;                          /* the next exact picture is written */

@@ -137,6 +137,15 @@ static void put_pixel(const lom_image *image, size_t i, int red, uint8_t *to)
     to[3] = 255;
 }
 
+static bool take_image(struct lom_view *view, const lom_image *image, lom_error *error)
+{
+    if (!make_room(&view->next, image->width, image->height, error))
+        return false;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++)
+        put_pixel(image, i, has_blue_first(view) ? 2 : 0, view->next.pixels + 4 * i);
+    return true;
+}
+
 /* In the place of the picture of the frame that was drawn last. */
 static bool show_pass(struct lom_view *view, const lom_frame_desc *drawn, lom_error *error)
 {
@@ -144,15 +153,24 @@ static bool show_pass(struct lom_view *view, const lom_frame_desc *drawn, lom_er
     lom_frame_desc desc = *drawn;
     desc.pixels = NULL;
     lom_image *image = lom_show_to_eyes(lom_show_pass(view->renderer, &desc, name, error), name, error);
-    if (image == NULL || !make_room(&view->next, image->width, image->height, error)) {
-        lom_free_image(image);
-        return false;
-    }
-    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++)
-        put_pixel(image, i, has_blue_first(view) ? 2 : 0, view->next.pixels + 4 * i);
-    view->next.fills = image->width == desc.width && image->height == desc.height;
+    bool done = image != NULL && take_image(view, image, error);
+    view->next.fills = done && image->width == desc.width && image->height == desc.height;
     lom_free_image(image);
-    return true;
+    return done;
+}
+
+/* In the place of the frame. */
+static bool draw_overlay(struct lom_view *view, const lom_frame_desc *frame, lom_error *error)
+{
+    lom_overlay_desc desc = { .frame = *frame,
+                              .kind = lom_describe_overlay((size_t)view->overlay),
+                              .legend = LOM_LEGEND_INSIDE };
+    lom_overlay overlay;
+    desc.frame.pixels = NULL;
+    desc.frame.order = LOM_ORDER_OUTPUT;
+    bool done = lom_draw_overlay(view->renderer, &desc, &overlay, error) && take_image(view, overlay.shown, error);
+    lom_free_overlay(&overlay);
+    return done;
 }
 
 /* ---- drawing ---- */
@@ -196,7 +214,8 @@ static bool draw(struct lom_view *view, int divisor, lom_error *error)
     desc.order = view->host.order;
     desc.progress = goes_on;
     desc.progress_context = view;
-    if (!lom_render_frame(view->renderer, &desc, &frame, error))
+    if (view->overlay >= 0 ? !draw_overlay(view, &desc, error)
+                           : !lom_render_frame(view->renderer, &desc, &frame, error))
         return false;
     view->is_exact = divisor == 1 && (!desc.continues || view->scene->quality.impostors == LOM_IMPOSTORS_OFF);
     note_time(view, start, divisor);

@@ -49,14 +49,23 @@ static void toggle_menu(struct lom_view *view)
 /* The pictures of passes in turn, and the frame's; without the frame's as a pass of its own. */
 static void next_pass(struct lom_view *view)
 {
+    view->overlay = -1;
     do
         view->pass = lom_describe_shown_pass((size_t)(view->pass + 1)) != NULL ? view->pass + 1 : -1;
     while (view->pass >= 0 && strcmp(lom_describe_shown_pass((size_t)view->pass)->name, "picture") == 0);
     lom_spoil_view(view);
 }
 
+static void next_overlay(struct lom_view *view)
+{
+    view->pass = -1;
+    view->overlay = lom_describe_overlay((size_t)(view->overlay + 1)) != NULL ? view->overlay + 1 : -1;
+    lom_spoil_view(view);
+}
+
 static void read_again(struct lom_view *view)
 {
+    view->needs_renderer = true;
     view->has_changed = true;
 }
 
@@ -102,8 +111,8 @@ static void leave(struct lom_view *view)
     if (view->message[0] != '\0' || view->explained_x >= 0) {
         lom_tell_view(view, false, "%s", "");
         view->explained_x = -1;
-    } else if (view->pass >= 0) {
-        view->pass = -1;
+    } else if (view->pass >= 0 || view->overlay >= 0) {
+        view->pass = view->overlay = -1;
         lom_spoil_view(view);
     } else {
         view->ends = true;
@@ -136,6 +145,7 @@ static const struct binding {
     { LOM_VIEW_BACKSPACE, "backspace", "camera, aircraft and sun as the file has them", lom_give_back },
     { 0, "click", "explain the pixel", NULL },
     { 'v', "v", "the picture of the next pass", next_pass },
+    { 'b', "b", "the next overlay: what the stages did at each pixel", next_overlay },
     { 'm', "m", "menu: arrows choose and change, backspace: as the file has it", toggle_menu },
     { LOM_VIEW_TAB, "tab", "the same", toggle_menu },
     { 'p', "p", "write the picture into a new file, say the command that draws it", save },

@@ -1,6 +1,7 @@
-/* Reading a scene anew. In: settings or files that have changed. Out: the scene and its renderer in the place of those
- * before, or a sentence why not. Invariant: until then the old ones stay as they are, and their picture stands; settings
- * that no scene can have are taken back. */
+/* Reading a scene anew. In: settings or files that have changed. Out: the scene in the place of the one before, or a
+ * sentence why not. The renderer loads what differs; another one is made when a file that the scene names was written.
+ * Invariant: the picture stands meanwhile, and after a failure the old scene is drawn as before; settings that no scene
+ * can have are taken back. */
 #include "background.h"
 #include "view_menu.h"
 
@@ -13,7 +14,8 @@ struct lom_view_load {
     struct lom_settings settings;
     struct lom_watched *watched;
     lom_scene *scene;
-    lom_renderer *renderer;
+    lom_renderer *renderer; /* the view's, which nobody else uses meanwhile; NULL: another one is to be made */
+    bool is_done;
     lom_error error;
     struct lom_background *background;
 };
@@ -26,7 +28,12 @@ static void work(void *context)
     if (load->scene == NULL)
         return;
     lom_watch_scene(load->watched, load->scene);
-    load->renderer = lom_create_renderer(load->scene, &device, &load->error);
+    if (load->renderer != NULL) {
+        load->is_done = lom_change_scene(load->renderer, load->scene, NULL, &load->error);
+    } else {
+        load->renderer = lom_create_renderer(load->scene, &device, &load->error);
+        load->is_done = load->renderer != NULL;
+    }
 }
 
 static struct lom_view_load *begin(struct lom_view *view, lom_error *error)
@@ -42,6 +49,8 @@ static struct lom_view_load *begin(struct lom_view *view, lom_error *error)
     if (load->options.set.count < LOM_OPTION_LIST_MAX)
         load->options.set.items[load->options.set.count++] = format;
     lom_list_settings(&load->settings, &load->options.set);
+    view->needs_renderer = view->needs_renderer || lom_has_named_file_changed(load->watched);
+    load->renderer = view->needs_renderer ? NULL : view->renderer;
     lom_look_at_watched(load->watched);
     load->background = lom_begin_background(work, load, error);
     if (load->background == NULL)
@@ -60,8 +69,10 @@ static void keep_within(struct lom_view *view)
 
 static void show_loaded(struct lom_view *view, struct lom_view_load *load)
 {
-    lom_free_renderer(view->renderer);
+    if (load->renderer != view->renderer)
+        lom_free_renderer(view->renderer);
     lom_free_scene(view->scene);
+    view->needs_renderer = false;
     view->renderer = load->renderer;
     view->scene = load->scene;
     view->good = load->settings;
@@ -82,7 +93,7 @@ static void finish(struct lom_view *view)
     struct lom_view_load *load = view->load;
     view->load = NULL;
     lom_join_background(load->background);
-    if (load->renderer != NULL) {
+    if (load->is_done) {
         show_loaded(view, load);
     } else {
         lom_free_scene(load->scene);

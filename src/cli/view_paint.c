@@ -169,13 +169,16 @@ static void paint_status(const struct painting *p)
     write_text(p, MARGIN * p->scale, view->height - height - p->scale, text, 0xffffff);
 }
 
+/* What is shown in the place of the picture. */
 static void paint_pass(const struct painting *p, int y)
 {
-    if (p->view->pass < 0)
-        return;
-    const lom_shown_pass *pass = lom_describe_shown_pass((size_t)p->view->pass);
-    char text[200];
-    snprintf(text, sizeof text, "%s: %s", pass->name, pass->text);
+    const struct lom_view *view = p->view;
+    const lom_shown_pass *pass = view->pass >= 0 ? lom_describe_shown_pass((size_t)view->pass) : NULL;
+    const lom_overlay_kind *kind = view->overlay >= 0 ? lom_describe_overlay((size_t)view->overlay) : NULL;
+    char text[400] = "";
+    if (pass != NULL || kind != NULL)
+        snprintf(text, sizeof text, "%s: %s", pass != NULL ? pass->name : kind->name,
+                 pass != NULL ? pass->text : kind->text);
     paint_box(p, 0, y, columns_of(p, p->rows.width), text, 0x80e0ff);
 }
 

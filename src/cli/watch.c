@@ -25,12 +25,21 @@ void lom_look_at_watched(struct lom_watched *w)
         w->facts[i] = facts_of(w->path[i]);
 }
 
-bool lom_has_changed(const struct lom_watched *w)
+static bool has_changed_from(const struct lom_watched *w, size_t i)
 {
-    size_t i = 0;
     while (i < w->count && facts_of(w->path[i]) == w->facts[i])
         i++;
     return i < w->count;
+}
+
+bool lom_has_changed(const struct lom_watched *w)
+{
+    return has_changed_from(w, 0);
+}
+
+bool lom_has_named_file_changed(const struct lom_watched *w)
+{
+    return has_changed_from(w, 1);
 }
 
 void lom_watch_file(struct lom_watched *w, const char *path)

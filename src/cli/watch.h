@@ -21,6 +21,8 @@ void lom_watch_scene(struct lom_watched *watched, const lom_scene *scene);
 /* Takes the facts of now. */
 void lom_look_at_watched(struct lom_watched *watched);
 bool lom_has_changed(const struct lom_watched *watched);
+/* Whether one that the scene names has, and not only the scene file. */
+bool lom_has_named_file_changed(const struct lom_watched *watched);
 /* None is watched any more. */
 void lom_forget_watched(struct lom_watched *watched);
 

@@ -22,8 +22,10 @@ static struct lom_view *open_view(lom_pixel_order order)
 {
     lom_error error = { .code = LOM_OK };
     struct lom_view_host host = { .order = order, .is_patient = true, .interrupts = interrupts };
+    static char path[400];
     waits_for_me = false;
-    struct lom_view *view = lom_open_view(small_path("scene.toml"), &options, &host, &error);
+    snprintf(path, sizeof path, "%s", small_path("scene.toml"));
+    struct lom_view *view = lom_open_view(path, &options, &host, &error);
     CHECK(view != NULL, "%s", error.text);
     return view;
 }
@@ -189,6 +191,13 @@ static void files_are_read_again(void)
     CHECK(rewrite("elevation = 25", "elevation = 25"), "not written");
     go_on(view, 20);
     CHECK(hash_of(view) == first && !view->is_error && view->message[0] == '\0', "%s", view->message);
+    lom_error error = { .code = LOM_OK };
+    CHECK(small_picture("color.png", 4, LOM_FORMAT_RGB8, &error), "%s", error.text); /* a file that it names */
+    go_on(view, 20);
+    CHECK(hash_of(view) != first && hash_of(view) == drawn_afresh(view), "the other texture is not drawn");
+    CHECK(small_picture("color.png", 8, LOM_FORMAT_RGB8, &error), "%s", error.text);
+    go_on(view, 20);
+    CHECK(hash_of(view) == first, "the texture of before is not drawn");
     lom_close_view(view);
 }
 
@@ -324,6 +333,27 @@ static void passes_are_shown_in_turn(void)
     lom_close_view(view);
 }
 
+static void overlays_are_shown_in_turn(void)
+{
+    struct lom_view *view = open_view(LOM_ORDER_BGRX);
+    go_on(view, 1);
+    uint64_t first = hash_of(view), before = first;
+    int shown = 0, other = 0;
+    for (int i = 0; i < 60; i++) {
+        tap(view, 'b');
+        if (view->overlay < 0)
+            break;
+        go_on(view, 2);
+        shown += view->shown.width == 32 && view->is_exact && !view->is_error;
+        other += hash_of(view) != before && hash_of(view) != first;
+        before = hash_of(view);
+    }
+    CHECK(shown >= 10 && other >= shown - 2, "%d shown, %d of them other pictures", shown, other);
+    go_on(view, 1);
+    CHECK(hash_of(view) == first, "not the picture again");
+    lom_close_view(view);
+}
+
 /* The frame of a letter is dark, the letter light, whatever is behind; all of the window is written. */
 static void what_is_painted_is_legible(void)
 {
@@ -364,6 +394,7 @@ int main(int argc, char **argv)
     RUN(a_click_explains);
     RUN(a_path_is_recorded);
     RUN(passes_are_shown_in_turn);
+    RUN(overlays_are_shown_in_turn);
     RUN(what_is_painted_is_legible);
     remove_small_scene();
     return check_result();
