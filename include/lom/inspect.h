@@ -116,6 +116,50 @@ typedef struct lom_overlay {
 bool lom_draw_overlay(lom_renderer *renderer, const lom_overlay_desc *desc, lom_overlay *overlay, lom_error *error);
 void lom_free_overlay(lom_overlay *overlay);
 
+/* ---- a picture of each stage ---- */
+
+enum { LOM_MAX_CAPTION = 560, LOM_MAX_LEGEND = 8, LOM_SCALE_COLORS = 9 };
+
+typedef struct lom_picture_legend {
+    uint8_t color[3]; /* sRGB */
+    char text[88];
+} lom_picture_legend;
+
+/* What a picture of the stages shows. */
+typedef struct lom_stage_picture {
+    char name[48]; /* of small letters, digits and '-', for a file; no two have the same */
+    char title[96];
+    char text[LOM_MAX_CAPTION]; /* what is seen, with its figures */
+    const char *group;          /* which part of the way: "Triangles", "Pixels", "Varyings" ... */
+    const char *source;         /* the file that does it, or NULL: "src/pipeline/clip.c" */
+    lom_image *image;           /* of 8-bit sRGB; of the last one, "final", what lom_render_frame gives */
+    int legend_count;
+    lom_picture_legend legend[LOM_MAX_LEGEND];
+    bool has_scale; /* its colours stand for numbers: color[0] for low ... color[8] for high */
+    bool is_logarithmic;
+    double low, high;
+    uint8_t color[LOM_SCALE_COLORS][3];
+} lom_stage_picture;
+
+typedef struct lom_stages_desc {
+    lom_frame_desc frame; /* its crop, progress and pixels are not used */
+    const char *pass;     /* a pass by its label, the last of this name; NULL: "scene", or the last one that draws */
+} lom_stages_desc;
+
+typedef struct lom_stage_pictures {
+    size_t count;
+    lom_stage_picture *picture; /* in the order of the stages */
+    int width, height;          /* of the frame */
+    char pass[64];
+    lom_plan plan;
+} lom_stage_pictures;
+
+/* Draws the frame, and its pass again while it is listened to and watched, a band of rows at a time: a picture of what
+ * each stage made. The frame's passes are drawn some dozen times. NULL on failure: no pass of that name (the error lists
+ * them), a scene that is traced. Freed with lom_free_stage_pictures; it outlives the renderer. */
+lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_desc *desc, lom_error *error);
+void lom_free_stage_pictures(lom_stage_pictures *pictures); /* NULL is allowed */
+
 LOM_API_END
 
 #endif

@@ -2,9 +2,7 @@
  * the picture, to zoom into, with the triangle of the step over it, and every step to click. Invariant: what is embedded
  * cannot end the element that it stands in. */
 #include "explain_output.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "page.h"
 
 static const char *const head_lines[] = {
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">",
@@ -94,12 +92,6 @@ static const char *const script_lines[] = {
     "picture.src=id('picture').textContent;",
 };
 
-static void print_lines(FILE *out, const char *const *lines, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        fprintf(out, "%s\n", lines[i]);
-}
-
 static void print_base64(FILE *out, lom_bytes bytes)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -113,36 +105,25 @@ static void print_base64(FILE *out, lom_bytes bytes)
     }
 }
 
-/* JSON whose strings hold no "<": it cannot end its element. */
-static bool print_json(FILE *out, const struct lom_explain_head *head)
+static void print_page(FILE *out, lom_bytes explanation, lom_bytes png)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *memory = open_memstream(&text, &size);
-    if (memory == NULL)
-        return false;
-    lom_write_explanation(memory, head);
-    bool done = fclose(memory) == 0;
-    for (size_t i = 0; done && i < size; i++)
-        if (text[i] == '<')
-            fputs("\\u003c", out);
-        else
-            fputc(text[i], out);
-    free(text);
-    return done;
-}
-
-static bool print_page(FILE *out, const struct lom_explain_head *head, lom_bytes png)
-{
-    print_lines(out, head_lines, sizeof head_lines / sizeof head_lines[0]);
+    lom_print_lines(out, head_lines, sizeof head_lines / sizeof head_lines[0]);
     fputs("<script type=\"text/plain\" id=\"picture\">data:image/png;base64,", out);
     print_base64(out, png);
     fputs("</script>\n<script type=\"application/json\" id=\"data\">", out);
-    bool done = print_json(out, head);
+    lom_print_embedded(out, explanation);
     fputs("</script>\n<script>\n", out);
-    print_lines(out, script_lines, sizeof script_lines / sizeof script_lines[0]);
+    lom_print_lines(out, script_lines, sizeof script_lines / sizeof script_lines[0]);
     fputs("</script></html>\n", out);
-    return done;
+}
+
+static lom_bytes print_explanation(const struct lom_explain_head *head, lom_error *error)
+{
+    struct lom_page json;
+    lom_begin_page(&json);
+    if (json.out != NULL)
+        lom_write_explanation(json.out, head);
+    return lom_end_page(&json, error);
 }
 
 /* Browsers show 8 and 16 bits. */
@@ -158,22 +139,16 @@ static lom_bytes encode_picture(const lom_image *picture, lom_error *error)
 
 lom_bytes lom_explanation_page(const struct lom_explain_head *head, const lom_image *picture, lom_error *error)
 {
-    lom_bytes page = { NULL, 0 };
-    char *text = NULL;
-    size_t size = 0;
-    lom_bytes png = encode_picture(picture, error);
-    FILE *memory = png.data != NULL ? open_memstream(&text, &size) : NULL;
-    bool done = memory != NULL && print_page(memory, head, png);
-    done = memory != NULL && fclose(memory) == 0 && done;
-    if (done)
-        page.data = lom_allocate(size, 1, error);
-    if (page.data != NULL) {
-        memcpy(page.data, text, size);
-        page.size = size;
-    } else if (png.data != NULL) {
-        lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for the page.");
+    lom_bytes page = { NULL, 0 }, png = encode_picture(picture, error);
+    lom_bytes explanation = png.data != NULL ? print_explanation(head, error) : page;
+    if (explanation.data != NULL) {
+        struct lom_page html;
+        lom_begin_page(&html);
+        if (html.out != NULL)
+            print_page(html.out, explanation, png);
+        page = lom_end_page(&html, error);
     }
-    free(text);
+    lom_release(explanation.data);
     lom_release(png.data);
     return page;
 }

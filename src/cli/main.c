@@ -24,6 +24,7 @@ static const command commands[] = {
     { "overlay", "show what the stages did at each pixel: overdraw, mip levels, steps of rays", lom_command_overlay },
     { "render", "draw a scene", lom_command_render },
     { "view", "show a scene in a window, fly through it, change it", lom_command_view },
+    { "steps", "draw a scene stage by stage: a numbered picture each, and a page with a slider", lom_command_steps },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
     { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },
     { "grade", "compare a student's stage of the pipeline with the right one, name the broken rule",

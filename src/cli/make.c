@@ -14,8 +14,6 @@
 #include <lom/water.h>
 
 #include <string.h>
-#include <sys/stat.h>
-#include <errno.h>
 
 struct values {
     const char *output;
@@ -294,31 +292,13 @@ static void print_list(void)
         printf("%-10s %-10s %s\n", recipes[i].kind, recipes[i].name != NULL ? recipes[i].name : "", recipes[i].path);
 }
 
-/* Makes the folders that path's file lies in, from `root` characters on. */
-static bool make_folders(char *path, size_t root, lom_error *error)
-{
-    for (size_t i = root; path[i] != '\0'; i++) {
-        if (path[i] != '/' || i == 0)
-            continue;
-        path[i] = '\0';
-        bool made = mkdir(path, 0777) == 0 || errno == EEXIST;
-        int reason = errno;
-        if (!made)
-            lom_fail(error, LOM_ERROR_FILE, "%s: %s.", path, strerror(reason));
-        path[i] = '/';
-        if (!made)
-            return false;
-    }
-    return true;
-}
-
 static bool make_all(const struct values *v, lom_error *error)
 {
     bool done = true;
     for (size_t i = 0; done && i < RECIPE_COUNT; i++) {
         char *path = lom_path_print(error, "%s/%s", v->output, recipes[i].path);
         parameters p = merge(&recipes[i], &(struct values){ 0 });
-        done = path != NULL && make_folders(path, strlen(v->output), error) &&
+        done = path != NULL && lom_make_folders(path, strlen(v->output), error) &&
                recipes[i].make(&recipes[i], &p, path, error);
         lom_release(path);
     }

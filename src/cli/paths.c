@@ -2,9 +2,11 @@
  * locale says. */
 #include "paths.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 const char *lom_path_file(const char *path)
@@ -58,4 +60,21 @@ const char *lom_path_by_program(const char *const *paths, int count, char path[4
             return path;
     }
     return NULL;
+}
+
+bool lom_make_folders(char *path, size_t root, lom_error *error)
+{
+    for (size_t i = root; path[i] != '\0'; i++) {
+        if (path[i] != '/' || i == 0)
+            continue;
+        path[i] = '\0';
+        bool made = mkdir(path, 0777) == 0 || errno == EEXIST;
+        int reason = errno;
+        if (!made)
+            lom_fail(error, LOM_ERROR_FILE, "%s: %s.", path, strerror(reason));
+        path[i] = '/';
+        if (!made)
+            return false;
+    }
+    return true;
 }

@@ -18,4 +18,8 @@ char *lom_path_print(lom_error *error, const char *format, ...) __attribute__((f
  * from the one around it); in `path`, NULL where none is. */
 const char *lom_path_by_program(const char *const *paths, int count, char path[4096]);
 
+/* Makes the folders that path's file lies in, from the one whose name ends at `root` on, where they are not there. path
+ * is as before afterwards. */
+bool lom_make_folders(char *path, size_t root, lom_error *error);
+
 #endif

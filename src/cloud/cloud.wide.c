@@ -38,6 +38,8 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     color = lom_add3(color, lom_scale3(lom_uniform3(cloud->sky), seen.sky));
     color = lom_add3(color, lom_scale3(lom_uniform3(cloud->ground), seen.ground));
     LOM_NAME_AS(sun, seen.sun);
+    LOM_NAME_AS(sky, seen.sky);
+    LOM_NAME_AS(ground, seen.ground);
     LOM_NAME_AS(distance, seen.distance);
     color = lom_cloud_haze(cloud, color, alpha, seen.distance);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };

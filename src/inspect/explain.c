@@ -2,6 +2,7 @@
  * own pictures that its shaders read, as deep as asked. Invariant: every drawing of the frame is the same one: what it
  * leaves for the next is forgotten before it, so passes keep their numbers from one to the next. */
 #include "base/own_float_state.h"
+#include "inspect/forget.h"
 #include "inspect/verdict.h"
 #include "pipeline/check_device.h"
 #include "render/frame.h"
@@ -98,8 +99,7 @@ static void follow(const lom_device *device, lom_explanation *explanation, const
 
 /* ---- drawing ---- */
 
-/* What a frame keeps of the ones before: shadow maps, the plates of a run. */
-static void forget_frames(lom_renderer *r)
+void lom_forget_frames(lom_renderer *r)
 {
     for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
         r->entities.shadows[i].made_for = 0;
@@ -118,7 +118,7 @@ static bool draw(lom_renderer *r, lom_explanation *explanation, const lom_explai
     watches[0].width = desc->frame.crop.width;
     watches[0].height = desc->frame.crop.height;
     lom_free_image(explanation->frame.image);
-    forget_frames(r);
+    lom_forget_frames(r);
     if (!lom_watch(r->device, watches, explanation->count))
         return lom_check_device(r->device, error);
     if (!lom_render_frame(r, &desc->frame, &explanation->frame, error))
@@ -207,7 +207,7 @@ void lom_free_explanation(lom_renderer *renderer, lom_explanation *explanation)
     if (explanation == NULL)
         return;
     lom_watch(renderer->device, NULL, 0);
-    forget_frames(renderer);
+    lom_forget_frames(renderer);
     lom_free_image(explanation->frame.image);
     lom_release(explanation);
 }

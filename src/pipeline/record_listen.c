@@ -70,9 +70,9 @@ static lom_reach reach_of(const struct telling *t, const struct record_piece *pi
 {
     if (piece->stage == RECORD_DONE)
         return LOM_REACH_BINNED;
-    if (is_beside(t, v))
-        return LOM_REACH_BESIDE;
-    return piece->stage == RECORD_SENT && has_area(v) ? LOM_REACH_FACING : LOM_REACH_EMPTY;
+    if (piece->stage == RECORD_SENT && has_area(v))
+        return LOM_REACH_FACING;
+    return is_beside(t, v) ? LOM_REACH_BESIDE : LOM_REACH_EMPTY;
 }
 
 static bool is_own(const struct record_candidate *c, const float clip[4])

@@ -35,9 +35,12 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
     LOM_NAME_VALUE(share);
     LOM_NAME_VALUE(lambert);
     struct lom_lit lit;
-    lom_float3 ambient = lom_mix3(lom_uniform3(light->ground), lom_uniform3(light->ambient), 0.5f + 0.5f * normal.y);
-    lit.textured = lom_add3(lom_mul3(lom_scale3(ambient, sky), lom_uniform3(m->ambient)),
-                            lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert));
+    lom_float3 around = lom_mix3(lom_uniform3(light->ground), lom_uniform3(light->ambient), 0.5f + 0.5f * normal.y);
+    lom_float3 ambient = lom_mul3(lom_scale3(around, sky), lom_uniform3(m->ambient));
+    lom_float3 diffuse = lom_scale3(lom_mul3(lom_uniform3(light->color), lom_uniform3(m->diffuse)), lambert);
+    LOM_NAME_VALUE(ambient);
+    LOM_NAME_VALUE(diffuse);
+    lit.textured = lom_add3(ambient, diffuse);
     lit.highlight = lom_splat3(0, 0, 0);
     if (m->specular[0] != 0 || m->specular[1] != 0 || m->specular[2] != 0) {
         lom_float3 to_eye = lom_normalize3(lom_scale3(offset, lom_splat(-1.0f)));

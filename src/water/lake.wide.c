@@ -126,6 +126,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
         LOM_NAME_VALUE(highlight);
         color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
     }
+    LOM_NAME_VALUE(color);
     lom_float alpha = lake->has_soft_shore ? lom_saturate(w.depth / lake->shore_depth) : lom_splat(1.0f);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
 }

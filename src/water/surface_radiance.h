@@ -282,7 +282,11 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
     }
     lom_float3 transmitted = lom_arriving(u, &u->behind, p, bent, !above, u->bent, 0.25f * variance);
 
-    lom_float3 color = lom_add3(lom_mix3(transmitted, reflected, share), lom_glitter(u, p));
+    lom_float3 glitter = lom_glitter(u, p), color = lom_add3(lom_mix3(transmitted, reflected, share), glitter);
+    LOM_NAME_VALUE(reflected);
+    LOM_NAME_VALUE(transmitted);
+    LOM_NAME_AS(reflected_share, share);
+    LOM_NAME_VALUE(glitter);
     if (u->foam.pattern == NULL)
         return color;
     return lom_mix3(color, lom_foam_radiance(u, p), lom_foam_cover(u, p, f));

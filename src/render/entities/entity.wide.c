@@ -16,11 +16,14 @@ static struct corner transform(lom_vertex *out, const lom_attributes *in, const 
                         lom_rotate3(&entity->normal_from_model,
                                     (lom_float3){ in->attribute[1].x, in->attribute[1].y, in->attribute[1].z }) };
     LOM_NAME_AS(offset, c.offset);
+    LOM_NAME_AS(normal, c.normal);
     out->position = lom_transform4(&entity->clip_from_model, model);
     out->distance[0] = lom_transform_row(entity->view.plane, c.offset);
     out->varying[OFFSET] = c.offset.x;
     out->varying[OFFSET + 1] = c.offset.y;
     out->varying[OFFSET + 2] = c.offset.z;
+    LOM_NAME_AS(s, in->attribute[2].x);
+    LOM_NAME_AS(t, in->attribute[2].y);
     out->varying[UV] = in->attribute[2].x;
     out->varying[UV + 1] = in->attribute[2].y;
     return c;
@@ -32,6 +35,7 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     out->varying[NORMAL] = c.normal.x;
     out->varying[NORMAL + 1] = c.normal.y;
     out->varying[NORMAL + 2] = c.normal.z;
+    LOM_NAME_AS(tint, in->attribute[3]);
     out->varying[COLOR] = in->attribute[3].x;
     out->varying[COLOR + 1] = in->attribute[3].y;
     out->varying[COLOR + 2] = in->attribute[3].z;
@@ -72,9 +76,10 @@ static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_var
 static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
                    lom_float3 textured, lom_float3 highlight)
 {
-    lom_float3 color = lom_add3(lom_mul3(textured, albedo(entity, in)), highlight);
+    lom_float3 skin = albedo(entity, in), color = lom_add3(lom_mul3(textured, skin), highlight);
     LOM_NAME_VALUE(textured);
     LOM_NAME_VALUE(highlight);
+    LOM_NAME_AS(albedo, skin);
     LOM_NAME_VALUE(color);
     lom_finish_opaque(out, &entity->view, load3(in, OFFSET), color);
 }

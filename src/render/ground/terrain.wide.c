@@ -155,7 +155,10 @@ static lom_float3 perturb(const struct lom_terrain_uniforms *terrain, const lom_
 static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_terrain_uniforms *terrain,
                    struct lom_lit lit, const struct ground *g)
 {
-    lom_float3 color = lom_add3(lom_mul3(lit.textured, albedo(terrain, in, g)), lit.highlight);
+    lom_float3 ground = albedo(terrain, in, g), color = lom_add3(lom_mul3(lit.textured, ground), lit.highlight);
+    LOM_NAME_AS(highlight, lit.highlight);
+    LOM_NAME_AS(albedo, ground);
+    LOM_NAME_VALUE(color);
     lom_finish_opaque(out, &terrain->view, load3(in, OFFSET), color);
 }
 

@@ -1,0 +1,16 @@
+/* The page of `lom steps`. */
+#ifndef LOM_CLI_STEPS_PAGE_H
+#define LOM_CLI_STEPS_PAGE_H
+
+#include <lom/inspect.h>
+
+struct lom_steps_page {
+    const char *scene; /* the name of its file */
+    int frame;
+    const lom_stage_pictures *pictures;
+};
+
+/* HTML that shows NN-name.png of its own folder, and needs no other file; data NULL on failure. */
+lom_bytes lom_write_steps_page(const struct lom_steps_page *page, lom_error *error);
+
+#endif

@@ -1,0 +1,276 @@
+/* Pictures of the stages. In: a renderer, a frame, the name of a pass. Out: a picture of what each stage made of that pass
+ * and of what each pass made of the frame. Invariant: every drawing of the frame is the same one: what it leaves for the
+ * next is forgotten before it, so passes keep their numbers from one to the next; it is left off behind the chosen pass. */
+#include "base/own_float_state.h"
+#include "inspect/forget.h"
+#include "inspect/steps.h"
+#include "base/reserve.h"
+#include "pipeline/check_device.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+enum { SLIDE = 960 }; /* pixels that a picture is wide at least */
+
+/* ---- the list of pictures ---- */
+
+static bool is_taken(const struct steps *s, const char *name)
+{
+    for (size_t i = 0; i < s->out->count; i++)
+        if (strcmp(s->out->picture[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* A name as a part of a file's. */
+static void write_name(const struct steps *s, const char *text, char name[48])
+{
+    size_t length = 0;
+    for (; *text != 0 && length < 40; text++) {
+        char c = *text >= 'A' && *text <= 'Z' ? (char)(*text - 'A' + 'a') : *text;
+        bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (plain)
+            name[length++] = c;
+        else if (length > 0 && name[length - 1] != '-')
+            name[length++] = '-';
+    }
+    while (length > 0 && name[length - 1] == '-')
+        length--;
+    name[length] = 0;
+    for (int i = 2; is_taken(s, name); i++)
+        snprintf(name + length, 48 - length, "-%d", i);
+}
+
+lom_stage_picture *lom_add_picture(struct steps *s, const char *group, const char *name, const char *title,
+                                   const char *source, lom_image *image, const char *format, ...)
+{
+    lom_stage_pictures *out = s->out;
+    if (image == NULL || !lom_reserve(&out->picture, &s->capacity, out->count + 1, sizeof *out->picture, s->error)) {
+        lom_free_image(image);
+        s->failed = true;
+        return NULL;
+    }
+    lom_stage_picture *picture = &out->picture[out->count];
+    *picture = (lom_stage_picture){ .group = group, .source = source, .image = image };
+    write_name(s, name, picture->name);
+    snprintf(picture->title, sizeof picture->title, "%s", title);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(picture->text, sizeof picture->text, format, arguments);
+    va_end(arguments);
+    out->count++;
+    return picture;
+}
+
+void lom_add_legend(lom_stage_picture *picture, const struct ink *ink, const char *format, ...)
+{
+    if (picture == NULL || picture->legend_count == LOM_MAX_LEGEND)
+        return;
+    lom_picture_legend *legend = &picture->legend[picture->legend_count++];
+    for (int c = 0; c < 3; c++)
+        legend->color[c] = (uint8_t)lom_int_of((double)ink->color[c] * 255 + 0.5);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(legend->text, sizeof legend->text, format, arguments);
+    va_end(arguments);
+}
+
+void lom_add_scale(lom_stage_picture *picture, const uint8_t ramp[LOM_RAMP_COLORS][3], double low, double high,
+                   bool is_logarithmic)
+{
+    if (picture == NULL)
+        return;
+    picture->has_scale = true;
+    picture->is_logarithmic = is_logarithmic;
+    picture->low = low;
+    picture->high = high;
+    memcpy(picture->color, ramp, sizeof picture->color);
+}
+
+void lom_free_stage_pictures(lom_stage_pictures *pictures)
+{
+    if (pictures == NULL)
+        return;
+    for (size_t i = 0; i < pictures->count; i++)
+        lom_free_image(pictures->picture[i].image);
+    lom_release(pictures->picture);
+    lom_release(pictures);
+}
+
+/* ---- drawing ---- */
+
+/* Left off when the last pass that is wanted has ended. */
+static bool go_on(void *context, const char *pass, double done)
+{
+    const struct steps *s = context;
+    (void)pass;
+    (void)done;
+    return lom_count_watched_passes(s->renderer->device) <= s->last;
+}
+
+static lom_frame_desc describe_frame(const struct steps *s)
+{
+    lom_frame_desc frame = s->desc->frame;
+    frame.crop = (lom_rect){ 0, 0, 0, 0 };
+    frame.pixels = NULL;
+    frame.progress = NULL;
+    frame.continues = false;
+    return frame;
+}
+
+bool lom_draw_chosen(struct steps *s, const lom_listener *listener)
+{
+    lom_frame frame = { .image = NULL };
+    lom_error error = { .code = LOM_OK };
+    lom_frame_desc desc = describe_frame(s);
+    desc.progress = go_on;
+    desc.progress_context = s;
+    lom_forget_frames(s->renderer);
+    if (listener != NULL && !lom_listen(s->renderer->device, listener))
+        return lom_check_device(s->renderer->device, s->error);
+    bool done = lom_render_frame(s->renderer, &desc, &frame, &error) || error.code == LOM_ERROR_ABANDONED;
+    lom_free_image(frame.image);
+    if (!done)
+        *s->error = error;
+    return done;
+}
+
+/* ---- the passes ---- */
+
+static const char *label_of(const lom_pass_desc *desc)
+{
+    return desc->label != NULL ? desc->label : "pass";
+}
+
+static void list_pass(void *context, uint64_t number, const lom_pass_desc *desc, size_t draws, bool blends)
+{
+    struct steps *s = context;
+    const lom_texture *target = desc->color[0] != NULL ? desc->color[0] : desc->depth;
+    struct listed_pass *pass = NULL;
+    for (size_t i = 0; i < s->pass_count && pass == NULL; i++)
+        if (strcmp(s->passes[i].label, label_of(desc)) == 0)
+            pass = &s->passes[i];
+    if (pass == NULL) {
+        if (!lom_reserve(&s->passes, &s->pass_capacity, s->pass_count + 1, sizeof *s->passes, s->error)) {
+            s->failed = true;
+            return;
+        }
+        pass = &s->passes[s->pass_count++];
+        *pass = (struct listed_pass){ .label = label_of(desc) };
+    }
+    lom_free_image(pass->image);
+    pass->image = lom_read_texture(target, 0, 0, s->error);
+    s->failed |= pass->image == NULL;
+    pass->number = number;
+    pass->desc = *desc;
+    pass->draws += draws;
+    pass->blends |= blends;
+    pass->times++;
+}
+
+static const struct listed_pass *find_pass(const struct steps *s, const char *label)
+{
+    for (size_t i = 0; i < s->pass_count; i++)
+        if (strcmp(s->passes[i].label, label) == 0)
+            return &s->passes[i];
+    return NULL;
+}
+
+static bool choose_pass(struct steps *s)
+{
+    const char *name = s->desc->pass;
+    const struct listed_pass *pass = find_pass(s, name != NULL ? name : "scene");
+    for (size_t i = 0; i < s->pass_count && name == NULL && pass == NULL; i++)
+        if (s->passes[i].draws > 0)
+            pass = &s->passes[i];
+    if (pass == NULL) {
+        char names[400] = "";
+        for (size_t i = 0; i < s->pass_count; i++) {
+            size_t length = strlen(names);
+            snprintf(names + length, sizeof names - length, "%s%s", i > 0 ? ", " : "", s->passes[i].label);
+        }
+        return lom_fail(s->error, LOM_ERROR_USAGE, "This frame draws no pass \"%s\"; it draws %s.",
+                        name != NULL ? name : "scene", names);
+    }
+    s->chosen = *pass;
+    for (size_t i = 0; i < s->pass_count; i++) {
+        const struct listed_pass *p = &s->passes[i];
+        bool same = p->desc.color[0] != NULL && p->desc.color[0] == pass->desc.color[0];
+        if (same && p->blends && p->number >= pass->number)
+            s->blended = *p;
+    }
+    s->attachment = pass->desc.color[0] != NULL ? 0 : -1;
+    s->target = s->attachment == 0 ? pass->desc.color[0] : pass->desc.depth;
+    s->width = lom_texture_width(s->target);
+    s->height = lom_texture_height(s->target);
+    s->zoom = (SLIDE + s->width - 1) / s->width;
+    snprintf(s->out->pass, sizeof s->out->pass, "%s", pass->label);
+    return true;
+}
+
+static bool draw_whole(struct steps *s, lom_frame *frame)
+{
+    const lom_listener listener = { .context = s, .ended = list_pass };
+    lom_frame_desc desc = describe_frame(s);
+    lom_forget_frames(s->renderer);
+    return (lom_listen(s->renderer->device, &listener) || lom_check_device(s->renderer->device, s->error)) &&
+           lom_render_frame(s->renderer, &desc, frame, s->error) && !s->failed;
+}
+
+static void make_pictures(struct steps *s, lom_frame *frame)
+{
+    static void (*const parts[])(struct steps * s) = { lom_picture_triangles, lom_record_planes, lom_picture_coverage,
+                                                       lom_picture_planes, lom_picture_passes };
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0] && !s->failed; i++)
+        parts[i](s);
+    if (s->failed)
+        return;
+    lom_add_picture(s, "Frame", "final", "The picture", "src/render/output.c", frame->image,
+                    "What `lom render` writes, byte for byte.");
+    frame->image = NULL;
+}
+
+static void clear(struct steps *s)
+{
+    for (size_t i = 0; i < s->pass_count; i++)
+        lom_free_image(s->passes[i].image);
+    for (size_t i = 0; i < s->plane_count; i++) {
+        lom_release(s->planes[i].value);
+        lom_release(s->planes[i].is_there);
+    }
+    for (size_t i = 0; i < s->level_count; i++)
+        lom_release(s->levels[i].times);
+    lom_release(s->passes);
+    lom_release(s->planes);
+    lom_release(s->levels);
+    lom_release(s->owner);
+    lom_watch(s->renderer->device, NULL, 0);
+    lom_forget_frames(s->renderer);
+}
+
+lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_desc *desc, lom_error *error)
+{
+    LOM_OWN_FLOAT_STATE;
+    lom_error own = { .code = LOM_OK };
+    struct steps s = { .renderer = renderer, .desc = desc, .error = &own };
+    lom_frame frame = { .image = NULL };
+    s.out = lom_allocate(1, sizeof *s.out, &own);
+    if (s.out != NULL && renderer->reference != NULL)
+        lom_fail(&own, LOM_ERROR_USAGE,
+                 "This scene's picture is traced by the reference, which has no stages: take "
+                 "another model, like --set quality.water=planar and --set quality.clouds=lit.");
+    if (own.code == LOM_OK && draw_whole(&s, &frame) && choose_pass(&s)) {
+        s.out->plan = frame.plan;
+        s.out->width = frame.image->width;
+        s.out->height = frame.image->height;
+        make_pictures(&s, &frame);
+    }
+    lom_free_image(frame.image);
+    clear(&s);
+    if (own.code == LOM_OK)
+        return s.out;
+    lom_free_stage_pictures(s.out);
+    if (error != NULL)
+        *error = own;
+    return NULL;
+}

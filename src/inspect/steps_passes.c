@@ -1,0 +1,53 @@
+/* Pictures of the passes. In: what each pass of the frame left in its attachment. Out: a picture of each, in the order in
+ * which they ran, with what the plan says of it. Invariant: the picture is read when its pass has ended. */
+#include "inspect/steps.h"
+
+#include <stdio.h>
+
+static const char *plan_text(const struct steps *s, const char *label)
+{
+    const lom_plan *plan = &s->out->plan;
+    for (int i = 0; i < plan->count; i++)
+        if (strcmp(plan->step[i].name, label) == 0)
+            return plan->step[i].text;
+    return "a part of another step of the plan";
+}
+
+/* Frees it. */
+static lom_image *show(struct steps *s, struct listed_pass *pass)
+{
+    lom_image *image = pass->image, *shown = NULL;
+    const lom_format_info *format = lom_describe_format(image->format);
+    pass->image = NULL;
+    if (format->is_depth) {
+        lom_image *floats = lom_convert_image(image, LOM_FORMAT_R32F, s->error);
+        lom_image *gray = floats != NULL ? lom_show_to_eyes(floats, "depth", s->error) : NULL;
+        shown = gray != NULL ? lom_convert_image(gray, LOM_FORMAT_RGB8, s->error) : NULL;
+        lom_free_image(gray);
+    } else if (format->is_float || format->is_srgb) {
+        shown = lom_convert_image(image, LOM_FORMAT_RGB8_SRGB, s->error);
+    } else {
+        shown = lom_convert_image(image, LOM_FORMAT_RGB8, s->error);
+    }
+    lom_free_image(image);
+    if (shown != NULL)
+        shown->format = LOM_FORMAT_RGB8_SRGB;
+    return shown != NULL && shown->width == s->width ? lom_magnify(shown, s->zoom, s->error) : shown;
+}
+
+void lom_picture_passes(struct steps *s)
+{
+    for (size_t i = 0; i < s->pass_count && !s->failed; i++) {
+        struct listed_pass *pass = &s->passes[i];
+        char name[64], title[96], times[64] = "";
+        bool is_depth = lom_describe_format(pass->image->format)->is_depth;
+        snprintf(name, sizeof name, "pass-%s", pass->label);
+        snprintf(title, sizeof title, "Pass \"%s\"", pass->label);
+        if (pass->times > 1)
+            snprintf(times, sizeof times, " The last of %zu of this name.", pass->times);
+        lom_add_picture(s, "Passes", name, title, "src/pipeline/resolve.c", show(s, pass),
+                        "What pass %llu leaves in its %s: %s. %zu draws.%s", (unsigned long long)pass->number,
+                        is_depth ? "depth attachment (brighter is nearer)" : "colour attachment",
+                        plan_text(s, pass->label), pass->draws, times);
+    }
+}
