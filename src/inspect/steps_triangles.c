@@ -209,6 +209,16 @@ static bool is_off(const struct canvas *c, const double at[3][2])
     return false;
 }
 
+/* Brighter the nearer it is: by the fourth root of the reversed depth. */
+static struct ink dim(struct ink ink, const lom_told_piece *piece)
+{
+    double depth = ((double)piece->window[0][2] + (double)piece->window[1][2] + (double)piece->window[2][2]) / 3;
+    double bright = 0.3 + 1.7 * lom_double_sqrt(lom_double_sqrt(lom_larger(depth, 0)));
+    for (int c = 0; c < 3; c++)
+        ink.color[c] *= (float)lom_smaller(bright, 1);
+    return ink;
+}
+
 static void draw_window(struct all_triangles *a, const lom_told_piece *piece)
 {
     double at[3][2], inside[3][2];
@@ -217,7 +227,8 @@ static void draw_window(struct all_triangles *a, const lom_told_piece *piece)
         place_window(a, piece->window[k], false, inside[k]);
     }
     bool is_drawn = piece->reach == LOM_REACH_BINNED, off = is_off(&a->fates, (const double(*)[2])inside);
-    draw_outline(&a->window, (const double(*)[2])at, off ? reach_inks[LOM_REACH_BESIDE] : kept_ink, off ? 0.1 : 0.18);
+    draw_outline(&a->window, (const double(*)[2])at, dim(off ? reach_inks[LOM_REACH_BESIDE] : kept_ink, piece),
+                 off ? 0.12 : 0.08);
     draw_outline(&a->fates, (const double(*)[2])inside, reach_inks[piece->reach], is_drawn ? 0.12 : 0.2);
     if (is_drawn)
         draw_outline(&a->bins, (const double(*)[2])inside, (struct ink){ { 0.75f, 0.8f, 0.85f }, 0.5f }, 0.1);
@@ -294,7 +305,7 @@ static void add_window_pictures(struct all_triangles *a)
     lom_stage_picture *p = lom_add_picture(
         s, "Triangles", "window", "Projected", "src/pipeline/project.h", lom_canvas_image(&a->window, s->error),
         "Divided by w, moved to the window and snapped to 1/256 pixel. The frame is the rectangle; "
-        "triangles reach beyond it, for nothing is cut at its sides.");
+        "triangles reach beyond it, for nothing is cut at its sides. Brighter is nearer.");
     lom_add_legend(p, &frame_ink, "the frame, %d x %d pixels", s->width, s->height);
     p = lom_add_picture(
         s, "Triangles", "cull", "Culled", "src/pipeline/setup.wide.c", lom_canvas_image(&a->fates, s->error),
