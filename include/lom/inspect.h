@@ -98,7 +98,7 @@ typedef enum lom_legend {
 typedef struct lom_overlay_desc {
     lom_frame_desc frame; /* its `pixels` are not used */
     const lom_overlay_kind *kind;
-    const char *pass; /* whose target is looked at: "picture" (or NULL), "reflection", "refraction" */
+    const char *pass; /* whose target is looked at: "picture" (or NULL), "reflection", "refraction", "spray" */
     double low, high; /* the ends of the scale, low < high; both 0: the kind's */
     lom_legend legend;
 } lom_overlay_desc;

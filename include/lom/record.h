@@ -227,8 +227,8 @@ typedef struct lom_tally_desc {
     bool clock; /* only the time of tiles: passes are drawn by the usual variant, nothing else is tallied */
 } lom_tally_desc;
 
-/* What the passes into a target did at one texel, from the last one on that cleared it. Packets are of 4 lanes. Sprites,
- * and shaders that were not built in the recorded variant, are drawn and not tallied. */
+/* What the passes into a target did at one texel, from the last one on that cleared it. Packets are of 4 lanes. Of
+ * sprites the counts alone are tallied; shaders that were not built in the recorded variant are drawn and not tallied. */
 typedef struct lom_tally {
     uint32_t fragments;      /* drawn: covered, and left by clip distances and an early depth test */
     uint32_t killed;         /* dropped by the depth test before their shader ran */

@@ -31,7 +31,7 @@ static const lom_option options[] = {
     { "format", 0, LOM_OPTION_CHOICE, offsetof(struct values, format), NULL, 0, 0,
       "the kind of OUT, whatever the name ends in" },
     { "pass", 0, LOM_OPTION_TEXT, offsetof(struct values, pass), "PASS", 0, 0,
-      "what is looked at: picture (when not given), reflection, refraction" },
+      "what is looked at: picture (when not given), reflection, refraction, spray" },
     { "low", 0, LOM_OPTION_NUMBER, offsetof(struct values, low), "X", -1e30, 1e30,
       "the lowest number of the scale; with --high" },
     { "high", 0, LOM_OPTION_NUMBER, offsetof(struct values, high), "X", -1e30, 1e30,

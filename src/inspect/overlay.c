@@ -12,10 +12,12 @@
 static const struct seen_pass {
     const char *name;
     enum lom_target target;
+    bool is_of_frame; /* the target holds the drawn part of the frame, pixel by pixel */
 } passes[] = {
-    { "picture", LOM_TARGET_COLOR },
-    { "reflection", LOM_TARGET_REFLECTION },
-    { "refraction", LOM_TARGET_REFRACTION },
+    { "picture", LOM_TARGET_COLOR, true },
+    { "reflection", LOM_TARGET_REFLECTION, false },
+    { "refraction", LOM_TARGET_REFRACTION, false },
+    { "spray", LOM_TARGET_SPRAY, true },
 };
 enum { PASSES = sizeof passes / sizeof passes[0] };
 
@@ -29,7 +31,7 @@ static const struct seen_pass *find_pass(const char *name, lom_error *error)
     }
     const char *near = lom_nearest_name(name, strlen(name), names, PASSES);
     lom_fail(error, LOM_ERROR_USAGE,
-             "There is no pass \"%s\" to look at%s%s%s; there are picture, reflection, refraction.", name,
+             "There is no pass \"%s\" to look at%s%s%s; there are picture, reflection, refraction, spray.", name,
              near != NULL ? " (did you mean \"" : "", near != NULL ? near : "", near != NULL ? "\"?)" : "");
     return NULL;
 }
@@ -133,7 +135,7 @@ static lom_image *take_numbers(const lom_renderer *r, const lom_overlay_desc *de
     struct overlay_place at = { .near_plane = near_plane_of(r, &desc->frame) };
     struct tiles tiles = { .work = NULL };
     lom_rect drawn = { 0, 0, lom_texture_width(target), lom_texture_height(target) };
-    if (pass->target == LOM_TARGET_COLOR) {
+    if (pass->is_of_frame) {
         drawn.x = desc->frame.crop.width != 0 ? desc->frame.crop.x : 0;
         drawn.y = desc->frame.crop.width != 0 ? desc->frame.crop.y : 0;
     }
@@ -153,15 +155,19 @@ static lom_image *take_numbers(const lom_renderer *r, const lom_overlay_desc *de
     return numbers;
 }
 
-/* What the pass left, for eyes. */
-static lom_image *take_picture(lom_renderer *r, const lom_overlay_desc *desc, const struct seen_pass *pass,
-                               const lom_frame *frame, lom_error *error)
+/* What lies below the numbers, for eyes: the frame, or what the pass left. */
+static lom_image *take_picture(const lom_renderer *r, const struct seen_pass *pass, const lom_frame *frame,
+                               lom_error *error)
 {
-    if (pass->target != LOM_TARGET_COLOR)
-        return lom_show_to_eyes(lom_show_pass(r, &desc->frame, pass->name, error), pass->name, error);
-    bool is_linear = lom_describe_format(frame->image->format)->is_float;
-    lom_image *picture = lom_convert_image(frame->image, is_linear ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8, error);
-    return picture;
+    lom_image *left = pass->is_of_frame ? NULL : lom_read_texture(r->targets.of[pass->target], 0, 0, error);
+    const lom_image *picture = pass->is_of_frame ? frame->image : left;
+    if (picture == NULL)
+        return NULL;
+    const lom_format_info *info = lom_describe_format(picture->format);
+    lom_image *shown =
+        lom_convert_image(picture, info->is_float || info->is_srgb ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8, error);
+    lom_free_image(left);
+    return shown;
 }
 
 bool lom_draw_overlay(lom_renderer *renderer, const lom_overlay_desc *desc, lom_overlay *overlay, lom_error *error)
@@ -173,7 +179,7 @@ bool lom_draw_overlay(lom_renderer *renderer, const lom_overlay_desc *desc, lom_
     if (pass == NULL || !find_scale(desc, &scale, error))
         return false;
     bool drawn = draw_frame(renderer, desc, pass, &overlay->frame, error);
-    lom_image *picture = drawn ? take_picture(renderer, desc, pass, &overlay->frame, error) : NULL;
+    lom_image *picture = drawn ? take_picture(renderer, pass, &overlay->frame, error) : NULL;
     if (picture != NULL)
         overlay->numbers = take_numbers(renderer, desc, pass, error);
     if (overlay->numbers != NULL)

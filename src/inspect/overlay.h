@@ -40,6 +40,8 @@ struct overlay_scale {
     double low, high;
     bool is_logarithmic;
 };
+/* Whether a value is shown: a logarithmic scale has no 0. */
+bool lom_has_number(const struct overlay_scale *scale, float value);
 /* 0..1 along the scale, bounded. */
 double lom_overlay_part(const struct overlay_scale *scale, double value);
 

@@ -96,15 +96,17 @@ static int write_title(const struct overlay_row *row, int width, char title[LONG
 
 struct summary {
     double least, mean, greatest;
-    size_t count, all;
+    size_t count;
+    bool is_gray; /* some show none */
 };
 
-static struct summary summarize(const lom_image *numbers)
+static struct summary summarize(const struct overlay_scale *scale, const lom_image *numbers)
 {
-    struct summary s = { .all = (size_t)numbers->width * (size_t)numbers->height };
+    struct summary s = { .count = 0 };
     const float *value = (const float *)(const void *)numbers->pixels;
-    for (size_t i = 0; i < s.all; i++) {
+    for (size_t i = 0; i < (size_t)numbers->width * (size_t)numbers->height; i++) {
         double x = (double)value[i];
+        s.is_gray |= !lom_has_number(scale, value[i]);
         if (x != x)
             continue;
         s.least = s.count == 0 || x < s.least ? x : s.least;
@@ -116,13 +118,14 @@ static struct summary summarize(const lom_image *numbers)
     return s;
 }
 
-static void write_summary(const struct overlay_row *row, const lom_image *numbers, char text[LONGEST_TEXT])
+static void write_summary(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers,
+                          char text[LONGEST_TEXT])
 {
     char least[LONGEST_NUMBER], mean[LONGEST_NUMBER], greatest[LONGEST_NUMBER];
     text[0] = '\0';
     if (numbers->format != LOM_FORMAT_R32F || row->look == OVERLAY_LINES)
         return;
-    struct summary s = summarize(numbers);
+    struct summary s = summarize(scale, numbers);
     print_short(least, s.least);
     print_short(mean, s.mean);
     print_short(greatest, s.greatest);
@@ -130,7 +133,7 @@ static void write_summary(const struct overlay_row *row, const lom_image *number
         snprintf(text, LONGEST_TEXT, "here: nothing");
     else
         snprintf(text, LONGEST_TEXT, "here: %s to %s, mean %s%s", least, greatest, mean,
-                 s.count < s.all ? "; gray: nothing" : "");
+                 s.is_gray ? "; gray: nothing" : "");
 }
 
 /* ---- drawing ---- */
@@ -278,6 +281,6 @@ void lom_draw_legend(const struct overlay_row *row, const struct overlay_scale *
         draw_bar(&p, scale);
     else
         draw_squares(&p, row->look);
-    write_summary(row, numbers, summary);
+    write_summary(row, scale, numbers, summary);
     write_line(&p, summary, 1);
 }

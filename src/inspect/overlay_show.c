@@ -16,6 +16,11 @@ double lom_overlay_part(const struct overlay_scale *s, double value)
     return part > 0 ? part < 1 ? part : 1 : 0;
 }
 
+bool lom_has_number(const struct overlay_scale *s, float value)
+{
+    return value == value && !(s->is_logarithmic && value == 0);
+}
+
 void lom_vertex_color(int made, uint8_t rgb[3])
 {
     uint8_t map[256][3];
@@ -93,7 +98,7 @@ lom_image *lom_show_overlay(const struct overlay_row *row, const struct overlay_
             const float *value = lom_image_pixel(numbers, x, y, 0);
             uint8_t *rgb = lom_image_pixel(shown, x, y, 0);
             paint_gray(lom_image_pixel(picture, x, y, 0), rgb);
-            if (value[0] == value[0])
+            if (lom_has_number(scale, value[0]))
                 looks[row->look](&p, value, rgb);
         }
     if (shown != NULL && legend != LOM_LEGEND_NONE)

@@ -113,7 +113,8 @@ static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
 /* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. */
 static int choose_shader_variant(const lom_device *device, const lom_shader *shader)
 {
-    if (device->pass.is_recorded && !shader->sprites && shader->vertex[LOM_SLOT_4_recorded] != NULL)
+    bool is_recorded = device->pass.is_recorded && (!shader->sprites || device->pass.tallier != NULL);
+    if (is_recorded && shader->vertex[LOM_SLOT_4_recorded] != NULL)
         return LOM_SLOT_4_recorded;
     if (shader->vertex[device->variant] != NULL)
         return device->variant;

@@ -77,7 +77,9 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
             lom_depth_of_units(tile->pass, lom_as_float(lom_load_block((const int32_t *)tile->depth + place, tile)));
     out.depth = in->z;
     out.discard = (lom_mask){ 0 };
+    LOM_RECORD_HOOK(lom_record_sprite, tile, place, &in->covered);
     shader->fragment[draw->variant](&out, in, draw->uniforms);
+    LOM_RECORD_HOOK(lom_record_sprite_shaded, tile, &out);
     tile->packets++;
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
     if (draw->desc.alpha_to_coverage)
@@ -102,8 +104,10 @@ static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, i
         int place = memory_index(tile, x, y) + tile->offset[part * LOM_LANES];
         if (cut)
             covered &= inside_bounds(tile, &sprite->bounds, x, y, part);
+        LOM_RECORD_HOOK(lom_record_sprite_covered, tile, &covered);
         if (tile->tests_early && lom_any(covered))
             covered = lom_test_depth(tile, place, covered, sprite->in.z);
+        LOM_RECORD_HOOK(lom_record_sprite_tested, tile, place, &covered);
         if (!lom_any(covered))
             continue;
         tile->fragments += lom_count(covered);

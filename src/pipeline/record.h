@@ -153,8 +153,13 @@ void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_
                         const lom_float l[3], const lom_float *z);
 void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed);
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet);
-/* What follows is shaded without packets, and not recorded. */
+/* What follows is shaded without packets, and not recorded, but tallied (tally.h): a block of 2x2 pixels at a time, which
+ * begins at `place` in tile memory. */
 void lom_record_sprites(struct lom_tile *tile);
+void lom_record_sprite_covered(struct lom_tile *tile, const lom_mask *covered);
+void lom_record_sprite_tested(struct lom_tile *tile, int place, const lom_mask *passed);
+void lom_record_sprite(struct lom_tile *tile, int place, const lom_mask *covered);
+void lom_record_sprite_shaded(struct lom_tile *tile, const lom_fragment *out);
 void lom_record_weights(struct lom_tile *tile, const lom_float *b1, const lom_float *b2);
 void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out);
 void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask);

@@ -96,7 +96,7 @@ void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_
 void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed)
 {
     if (tile->pass->tallier != NULL)
-        lom_tally_tested(tile, at, passed);
+        lom_tally_tested(tile, place_of(tile, at, 0), passed);
     if (!tile->tests_early || is_beside(tile, at))
         return;
     for (int i = 0; i < LOM_LANES; i++) {
@@ -124,6 +124,30 @@ void lom_record_sprites(struct lom_tile *tile)
     if (tile->pass->recorder != NULL)
         worker_of(tile)->watches = false;
     lom_open_notes(NULL);
+}
+
+void lom_record_sprite_covered(struct lom_tile *tile, const lom_mask *covered)
+{
+    if (tile->pass->tallier != NULL)
+        lom_tally_inside(tile, covered);
+}
+
+void lom_record_sprite_tested(struct lom_tile *tile, int place, const lom_mask *passed)
+{
+    if (tile->pass->tallier != NULL)
+        lom_tally_tested(tile, place, passed);
+}
+
+void lom_record_sprite(struct lom_tile *tile, int place, const lom_mask *covered)
+{
+    if (tile->pass->tallier != NULL)
+        lom_tally_sprite(tile, place, covered);
+}
+
+void lom_record_sprite_shaded(struct lom_tile *tile, const lom_fragment *out)
+{
+    if (tile->pass->tallier != NULL)
+        lom_tally_shaded(tile, out);
 }
 
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet)

@@ -13,14 +13,14 @@
 
 struct lom_packet;
 struct lom_places;
-struct part;
 
-/* What a worker has at hand: the lanes that clip distances left, then the packet that it shades, and what was noted of
- * it. */
+/* What a worker has at hand: the lanes that clip distances left, then the four fragments that it shades, and what was
+ * noted of them. */
 struct tally_worker {
     struct lom_notes notes;
-    const struct lom_packet *packet;
-    lom_mask inside;
+    const struct lom_packet *packet; /* NULL: they are of a sprite */
+    int32_t pixel[4];                /* places in tile memory */
+    lom_mask inside, covered;
     lom_float depth;                       /* the shader's */
     const struct lom_note *named, *lookup; /* the last of the name; the first in a texture with mipmaps; NULL: none */
 };
@@ -47,8 +47,10 @@ void lom_tally_time(const struct lom_pass *pass, int number, int64_t since);
 
 /* ---- the stages of a tile, where pass->tallier is set: tally_fragment.c ---- */
 void lom_tally_inside(struct lom_tile *tile, const lom_mask *inside);
-void lom_tally_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed);
+/* Of a block of 2x2 pixels, which begins at `place` in tile memory. */
+void lom_tally_tested(struct lom_tile *tile, int place, const lom_mask *passed);
 void lom_tally_packet(struct lom_tile *tile, const struct lom_packet *packet);
+void lom_tally_sprite(struct lom_tile *tile, int place, const lom_mask *covered);
 void lom_tally_shaded(struct lom_tile *tile, const lom_fragment *out);
 void lom_tally_written(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask);
 

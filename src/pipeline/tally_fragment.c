@@ -33,12 +33,12 @@ void lom_tally_inside(struct lom_tile *tile, const lom_mask *inside)
     worker_of(tile)->inside = *inside;
 }
 
-void lom_tally_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed)
+void lom_tally_tested(struct lom_tile *tile, int place, const lom_mask *passed)
 {
     const lom_mask inside = worker_of(tile)->inside;
     for (uint32_t lanes = lom_bits(inside); lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);
-        lom_tally *tally = tally_of(tile, at->base + tile->offset[at->part * LOM_LANES + i]);
+        lom_tally *tally = tally_of(tile, place + i);
         if (tally == NULL)
             continue;
         tally->fragments += (*passed)[i] != 0;
@@ -48,19 +48,37 @@ void lom_tally_tested(struct lom_tile *tile, const struct part *at, const lom_ma
 
 /* ---- packets ---- */
 
-void lom_tally_packet(struct lom_tile *tile, const struct lom_packet *packet)
+/* The four fragments at hand are about to be shaded. */
+static void begin_packet(struct lom_tile *tile, struct tally_worker *worker)
 {
-    struct tally_worker *worker = worker_of(tile);
-    const uint32_t covered = lom_bits(packet->covered);
-    worker->packet = packet;
+    const uint32_t covered = lom_bits(worker->covered);
     for (uint32_t lanes = covered; lanes != 0; lanes &= lanes - 1) {
-        lom_tally *tally = tally_of(tile, packet->places.pixel[__builtin_ctz(lanes)]);
+        lom_tally *tally = tally_of(tile, worker->pixel[__builtin_ctz(lanes)]);
         if (tally == NULL)
             continue;
         tally->packets++;
         tally->lanes += lom_count_bits(covered);
     }
     lom_open_notes(worker->notes.skipped != ~0u ? &worker->notes : NULL);
+}
+
+void lom_tally_packet(struct lom_tile *tile, const struct lom_packet *packet)
+{
+    struct tally_worker *worker = worker_of(tile);
+    worker->packet = packet;
+    worker->covered = packet->covered;
+    memcpy(worker->pixel, packet->places.pixel, sizeof worker->pixel);
+    begin_packet(tile, worker);
+}
+
+void lom_tally_sprite(struct lom_tile *tile, int place, const lom_mask *covered)
+{
+    struct tally_worker *worker = worker_of(tile);
+    worker->packet = NULL;
+    worker->covered = *covered;
+    for (int i = 0; i < LOM_LANES; i++)
+        worker->pixel[i] = place + i;
+    begin_packet(tile, worker);
 }
 
 static bool is_finite(float x)
@@ -110,9 +128,9 @@ void lom_tally_shaded(struct lom_tile *tile, const lom_fragment *out)
     lom_open_notes(NULL);
     worker->depth = out->depth;
     read_notes(worker, tile->pass->tallier->desc.named, lookups, steps);
-    for (uint32_t lanes = lom_bits(worker->packet->covered); lanes != 0; lanes &= lanes - 1) {
+    for (uint32_t lanes = lom_bits(worker->covered); lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);
-        lom_tally *tally = tally_of(tile, worker->packet->places.pixel[i]);
+        lom_tally *tally = tally_of(tile, worker->pixel[i]);
         if (tally == NULL)
             continue;
         tally->lookups += lookups[i];
@@ -209,7 +227,8 @@ void lom_tally_written(struct lom_tile *tile, const struct lom_places *places, c
 {
     const struct lom_draw_desc *desc = &tile->draw->desc;
     int attachment = tile->pass->tallier->attachment;
-    if (attachment >= desc->shader->colors || desc->mask_off[attachment] == 15)
+    bool writes = attachment < desc->shader->colors && desc->mask_off[attachment] != 15;
+    if (worker_of(tile)->packet == NULL || !writes)
         return;
     for (uint32_t lanes = lom_bits(*mask); lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);

@@ -71,6 +71,17 @@ static void marched_fragment(lom_fragment *out, const lom_varyings *in, const vo
 LOM_SHADER(marched, place_values, marched_fragment, .attributes = 2, .varyings = 4, .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct look))
 
+static void sprite_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->position = in->attribute[0];
+    out->axis[0] = in->attribute[1];
+    out->axis[1] = in->attribute[2];
+}
+
+LOM_SHADER(sprite, sprite_vertex, broken_fragment, .attributes = 3, .reads_position = true, .colors = 1,
+           .sprites = true)
+
 /* A triangle that holds all of the viewport, its depth z; value 0 and 1 run from 0 to `reach` along it. */
 static void cover(vertex v[3], float z, float w, float reach)
 {
@@ -181,6 +192,34 @@ static void broken_colors_are_those_pixels(void)
     draw_one(&s, &broken_depth, v, 3, NULL);
     for (int p = 0; p < SIZE * SIZE; p++)
         CHECK(lom_tallied(s.device, p % SIZE, p / SIZE)->broken == (p / SIZE < 2), "pixel %d", p);
+    close_stage(&s);
+}
+
+/* A square of 16 x 16 pixels about (8, 32), behind a nearer triangle that covers all pixels below row 32. */
+static void sprites_are_counted(void)
+{
+    stage s = open(2);
+    vertex low[3], one = { .position = { -0.75f, 0, 0.25f, 1 }, .value = { 0.25f, 0, 0, 0, 0, 0.25f, 0, 0 } };
+    cover(low, 0.5f, 1, 1);
+    for (int i = 0; i < 3; i++)
+        low[i].position[1] = i == 1 ? -4.0f : 0;
+    low[2].position[0] = 40;
+    lom_draw_desc nearer = draw_of(&shown, low, 3), draw = draw_of(&sprite, &one, 1);
+    draw.topology = LOM_SPRITES;
+    tally_all(&s);
+    begin(&s, (lom_pass_desc){ .samples = 1 });
+    lom_draw(s.device, &nearer);
+    lom_draw(s.device, &draw);
+    finish(&s);
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        const lom_tally *t = lom_tallied(s.device, p % SIZE, p / SIZE);
+        int x = p % SIZE, y = p / SIZE, below = y >= 32;
+        bool inside = x < 16 && y >= 24 && y < 40;
+        CHECK(t->fragments == (unsigned)below + (inside && !below), "pixel %d: %u", p, t->fragments);
+        CHECK(t->killed == (inside && below), "pixel %d: %u", p, t->killed);
+        CHECK(t->broken == (inside && !below && x < 8), "pixel %d", p);
+        CHECK(!inside || below || (t->packets == 1 && t->lanes == 4), "pixel %d", p);
+    }
     close_stage(&s);
 }
 
@@ -393,6 +432,7 @@ int main(int argc, char **argv)
     RUN(passes_add_up_until_one_clears);
     RUN(lanes_in_use_are_those_of_packets);
     RUN(broken_colors_are_those_pixels);
+    RUN(sprites_are_counted);
     RUN(steps_are_those_of_the_slab);
     RUN(levels_are_those_of_the_distance);
     RUN(areas_and_edges_are_those_of_the_triangle);
