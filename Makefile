@@ -6,7 +6,8 @@
 #   make lint, make format      what the house asks of the source; clang-format over all of it
 #   make install, uninstall     into PREFIX (/usr/local), under DESTDIR
 #   make bench                  milliseconds a frame of every workload; bench-*: the experiments of bench/results
-#   make wasm                   the program and the library for WebAssembly, in build/wasm (docs/wasm.md)
+#   make wasm                   for WebAssembly: the program and the library in build/wasm, a page a lesson, to be
+#                               opened in a browser, in build/web (docs/wasm.md)
 #   make matrix                 one hash from every compiler and architecture
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
@@ -111,7 +112,7 @@ endif
 SDL_LIBS := $(if $(SDL),$(shell pkg-config --libs $(SDL)))
 elsewhere += src/cli/$(if $(SDL),view_sdl_none,view_sdl).c
 
-sources      := $(filter-out $(elsewhere),$(sort $(wildcard src/*/*.c src/*/*/*.c)))
+sources      := $(filter-out $(elsewhere) src/web/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 cli_sources  := $(filter src/cli/%,$(sources))
 # What the program measures with is not in the library.
 measure_sources := $(filter src/measure/%,$(sources))
@@ -129,6 +130,10 @@ cli_objects  := $(cli_sources:%.c=$(BUILD)/%.o)
 lesson_sources := $(foreach folder,$(wildcard docs/lessons/*/),$(wildcard $(folder)$(notdir $(folder:/=)).c))
 lessons        := $(lesson_sources:%.c=$(BUILD)/%) $(BUILD)/docs/lessons/mistakes/gallery
 lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o) $(BUILD)/docs/lessons/grade/judge.o
+# What a lesson's page asks of it (src/web/lesson_page.c): another main, the lesson's own calls led past it.
+page_programs  := $(lesson_sources:%.c=$(BUILD)/%.page)
+page_objects   := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/web/*.c) src/cli/explain_text.c src/cli/explain_names.c src/cli/json.c)
+PAGE_CALLS     = make_texture begin_pass draw end_pass read_texture create_image convert_image write_image
 
 # How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
 # speed"; what runs briefly or seldom for size, the rest in between. (The program stays under 5 MB: tests/cli/test_limits.sh.)
@@ -152,7 +157,7 @@ programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(patsubst %.wid
 	$(inspect_tests:%.wide.c=$(BUILD)/%.w$(RECORDED))
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
-.PHONY: all demo docs check check-long coverage wasm matrix fuzz lint format install uninstall clean help
+.PHONY: all demo docs pages check check-long coverage wasm matrix fuzz lint format install uninstall clean help
 .PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
 	bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
@@ -238,6 +243,27 @@ $(BUILD)/docs/lessons/%.contained.o: docs/lessons/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) -Iinclude $(CFLAGS) -Dmain=lom_lesson_$(*F) -Wno-missing-prototypes -MMD -MP -c -o $@ $<
 
+# A lesson for its page: recorded, and each of its stores told where the compiler can (clang).
+PAGE_FLAGS = -DLOM_LANES=4 -DLOM_VARIANT=4_recorded -DLOM_RECORD -Dmain=lom_lesson_main -Wno-missing-prototypes -Isrc -include web/lesson_told.h
+$(BUILD)/docs/lessons/%.page.o: docs/lessons/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) -Iinclude $(CFLAGS) -O1 $(PAGE_FLAGS) $(if $(findstring clang,$(CC)),-fsanitize-coverage=func$(comma)trace-stores) -MMD -MP -c -o $@ $<
+
+$(BUILD)/docs/lessons/%.page: $(BUILD)/docs/lessons/%.page.o $(page_objects) $(BUILD)/liblom.a
+	$(call short,LD)$(CC) $(LDFLAGS) $(PAGE_CALLS:%=-Wl,--wrap=lom_%) -o $@ $^ $(LDLIBS)
+
+# The pages themselves, in PAGES.
+PAGES = $(BUILD)/web
+define page_rule
+$(PAGES)/$(1).html: $(BUILD)/docs/lessons/$(1)/$(1).page $(wildcard docs/lessons/$(1)/*) $(wildcard src/web/*) src/cli/lesson_answers.h
+	@mkdir -p $$(@D)
+	$$(call short,PAGE)node src/web/page.mjs $(1) $$< $$@
+endef
+$(foreach lesson,$(notdir $(lesson_sources:.c=)),$(eval $(call page_rule,$(lesson))))
+
+pages: $(foreach lesson,$(notdir $(lesson_sources:.c=)),$(PAGES)/$(lesson).html)
+	node src/web/page.mjs index $(PAGES)/index.html
+
 # What compares a student's stage with the right one, in lom: by the gallery's files.
 $(BUILD)/docs/lessons/grade/judge.o: docs/lessons/grade/judge.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -287,7 +313,7 @@ fuzz:
 
 # Every page and public header as HTML, its links followed (docs/site.sh; wants cmark-gfm).
 docs:
-	docs/site.sh $(BUILD)/docs
+	docs/site.sh $(BUILD)/docs $(BUILD)/web
 
 # Waits for the lanes that this processor draws with alone: of the program's objects those are left out that are of other
 # widths, whose functions nobody calls then and are empty. The others are the whole program's, and make goes on from there.
@@ -335,12 +361,14 @@ LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert
 check-long: $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
 
-# The program and the library for WebAssembly, by the newest clang; SIMD= leaves out its vectors of 128 bits.
+# For WebAssembly, by the newest clang; SIMD= leaves out its vectors of 128 bits. The pages want node and cmark-gfm.
 WASM_CC = $(or $(lastword $(sort $(notdir $(wildcard /usr/bin/clang-[1-9][0-9])))),clang)
 SIMD    = -msimd128
-WASM_GOALS = lom.wasm
+MISSING = $(strip $(foreach tool,node cmark-gfm,$(if $(shell command -v $(tool)),,$(tool))))
+WASM_GOALS = $(BUILD)/wasm/lom.wasm $(if $(MISSING),,pages)
 wasm:
-	$(MAKE) CC='$(LAUNCHER) $(WASM_CC) --target=wasm32-wasi $(SIMD)' AR=llvm-ar VARIANTS=4 SAN= BUILD=$(BUILD)/wasm $(WASM_GOALS:%=$(BUILD)/wasm/%)
+	$(MAKE) CC='$(LAUNCHER) $(WASM_CC) --target=wasm32-wasi $(SIMD)' AR=llvm-ar VARIANTS=4 SAN= BUILD=$(BUILD)/wasm PAGES=$(BUILD)/web $(WASM_GOALS)
+	@$(if $(MISSING),echo "SKIP the lessons' pages: they need $(MISSING).")
 
 $(BUILD)/lom.wasm: $(BUILD)/lom
 	cp $< $@
@@ -451,4 +479,4 @@ lint: $(BUILD)/liblom.a
 clean:
 	rm -rf $(BUILD)
 
--include $(BUILD)/demo/variants.d $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(lesson_objects:.o=.d) $(programs:=.d) $(lessons:=.d)
+-include $(BUILD)/demo/variants.d $(lib_objects:.o=.d) $(measure_objects:.o=.d) $(cli_objects:.o=.d) $(lesson_objects:.o=.d) $(page_objects:.o=.d) $(page_programs:=.d) $(programs:=.d) $(lessons:=.d)

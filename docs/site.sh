@@ -1,14 +1,15 @@
 #!/bin/bash
-# docs/site.sh FOLDER: every page of the project as HTML there, to be read from the file system without a network: the
-# Markdown files by cmark-gfm, with the pictures and files that they link, and a page a public header, whose comments
-# are the reference. Then every link is followed; status 1 when one leads nowhere, each named with its page. Status 2
+# docs/site.sh FOLDER [WEB]: every page of the project as HTML there, to be read from the file system without a network:
+# the Markdown files by cmark-gfm, with the pictures and files that they link, and a page a public header, whose comments
+# are the reference; and of the folder WEB, where it is, the lessons that draw in the browser (make wasm). Then every link is followed; status 1 when one leads nowhere, each named with its page. Status 2
 # without cmark-gfm.
 set -u
 cd "$(dirname "$0")/.." || exit 2
-to=${1:?docs/site.sh FOLDER}
+to=${1:?docs/site.sh FOLDER [WEB]} web=${2:-}
 case $to in /*) ;; *) to=$PWD/$to ;; esac
 command -v cmark-gfm >/dev/null || { echo "SKIP docs: cmark-gfm is not installed."; exit 2; }
 mkdir -p "$to"
+if [ -e "$web/index.html" ]; then mkdir -p "$to/web" && cp "$web"/*.html "$to/web"; fi
 # bench/cloud-experiments.md is what docs/cloud-experiments.md is made of.
 pages=$(find README.md CHANGELOG.md docs bench tests -name '*.md' ! -path bench/cloud-experiments.md | LC_ALL=C sort)
 
@@ -30,6 +31,10 @@ page() {
         printf '<a href="%s%s.html">%s</a> ' "$(up "$1")" "${entry%%:*}" "${entry##*:}"
     done
     printf '</nav>\n'
+    lesson=${1#docs/lessons/} lesson=${lesson%/README}
+    [ "$1" != docs/lessons/README ] || lesson=index
+    [ "$1" = "$lesson" ] || [ ! -e "$to/web/$lesson.html" ] ||
+        printf '<p><a href="%sweb/%s.html">Drawn in the browser</a></p>\n' "$(up "$1")" "$lesson"
     cat
     printf '</body></html>\n'
 }

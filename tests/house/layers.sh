@@ -20,6 +20,7 @@ below() {
     measure) echo "measure $(below render)" ;;
     inspect) echo "inspect $(below render)" ;;
     cli) echo "cli inspect $(below measure)" ;;
+    web) echo "web $(below cli)" ;;
     esac
 }
 public() { # the public headers of each layer

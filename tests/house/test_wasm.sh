@@ -2,6 +2,7 @@
 # Proves that lom for WebAssembly, under node, draws the bytes of the native program and treats files as it does: whole
 # or not at all, with the permissions and through the links they had, named as in the shell, refused with a sentence.
 # Builds it (-O1, 4 lanes) where clang can, with vectors where that clang is right about them; else says what is missing.
+# Then the same of the lessons' pages (wasm_pages.sh).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 BUILD=${BUILD:-build}
@@ -23,8 +24,10 @@ done
 [ -n "$compiler" ] || skip "no clang links for wasm32-wasi (Debian: clang-19 lld-19 wasi-libc libclang-rt-19-dev-wasm32)"
 simd=-msimd128
 [ "$(echo __clang_major__ | $compiler -E -P -x c -)" -ge 16 ] || simd=
+pages=pages
+command -v cmark-gfm >/dev/null || { pages=; echo "SKIP the lessons' pages: cmark-gfm is not installed"; }
 if ! make -s wasm O=1 BUILD="$BUILD/test" WASM_CC="$compiler" SIMD="$simd" \
-    WASM_GOALS='lom.wasm tests/lanes/test_operations.w4' >"$folder/log" 2>&1; then
+    WASM_GOALS="$BUILD/test/wasm/lom.wasm $BUILD/test/wasm/tests/lanes/test_operations.w4 $pages" >"$folder/log" 2>&1; then
     tail -20 "$folder/log"
     result wasm_is_built 1 "make wasm WASM_CC=$compiler SIMD=$simd fails"
     exit 1
@@ -69,4 +72,5 @@ result wasm_says_what_cannot_be_read $? "$(cat "$folder/out")"
 wasm convert "$folder/native.png" "$folder/none/a.png" >"$folder/out" 2>&1
 [ $? -eq 2 ] && grep -q 'none/a.png: could not' "$folder/out"
 result wasm_says_what_cannot_be_written $? "$(cat "$folder/out")"
+[ -z "$pages" ] || BUILD=$BUILD tests/house/wasm_pages.sh || failures=1
 exit $failures
