@@ -15,7 +15,8 @@ struct lom_device {
     lom_texture **textures;
     size_t texture_count, texture_capacity;
 
-    bool one_by_one; /* small triangles are drawn by themselves: the specification of what packs them, for tests */
+    bool one_by_one; /* small triangles are drawn by themselves and no values are kept for a triangle's next packet: the
+                      specification of what does so, for tests */
     bool in_pass;
     struct lom_recorder *recorder; /* watches something (record.h) */
     struct lom_tallier *tallier;   /* tallies a target (tally.h) */

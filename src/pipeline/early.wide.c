@@ -7,6 +7,8 @@
 
 #include <lom/lanes_mathematics.h>
 
+enum { ALL_LANES = (1 << LOM_LANES) - 1 };
+
 /* d / w of the three vertices, scaled by a power of two so that the largest is in 1..2: no product with a weight
  * overflows, and none that could decide alone vanishes. */
 static void scale_distances(const struct lom_chunk *chunk, const lom_triangle *t, int offset, float d[3])
@@ -81,6 +83,10 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
     tile->fragments += lom_count_bits(bits);
     if (draw->desc.shader->fragment[draw->variant] == NULL)
         return;
+    if (!draw->constant && bits == ALL_LANES && (alone || tile->queue.count == 0)) {
+        LOM_WIDE(lom_shade_part)(tile, at, l, &z);
+        return;
+    }
     struct lom_fragments f;
     f.triangle = lom_splat_int(at->number);
     f.pixel = lom_load_int(tile->offset + at->part * LOM_LANES) + at->base;

@@ -4,8 +4,7 @@
  *
  * Invariant: a lane's values do not depend on which fragments share its packet; a packet of one triangle broadcasts its
  * rows where a mixed one picks them, with the same arithmetic. */
-#include "pipeline/packet.h"
-#include "pipeline/record.h"
+#include "pipeline/run_shader.h"
 
 struct rows { /* the vertices of the packet's triangles */
     const float *base;
@@ -152,19 +151,13 @@ static void copy_flat_varyings(const lom_shader *shader, const struct lom_chunk 
     }
 }
 
-/* The window position from the place in tile memory: blocks of 2x2, edge / 2 of them a row. */
 static void find_position(const struct lom_tile *tile, const struct lom_packet *packet, const struct weights *p,
                           lom_varyings *in)
 {
-    lom_int place = lom_load_int(packet->places.pixel);
-    int shift = __builtin_ctz((unsigned)tile->edge) - 1;
-    lom_int block = place >> 2;
-    lom_int bx = block & (tile->edge / 2 - 1), by = block >> shift;
-    in->x = lom_to_float(bx * 2 + (place & 1) + tile->x) + 0.5f;
-    in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
+    int32_t front[LOM_LANES];
+    lom_find_position(tile, &packet->places, in);
     in->z = packet->depth;
     in->w = 1.0f / p->sum;
-    int32_t front[LOM_LANES];
     for (int i = 0; i < packet->triangles; i++)
         front[i] = -(int32_t)(tile->chunk->triangles[packet->triangle[i]].state >> TRIANGLE_FRONT & 1);
     in->front = spread(packet, front);
@@ -192,12 +185,8 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
 {
     lom_mask mask = *shaded;
     const struct lom_draw *draw = tile->draw;
-    bool late = draw->late_depth && tile->depth != NULL;
+    bool late = lom_tests_late(tile);
     bool rounds = (late || draw->blends || LOM_RECORDS) && !apart;
-    if (!late && !rounds && !LOM_RECORDS) {
-        LOM_WIDE(lom_write_packet)(tile, places, &mask, out->color);
-        return;
-    }
     while (lom_any(mask)) {
         lom_mask round = rounds ? lom_first_at_pixels(tile, places->pixel, mask) : mask;
         mask &= ~round;
@@ -209,29 +198,7 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
     }
 }
 
-void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in)
-{
-    const struct lom_draw *draw = tile->draw;
-    const lom_shader *shader = draw->desc.shader;
-    lom_fragment out;
-    if (draw->sampled) {
-        LOM_WIDE(lom_run_sampled)(tile, packet, in);
-        return;
-    }
-    if (shader->reads_depth)
-        in->target_depth = lom_depth_of_units(
-            tile->pass, lom_as_float(lom_load_places((const int32_t *)tile->depth, tile, &packet->places)));
-    in->covered = packet->covered;
-    out.depth = packet->depth;
-    out.discard = (lom_mask){ 0 };
-    shader->fragment[draw->variant](&out, in, draw->uniforms);
-    LOM_RECORD_HOOK(lom_record_shaded, tile, in, &out);
-    tile->packets++;
-    lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
-    LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
-}
-
-void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet)
+static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const struct lom_packet *packet)
 {
     const struct lom_chunk *chunk = tile->chunk;
     const lom_shader *shader = tile->draw->desc.shader;
@@ -250,5 +217,20 @@ void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *
             find_position(tile, packet, &p, &in);
         LOM_RECORD_HOOK(lom_record_weights, tile, &p.b1, &p.b2);
     }
-    LOM_WIDE(lom_run_shader)(tile, packet, &in);
+    lom_run_shader(tile, packet, &in);
+}
+
+/* Whether the packet may be one of several of a triangle. */
+LOM_INLINE bool has_facet(const struct lom_tile *tile, const struct lom_packet *packet)
+{
+    return packet->triangles == 1 && !tile->pass->one_by_one &&
+           lom_kind_of(&tile->chunk->triangles[packet->triangle[0]]) != TRIANGLE_WINDOW;
+}
+
+void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet)
+{
+    if (has_facet(tile, packet))
+        LOM_WIDE(lom_shade_facet)(tile, packet);
+    else
+        shade_plainly(tile, packet);
 }

@@ -1,24 +1,165 @@
-/* Stage 6 of 7 for small triangles that are drawn together. In: their slots, and fragments of them. Out: shaded colours,
- * on to the output stage. What fragments need of a triangle's vertices is found once a slot, for LOM_LANES triangles at
- * a time: fragment.wide.c, which is plainer, finds it again for each packet.
+/* Stage 6 of 7 for triangles of which something is found before their fragments are. In: fragments of small triangles
+ * that are drawn together, and those triangles' slots; or a packet of one triangle. Out: shaded colours, on to the output
+ * stage. What fragments need of a triangle's vertices is found once a slot, for LOM_LANES triangles at a time, or once
+ * for the packets of one triangle: fragment.wide.c, which is plainer, finds it again for each packet.
  *
  * Invariant: varyings are those of fragment.wide.c, by the same arithmetic. */
+#include "pipeline/run_shader.h"
 #include "pipeline/slots.h"
 
-#if LOM_LANES > 4 /* SLOTS_BY_WORD: at 4 lanes a slot's words would be more than the vertices' rows */
-
-/* Words of a slot; then, for each varying that is read, VALUE_WORDS. */
+/* Words of a triangle's values; then, for each varying that is read, VALUE_WORDS. */
 enum { ONE_OVER_W = 0, FACING = 3, STEPS = 4, VALUES = LIST_HEADER };
 enum { VALUE = 0, DELTA1, DELTA2, LOWEST, HIGHEST, VALUE_WORDS = LIST_VALUE };
+
+/* ---- from values to varyings ---- */
+
+/* The values of a packet's triangles: the first word of its first slot, or of the facet of its only one. */
+struct values {
+    const float *words;
+    lom_int which;
+    bool one;
+};
+
+LOM_INLINE lom_float load_value(const struct values *v, int word)
+{
+    return v->one ? lom_splat(v->words[word]) : lom_permute(lom_load(v->words + word * SLOT_PITCH), v->which);
+}
+
+struct weights { /* of the three vertices, screen-space times 1/w; b1 and b2 perspective-correct */
+    lom_float one_over_w[3], sum, b1, b2;
+};
+
+LOM_INLINE struct weights find_weights(const struct values *v, const lom_float l[3], bool quads)
+{
+    struct weights w;
+    for (int k = 0; k < 3; k++)
+        w.one_over_w[k] = load_value(v, ONE_OVER_W + k);
+    lom_float p1 = l[1] * w.one_over_w[1], p2 = l[2] * w.one_over_w[2];
+    w.sum = l[0] * w.one_over_w[0] + p1 + p2;
+    if (quads) /* helpers lie outside the triangle, where 1/w may pass through 0 */
+        w.sum = lom_max(w.sum, lom_min(w.one_over_w[0], lom_min(w.one_over_w[1], w.one_over_w[2])));
+    w.b1 = p1 / w.sum;
+    w.b2 = p2 / w.sum;
+    return w;
+}
+
+/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. */
+LOM_INLINE void find_slope(lom_float step1, lom_float step2, const struct weights *w, lom_float slope[2])
+{
+    lom_float a = step1 * w->one_over_w[1], b = step2 * w->one_over_w[2];
+    lom_float sum = a + b - (step1 + step2) * w->one_over_w[0];
+    slope[0] = (a - w->b1 * sum) / w->sum;
+    slope[1] = (b - w->b2 * sum) / w->sum;
+}
+
+LOM_INLINE void interpolate(const struct values *values, const lom_shader *shader, const struct weights *w,
+                            lom_varyings *in)
+{
+    int word = VALUES;
+    uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
+    for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, word += VALUE_WORDS) {
+        int v = __builtin_ctz(reads);
+        lom_float f = load_value(values, word + VALUE);
+        if (shader->flat >> v & 1) {
+            in->varying[v] = f;
+            in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
+            continue;
+        }
+        lom_float d1 = load_value(values, word + DELTA1), d2 = load_value(values, word + DELTA2);
+        in->varying[v] = lom_clamp(f + w->b1 * d1 + w->b2 * d2, load_value(values, word + LOWEST),
+                                   load_value(values, word + HIGHEST));
+        if (shader->differentiates >> v & 1) {
+            in->delta[0][v] = d1;
+            in->delta[1][v] = d2;
+        }
+    }
+}
+
+/* All that a shader gets of values, and the position's z. */
+LOM_INLINE void find_varyings(const struct values *v, const lom_shader *shader, const struct lom_packet *packet,
+                              bool quads, lom_varyings *in)
+{
+    struct weights w = find_weights(v, packet->l, quads);
+    interpolate(v, shader, &w, in);
+    if (shader->differentiates != 0) {
+        find_slope(load_value(v, STEPS), load_value(v, STEPS + 2), &w, in->dx);
+        find_slope(load_value(v, STEPS + 1), load_value(v, STEPS + 3), &w, in->dy);
+    }
+    if (shader->reads_position) {
+        in->z = packet->depth;
+        in->w = 1.0f / w.sum;
+        in->front = lom_as_int(load_value(v, FACING));
+    }
+}
+
+/* ---- one triangle ---- */
+
+static float lesser(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float greater(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static void fill_facet(struct lom_tile *tile, const lom_triangle *t)
+{
+    const lom_shader *shader = tile->draw->desc.shader;
+    float *to = tile->facet.value;
+    const float *row[3], *provoking;
+    int32_t front = -(int32_t)(t->state >> TRIANGLE_FRONT & 1);
+    tile->facet.triangle = t;
+    for (int k = 0; k < 3; k++) {
+        row[k] = tile->chunk->rows + t->row[k] + ROW_HEADER;
+        to[ONE_OVER_W + k] = row[k][-1];
+    }
+    provoking = row[t->state >> TRIANGLE_PROVOKING & 3];
+    memcpy(&to[FACING], &front, sizeof front);
+    to[STEPS] = t->step_x1 * t->inverse_area;
+    to[STEPS + 1] = t->step_y1 * t->inverse_area;
+    to[STEPS + 2] = t->step_x2 * t->inverse_area;
+    to[STEPS + 3] = t->step_y2 * t->inverse_area;
+    to += VALUES;
+    uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
+    for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, to += VALUE_WORDS) {
+        int v = __builtin_ctz(reads);
+        float f[3] = { row[0][v], row[1][v], row[2][v] };
+        if (shader->flat >> v & 1) {
+            memcpy(&to[VALUE], &provoking[v], sizeof provoking[v]);
+            continue;
+        }
+        to[VALUE] = f[0];
+        to[DELTA1] = f[1] - f[0];
+        to[DELTA2] = f[2] - f[0];
+        to[LOWEST] = lesser(f[0], lesser(f[1], f[2]));
+        to[HIGHEST] = greater(f[0], greater(f[1], f[2]));
+    }
+}
+
+void LOM_WIDE(lom_shade_facet)(struct lom_tile *tile, const struct lom_packet *packet)
+{
+    const lom_triangle *t = &tile->chunk->triangles[packet->triangle[0]];
+    const lom_shader *shader = tile->draw->desc.shader;
+    lom_varyings in;
+    if (tile->facet.triangle != t)
+        fill_facet(tile, t);
+    struct values values = { tile->facet.value, { 0 }, true };
+    if (shader->reads != 0 || shader->reads_position)
+        find_varyings(&values, shader, packet, shader->quads, &in);
+    if (shader->reads_position)
+        lom_find_position(tile, &packet->places, &in);
+    lom_run_shader(tile, packet, &in);
+}
+
+/* ---- slots ---- */
+
+#if LOM_LANES > 4 /* SLOTS_BY_WORD: at 4 lanes a slot's words would be more than the vertices' rows */
 
 LOM_INLINE void store_value(struct lom_list *list, int word, int slot, lom_float x)
 {
     lom_store(list->value + word * SLOT_PITCH + slot, x);
-}
-
-LOM_INLINE lom_float load_value(const struct lom_list *list, const struct packed *p, int word)
-{
-    return lom_permute(lom_load(list->value + word * SLOT_PITCH + p->first), p->which);
 }
 
 /* Where the rows of the vertices of LOM_LANES triangles begin, and that of the provoking one. */
@@ -95,73 +236,17 @@ void LOM_WIDE(lom_fill_values)(struct lom_tile *tile)
         fill_packet(tile, slot);
 }
 
-struct weights { /* of the three vertices, screen-space times 1/w; b1 and b2 perspective-correct */
-    lom_float one_over_w[3], sum, b1, b2;
-};
-
-LOM_INLINE struct weights find_weights(const struct lom_list *list, const struct packed *p, const lom_float l[3])
-{
-    struct weights w;
-    for (int k = 0; k < 3; k++)
-        w.one_over_w[k] = load_value(list, p, ONE_OVER_W + k);
-    lom_float p1 = l[1] * w.one_over_w[1], p2 = l[2] * w.one_over_w[2];
-    w.sum = l[0] * w.one_over_w[0] + p1 + p2;
-    w.b1 = p1 / w.sum;
-    w.b2 = p2 / w.sum;
-    return w;
-}
-
-/* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. */
-LOM_INLINE void find_slope(lom_float step1, lom_float step2, const struct weights *w, lom_float slope[2])
-{
-    lom_float a = step1 * w->one_over_w[1], b = step2 * w->one_over_w[2];
-    lom_float sum = a + b - (step1 + step2) * w->one_over_w[0];
-    slope[0] = (a - w->b1 * sum) / w->sum;
-    slope[1] = (b - w->b2 * sum) / w->sum;
-}
-
-LOM_INLINE void interpolate(const struct lom_list *list, const struct packed *p, const lom_shader *shader,
-                            const struct weights *w, lom_varyings *in)
-{
-    int word = VALUES;
-    uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
-    for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, word += VALUE_WORDS) {
-        int v = __builtin_ctz(reads);
-        lom_float f = load_value(list, p, word + VALUE);
-        if (shader->flat >> v & 1) {
-            in->varying[v] = f;
-            in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
-            continue;
-        }
-        lom_float d1 = load_value(list, p, word + DELTA1), d2 = load_value(list, p, word + DELTA2);
-        in->varying[v] = lom_clamp(f + w->b1 * d1 + w->b2 * d2, load_value(list, p, word + LOWEST),
-                                   load_value(list, p, word + HIGHEST));
-        if (shader->differentiates >> v & 1) {
-            in->delta[0][v] = d1;
-            in->delta[1][v] = d2;
-        }
-    }
-}
-
 void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet)
 {
-    const struct lom_list *list = &tile->list;
     const lom_shader *shader = tile->draw->desc.shader;
+    const struct values values = { tile->list.value + p->first, p->which, false };
     lom_varyings in;
-    struct weights w = find_weights(list, p, packet->l);
-    interpolate(list, p, shader, &w, &in);
-    if (shader->differentiates != 0) {
-        find_slope(load_value(list, p, STEPS), load_value(list, p, STEPS + 2), &w, in.dx);
-        find_slope(load_value(list, p, STEPS + 1), load_value(list, p, STEPS + 3), &w, in.dy);
-    }
+    find_varyings(&values, shader, packet, false, &in);
     if (shader->reads_position) {
         in.x = lom_to_float((p->code >> CODE_X & 63) + tile->x) + 0.5f;
         in.y = lom_to_float((p->code >> CODE_Y & 63) + tile->y) + 0.5f;
-        in.z = packet->depth;
-        in.w = 1.0f / w.sum;
-        in.front = lom_as_int(load_value(list, p, FACING));
     }
-    LOM_WIDE(lom_run_shader)(tile, packet, &in);
+    lom_run_shader(tile, packet, &in);
 }
 
 #endif

@@ -44,10 +44,9 @@ void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *fragment
 void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
-/* Its second half: the shader on varyings that are found, and what follows; of the packet: places, depth, triangles and
- * covered. */
-void LOM_WIDE(lom_run_shader)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in);
-/* The same with draw->sampled (write_samples.wide.c). */
+/* The same for a packet of one triangle, whose values are found once for all of its packets that follow one another. */
+void LOM_WIDE(lom_shade_facet)(struct lom_tile *tile, const struct lom_packet *packet);
+/* lom_run_shader (run_shader.h) with draw->sampled (write_samples.wide.c). */
 void LOM_WIDE(lom_run_sampled)(struct lom_tile *tile, const struct lom_packet *packet, lom_varyings *in);
 /* What follows a shader there: the lanes of mask to their samples; of the packet all but weights and triangles. `apart`: no
  * two lanes are the same sample. */
@@ -127,6 +126,17 @@ LOM_INLINE lom_mask lom_first_at_pixels(struct lom_tile *tile, const int32_t *pi
         if ((bits >> i & 1) && tile->owner[pixel[i]] == i)
             first |= 1u << i;
     return lom_mask_of_bits(first);
+}
+
+/* The window position from the place in tile memory: blocks of 2x2, edge / 2 of them a row. */
+LOM_INLINE void lom_find_position(const struct lom_tile *tile, const struct lom_places *places, lom_varyings *in)
+{
+    lom_int place = lom_load_int(places->pixel);
+    int shift = __builtin_ctz((unsigned)tile->edge) - 1;
+    lom_int block = place >> 2;
+    lom_int bx = block & (tile->edge / 2 - 1), by = block >> shift;
+    in->x = lom_to_float(bx * 2 + (place & 1) + tile->x) + 0.5f;
+    in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
 }
 
 /* Depth in the attachment's units: the float itself, or a whole number for DEPTH16 and DEPTH24. */

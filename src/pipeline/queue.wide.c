@@ -1,6 +1,6 @@
 /* Between the stages 5 and 6: covered fragments wait in the tile's queue until they fill packets; those that fill one
  * by themselves, or need no shader, go straight on. */
-#include "pipeline/packet.h"
+#include "pipeline/window.h"
 
 /* Which triangles the fragments have: those of one triangle follow one another. */
 static void number_triangles(const int32_t *triangle, int count, struct lom_packet *packet)
@@ -103,16 +103,34 @@ void LOM_WIDE(lom_enqueue)(struct lom_tile *tile, const struct lom_fragments *f)
         shade_full_packets(tile);
 }
 
-/* A part that is covered wholly is a packet by itself; nothing of an earlier triangle waits in the queue. */
-static void shade_part(struct lom_tile *tile, const struct lom_fragments *f)
+/* A packet of one triangle in one window; of its places, depth, weights and samples the caller knows. */
+LOM_INLINE void begin_part(struct lom_packet *packet, int32_t triangle, lom_mask covered)
+{
+    packet->which = lom_splat_int(0);
+    packet->triangle[0] = triangle;
+    packet->triangles = 1;
+    packet->covered = covered;
+    packet->places.block = true;
+}
+
+void LOM_WIDE(lom_shade_part)(struct lom_tile *tile, const struct part *at, const lom_float l[3],
+                              const lom_float *depth)
 {
     struct lom_packet packet;
+    begin_part(&packet, at->number, lom_splat_int(-1));
+    packet.depth = *depth;
+    for (int k = 0; k < 3; k++)
+        packet.l[k] = l[k];
+    lom_store_int(packet.places.pixel, lom_load_int(tile->offset + at->part * LOM_LANES) + at->base);
+    LOM_WIDE(lom_shade_packet)(tile, &packet);
+}
+
+/* The same of fragments, which may have several samples a pixel. */
+static void shade_fragments(struct lom_tile *tile, const struct lom_fragments *f)
+{
+    struct lom_packet packet;
+    begin_part(&packet, f->triangle[0], f->covered);
     packet.depth = f->depth;
-    packet.which = lom_splat_int(0);
-    packet.triangle[0] = f->triangle[0];
-    packet.triangles = 1;
-    packet.covered = f->covered;
-    packet.places.block = true;
     for (int k = 0; k < 3; k++)
         packet.l[k] = f->l[k];
     packet.samples = f->samples;
@@ -152,7 +170,7 @@ void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *f, bool 
         f->taken = lom_mask_of_bits(bits);
     }
     if (bits == (uint32_t)((UINT64_C(1) << LOM_LANES) - 1) && (alone || tile->queue.count == 0))
-        shade_part(tile, f);
+        shade_fragments(tile, f);
     else
         LOM_WIDE(lom_enqueue)(tile, f);
 }

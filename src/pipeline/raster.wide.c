@@ -125,6 +125,7 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
+    tile->facet.triangle = NULL;
     tile->tests_early =
         tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
     if (tile->pass->samples > 1) {

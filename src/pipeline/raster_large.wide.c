@@ -90,9 +90,11 @@ static void raster_large_window(struct lom_tile *tile, const struct large *g, in
     struct part at = { g->triangle, number, memory_index(tile, x, y), 0, g->depth };
     double start1 = (double)(e->start[1] + e->dx[1] * x + e->dy[1] * y);
     double start2 = (double)(e->start[2] + e->dx[2] * x + e->dy[2] * y), area = (double)e->area;
+    lom_float l[3];
+    for (int i = 0; i < 3 && !g->needs_weights; i++)
+        l[i] = (lom_float){ 0 };
     for (; at.part < PARTS; at.part++) {
         lom_mask covered = lom_splat_int(-1);
-        lom_float l[3] = { { 0 }, { 0 }, { 0 } };
         if (!full) {
             covered = cover_large(g->k, x, y, at.part);
             if (g->cut)

@@ -228,6 +228,12 @@ struct lom_list {
     int kept; /* triangles of which only the fragments that are there are left */
 };
 
+/* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). */
+struct lom_facet {
+    const lom_triangle *triangle; /* whose they are; NULL: nobody's */
+    float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
+};
+
 /* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where
  * they are shaded (0: the centre, i + 1: sample i); the depth at each sample, only with draw->late_depth. */
 struct lom_sample_queue {
@@ -255,6 +261,7 @@ struct lom_tile {
     uint32_t whole;
     struct lom_queue queue;
     struct lom_list list;
+    struct lom_facet facet;
     uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
                                  write often lies far apart */
     /* Where pixels have several samples: depth is a plane for each, and color an image for each. A block of 2x2 pixels has
@@ -296,7 +303,7 @@ struct lom_pass {
     const struct lom_sample_offset *offset; /* of each */
     int reach_low, reach_high;     /* how far they lie from centres along x and y, in 1/SUBPIXELS; <= 0, >= 0 */
     bool uses_depth, writes_depth; /* a draw tests, reads or writes depth; one writes it */
-    bool one_by_one;               /* small triangles are drawn by themselves, for tests */
+    bool one_by_one;               /* as lom_device's */
     bool streams;                  /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
     size_t tile_bytes;

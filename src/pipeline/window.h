@@ -77,6 +77,9 @@ LOM_INLINE int bias_of(int64_t dx, int64_t dy)
     return dx > 0 || (dx == 0 && dy > 0) ? 0 : -1;
 }
 
+/* A part that is covered wholly is a packet by itself; nothing of an earlier triangle waits in the queue. */
+void LOM_WIDE(lom_shade_part)(struct lom_tile *tile, const struct part *at, const lom_float l[3],
+                              const lom_float *depth);
 /* A part of a window on its way out of the raster stage: clip distances, depth and its early test, then on to the
  * fragment stage (early.wide.c). */
 void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_float l[3],

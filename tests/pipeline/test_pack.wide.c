@@ -1,5 +1,6 @@
-/* Proves that small triangles whose fragments are computed together end as those drawn one by one, bit for bit: random
- * heaps of them, drawn by both paths, with every comparison of depths, with and without writing them, in every depth
+/* Proves that small triangles whose fragments are computed together, and larger ones whose values are found once for all
+ * of their packets, end as those drawn one by one and packet by packet, bit for bit: random heaps of them, drawn by both
+ * paths, with every comparison of depths, with and without writing them, in every depth
  * format, blended and opaque, shaders that read everything or nothing at all. */
 #include "pipeline/device.h"
 #include "stage.h"
@@ -21,10 +22,19 @@ static void show_all(lom_fragment *out, const lom_varyings *in, const void *unif
     out->discard = in->varying[2] > 0.7f;
 }
 
+static void show_quads(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    lom_float x = lom_quad_dx(in->varying[0]), y = lom_quad_dy(in->varying[0]);
+    out->color[0] = (lom_float4){ x + in->w * 0x1p-4f, y + in->varying[1], in->z, in->varying[4] };
+}
+
 LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 5, .clip_distances = 1,
            .reads = LOM_VARYINGS(0, 5), .differentiates = 1u << 1, .flat = 1u << 4, .reads_position = true,
            .discards = true, .colors = 1)
+LOM_SHADER(quads, place, show_quads, .attributes = 4, .varyings = 5, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, 2) | 1u << 4, .flat = 1u << 4, .reads_position = true, .quads = true, .colors = 1)
 LOM_SHADER(early, place, show_values, .attributes = 4, .varyings = 5, .clip_distances = 1, .reads = LOM_VARYINGS(0, 4),
            .colors = 1)
 LOM_DEPTH_SHADER(depth_only, place_values, .attributes = 2, .varyings = 4)
@@ -62,16 +72,16 @@ static uint64_t draw_heap(stage *s, const lom_draw_desc *draw)
 
 static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth)
 {
-    static const lom_shader *const shaders[] = { &values, &everything, &early, &depth_only };
+    static const lom_shader *const shaders[] = { &values, &everything, &early, &depth_only, &quads };
     stage alone = open_stage(desc, WIDTH, HEIGHT, color, depth), packed = open_stage(desc, WIDTH, HEIGHT, color, depth);
     alone.device->one_by_one = true;
     for (int compare = LOM_COMPARE_DEFAULT; compare <= LOM_COMPARE_ALWAYS; compare++)
-        for (int kind = 0; kind < 8; kind++) {
+        for (int kind = 0; kind < 10; kind++) {
             make_heap();
-            lom_draw_desc draw = draw_of(shaders[kind % 4], vertices, 3 * TRIANGLES);
+            lom_draw_desc draw = draw_of(shaders[kind % 5], vertices, 3 * TRIANGLES);
             draw.depth_compare = (lom_compare)compare;
-            draw.depth_write_off = compare % 3 == 0 && kind >= 4;
-            draw.blend[0] = kind >= 4 ? adding() : (lom_blend){ .enabled = false };
+            draw.depth_write_off = compare % 3 == 0 && kind >= 5;
+            draw.blend[0] = kind >= 5 ? adding() : (lom_blend){ .enabled = false };
             draw.cull = (lom_cull)(compare % 3);
             if (kind == 6)
                 draw.scissor = (lom_rect){ 31, 17, 83, 54 };
