@@ -32,7 +32,7 @@ struct overlay_row {
 };
 /* The row whose kind this is. */
 const struct overlay_row *lom_overlay_row(const lom_overlay_kind *kind);
-/* The work of a texel, in 16ths of a fragment. */
+/* The work of a texel, in quarters of a texture lookup. */
 uint64_t lom_tally_work(const lom_tally *tally);
 
 /* The ends of the scale in use. */

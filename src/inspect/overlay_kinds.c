@@ -87,7 +87,7 @@ static void tell_broken(const struct overlay_place *at, float *value)
 
 static void tell_work(const struct overlay_place *at, float *value)
 {
-    *value = (float)((double)at->tile / 16);
+    *value = (float)((double)at->tile / 4);
 }
 
 static void tell_time(const struct overlay_place *at, float *value)
@@ -95,9 +95,10 @@ static void tell_time(const struct overlay_place *at, float *value)
     *value = (float)(at->tally->seconds * 1e3);
 }
 
+/* Weights from the times of tiles at 8 lanes (docs/overlays.md). */
 uint64_t lom_tally_work(const lom_tally *t)
 {
-    enum { KILLED = 2, FRAGMENT = 16, LOOKUP = 8, STEP = 24 };
+    enum { KILLED = 1, FRAGMENT = 2, LOOKUP = 4, STEP = 10 };
     return KILLED * (uint64_t)t->killed + FRAGMENT * (uint64_t)t->fragments + LOOKUP * (uint64_t)t->lookups +
            STEP * (uint64_t)t->steps;
 }
@@ -160,7 +161,7 @@ static const struct overlay_row rows[] = {
       OVERLAY_SCALE,
       { .target = NULL },
       false },
-    { { "tile-work", "counted work of a tile, as much as so many fragments", 1000, 1000000, true, true },
+    { { "tile-work", "counted work of a tile, as much as so many texture lookups", 1000, 1000000, true, true },
       tell_work,
       OVERLAY_SCALE,
       { .lookups = true, .steps = true },

@@ -175,6 +175,34 @@ static void counts_are_those_of_records(void)
     close_scene(&o);
 }
 
+/* The sum over each tile of 64 pixels of the frame, of a part of it that begins within one. */
+static void work_of_a_tile_is_the_sum_of_its_pixels(void)
+{
+    static const char *const counts[] = { "early-kills", "overdraw", "lookups", "march-steps" };
+    static const double weights[] = { 0.25, 0.5, 1, 2.5 };
+    const lom_rect crop = { 40, 10, 100, 70 };
+    struct open o = open_scene("lake");
+    double sum[2][3] = { { 0 } };
+    lom_overlay overlay;
+    lom_overlay_desc desc = { .frame = { .width = WIDTH, .height = HEIGHT, .crop = crop }, .legend = LOM_LEGEND_NONE };
+    for (int i = 0; i < 4; i++) {
+        desc.kind = lom_find_overlay(counts[i], NULL);
+        CHECK(lom_draw_overlay(o.renderer, &desc, &overlay, NULL));
+        for (int p = 0; p < crop.width * crop.height; p++)
+            sum[(crop.y + p / crop.width) / 64][(crop.x + p % crop.width) / 64] +=
+                weights[i] * (double)((float *)(void *)overlay.numbers->pixels)[p];
+        lom_free_overlay(&overlay);
+    }
+    desc.kind = lom_find_overlay("tile-work", NULL);
+    CHECK(lom_draw_overlay(o.renderer, &desc, &overlay, NULL));
+    for (int p = 0; p < crop.width * crop.height; p++) {
+        double expected = sum[(crop.y + p / crop.width) / 64][(crop.x + p % crop.width) / 64];
+        CHECK((double)((float *)(void *)overlay.numbers->pixels)[p] == (double)(float)expected, "pixel %d", p);
+    }
+    lom_free_overlay(&overlay);
+    close_scene(&o);
+}
+
 static void legends_lie_where_they_are_asked_for(void)
 {
     struct open o = open_scene("lake");
@@ -206,6 +234,7 @@ int main(int argc, char **argv)
     RUN(depths_are_those_of_the_target);
     RUN(normals_are_those_of_records);
     RUN(counts_are_those_of_records);
+    RUN(work_of_a_tile_is_the_sum_of_its_pixels);
     RUN(legends_lie_where_they_are_asked_for);
     return check_result();
 }
