@@ -28,6 +28,7 @@ typedef struct lom_output {
     lom_output_format format; /* the samples; the kind of file comes from its extension */
     int frames;               /* how many frames the animation has, from 1 */
     double fps;               /* frame n shows the time n / fps, in seconds */
+    int samples;              /* a pixel: 1, 2, 4, 8, 16 (lom/pipeline.h); 0: 1 */
 } lom_output;
 
 /* ---- [camera] ---- */

@@ -11,7 +11,7 @@
 #include <string.h>
 
 typedef struct bench_options {
-    lom_option_integers size, frames, warm_up, threads;
+    lom_option_integers size, frames, warm_up, threads, samples;
     const char *lanes, *filtering, *march, *output;
     bool plain, json, list;
 } bench_options;
@@ -28,6 +28,8 @@ static const lom_option options[] = {
       "values side by side (the widest the processor has)" },
     { "plain", 0, LOM_OPTION_FLAG, offsetof(bench_options, plain), NULL, 0, 0,
       "lower the lanes to the processor's baseline instructions" },
+    { "samples", 0, LOM_OPTION_INTEGER, offsetof(bench_options, samples), "N", 1, LOM_MAX_SAMPLES,
+      "samples a pixel (1): 1, 2, 4, 8 or 16" },
     { "filtering", 0, LOM_OPTION_CHOICE, offsetof(bench_options, filtering), "float|fixed", 0, 0,
       "arithmetic in which textures are filtered (fixed)" },
     { "march", 0, LOM_OPTION_CHOICE, offsetof(bench_options, march), "float|fixed", 0, 0,
@@ -105,6 +107,8 @@ static bool run_one(const bench_options *o, const char *name, lom_device *device
     lom_timing timing;
     lom_workload *workload = lom_create_workload(name, width, height, filtering_of(o->filtering, LOM_FILTERING_FIXED),
                                                  filtering_of(o->march, LOM_FILTERING_FLOAT), error);
+    if (workload != NULL)
+        lom_set_workload_samples(workload, (int)given_or(&o->samples, 1));
     bool done = workload != NULL && lom_time_workload(workload, device, (int)given_or(&o->warm_up, 2),
                                                       (int)given_or(&o->frames, 20), &timing, error);
     lom_image *picture = done ? lom_workload_picture(workload, device, error) : NULL;

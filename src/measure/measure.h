@@ -31,6 +31,8 @@ const char *lom_workload_summary(int index);
 lom_workload *lom_create_workload(const char *name, int width, int height, lom_filtering filtering, lom_filtering march,
                                   lom_error *error);
 void lom_free_workload(lom_workload *workload);
+/* Its passes have so many samples a pixel from now on (lom_pass_desc.samples); 1 at first. */
+void lom_set_workload_samples(lom_workload *workload, int samples);
 
 /* Draws one frame, every time the same; complete when it returns. */
 bool lom_draw_workload(lom_workload *workload, lom_device *device, lom_error *error);

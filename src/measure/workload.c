@@ -334,6 +334,11 @@ void lom_free_workload(lom_workload *w)
     lom_release(w);
 }
 
+void lom_set_workload_samples(lom_workload *workload, int samples)
+{
+    workload->samples = samples;
+}
+
 bool lom_prepare_workload(lom_workload *workload, lom_device *device, lom_error *error)
 {
     const lom_workload_task *task = workload->kind->task;

@@ -50,7 +50,7 @@ typedef struct lom_workload_task {
 
 struct lom_workload {
     const lom_workload_kind *kind;
-    int width, height;
+    int width, height, samples;
     lom_filtering filtering, march; /* of textures; of the cloud */
     lom_texture *color[LOM_TARGETS], *depth[LOM_TARGETS];
     lom_peer_mesh torus, cube, terrain, water, scattered;

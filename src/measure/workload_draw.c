@@ -38,6 +38,7 @@ void lom_begin_workload_pass(lom_workload *w, lom_device *device, int target, fl
 {
     lom_begin_pass(device, &(lom_pass_desc){ .color = { w->color[target] },
                                              .depth = w->depth[target],
+                                             .samples = w->samples,
                                              .clip_range = LOM_CLIP_MINUS_W_TO_W,
                                              .clear_color = { { r, g, b, 1 } },
                                              .clear_depth = 1 });
@@ -91,8 +92,10 @@ void lom_draw_depth(lom_workload *w, lom_device *device)
 {
     lom_peer_depth uniforms;
     memcpy(uniforms.to_clip, w->to_clip.m, sizeof uniforms.to_clip);
-    lom_begin_pass(
-        device, &(lom_pass_desc){ .depth = w->depth[LOM_MAIN], .clip_range = LOM_CLIP_MINUS_W_TO_W, .clear_depth = 1 });
+    lom_begin_pass(device, &(lom_pass_desc){ .depth = w->depth[LOM_MAIN],
+                                             .samples = w->samples,
+                                             .clip_range = LOM_CLIP_MINUS_W_TO_W,
+                                             .clear_depth = 1 });
     lom_draw_desc draw = lom_workload_mesh_draw(&lom_peer_depth_shader, &w->torus, 1, &uniforms);
     draw.depth_compare = LOM_COMPARE_LESS;
     lom_draw(device, &draw);

@@ -154,8 +154,11 @@ static bool exceeds_caches(const struct lom_pass *pass)
 static bool choose_samples(lom_device *device, struct lom_pass *pass)
 {
     pass->samples = pass->desc.samples != 0 ? pass->desc.samples : 1;
+    bool is_number = lom_sample_offsets(pass->samples) != NULL;
+    if (is_number && (device->recorder != NULL || device->tallier != NULL))
+        pass->samples = 1; /* lom/record.h */
     pass->offset = lom_sample_offsets(pass->samples);
-    if (pass->offset == NULL)
+    if (!is_number)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has 1, 2, 4, 8 or 16 samples a pixel, not %d.",
                         pass->samples);
     for (int i = 0; i < pass->samples; i++) {

@@ -246,7 +246,7 @@ void lom_record_begin(lom_device *device)
     r->bounds = (struct lom_bounds){ INT32_MAX, INT32_MAX, -1, -1 };
     for (size_t i = 0; i < r->watch_count; i++) {
         struct record_watch *watch = &r->watch[i];
-        watch->active = pass->samples == 1 && find_attachment(pass, watch, &watch->attachment) &&
+        watch->active = find_attachment(pass, watch, &watch->attachment) &&
                         (watch->desc.before == 0 || r->passes < watch->desc.before);
         if (!watch->active)
             continue;

@@ -12,7 +12,7 @@ enum { each_frame = 0 };
 
 const struct lom_key_row lom_key_rows[] = {
     { each_frame, "title output output.width output.height output.frames output.fps camera.* light.* haze.*" },
-    { LOM_PART_TARGETS, "output.format" },
+    { LOM_PART_TARGETS, "output.format output.samples" },
     { LOM_PARTS_ALL, "output.transfer" },
 
     { LOM_PART_SKY, "sky sky.pattern sky.faces sky.sun sky.sun_rays" },

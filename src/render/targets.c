@@ -48,12 +48,13 @@ static const struct row {
     enum kind kind;
     bool (*may_share)(const lom_scene *scene);
     enum lom_target with;
+    bool keeps; /* its samples, for a pass that goes on with what the one before has drawn */
 } rows[LOM_TARGETS] = {
-    [LOM_TARGET_COLOR] = { "picture", ALWAYS, DRAWN, COLOR },
-    [LOM_TARGET_DEPTH] = { "depth", ALWAYS, DRAWN, DEPTH },
+    [LOM_TARGET_COLOR] = { "picture", ALWAYS, DRAWN, COLOR, .keeps = true },
+    [LOM_TARGET_DEPTH] = { "depth", ALWAYS, DRAWN, DEPTH, .keeps = true },
     [LOM_TARGET_REFRACTION] = { "refraction", FOR_WATER, REFRACTED, COLOR },
     [LOM_TARGET_REFRACTION_DEPTH] = { "refraction depth", FOR_WATER, REFRACTED, DEPTH },
-    [LOM_TARGET_REFLECTION] = { "reflection", FOR_WATER, REFLECTED, COLOR },
+    [LOM_TARGET_REFLECTION] = { "reflection", FOR_WATER, REFLECTED, COLOR, .keeps = true },
     [LOM_TARGET_REFLECTION_DEPTH] = { "reflection depth", FOR_WATER, REFLECTED, DEPTH, is_planar,
                                       LOM_TARGET_REFRACTION_DEPTH },
     [LOM_TARGET_MASK] = { "mask", FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION },
@@ -77,7 +78,8 @@ static void describe(const lom_scene *scene, const struct lom_targets *size, lom
         const struct row *row = &rows[i];
         desc[i] = (lom_texture_desc){ .label = row->label,
                                       .format = format[row->kind],
-                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
+                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP },
+                                      .samples = row->keeps ? scene->output.samples : 0 };
         if (!needed[row->need])
             continue;
         desc[i].width = row->size == DRAWN ? size->drawn_width : scaled(size->width, scale[row->size]);
@@ -156,6 +158,7 @@ uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int dra
     describe(scene, &size, desc);
     for (int i = 0; i < LOM_TARGETS; i++)
         if (!shares(scene, desc, i))
-            bytes += (uint64_t)desc[i].width * (uint64_t)desc[i].height * lom_format_size(desc[i].format);
+            bytes += (uint64_t)desc[i].width * (uint64_t)desc[i].height * lom_format_size(desc[i].format) *
+                     (uint64_t)(desc[i].samples > 1 ? desc[i].samples + 1 : 1);
     return bytes;
 }

@@ -28,10 +28,22 @@ static const lom_key output[] = {
       .text = "Length of the animation." },
     { "fps", LOM_KEY_NUMBER, AT(lom_output, fps), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 30 },
       .unit = "1/s", .text = "Frame n shows the time n / fps." },
+    { "samples", LOM_KEY_INTEGER, AT(lom_output, samples), .minimum = 1, .maximum = LOM_MAX_SAMPLES, .initial = { 1 },
+      .text =
+          "Places of a pixel at which coverage and depth are tested: 1, 2, 4, 8 or 16. With more than one, edges are "
+          "smooth: the pixel is the mean of its samples in linear light (docs/samples.md)." },
 };
+
+static bool check_output(void *members, const lom_key_check *check)
+{
+    const int samples = ((const lom_output *)members)->samples;
+    return (samples & (samples - 1)) == 0 || check->fail(check, "samples", "a pixel has 1, 2, 4, 8 or 16 samples.");
+}
+
 static const lom_key_table output_table = { .size = sizeof(lom_output),
                                             .keys = output,
                                             .key_count = COUNT(output),
+                                            .check = check_output,
                                             .text = "The picture or the frames of the animation." };
 
 static const lom_key haze[] = {

@@ -94,7 +94,7 @@ lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window,
 
 /* Begins a picture of the frame's size with what the frame shows of it: a surface that is seen there and lies inside the
  * view's plane is the nearest of those inside. The margin, a part of the eye's height over the plane, is far more than
- * floats round. */
+ * floats round. Where pixels have several samples a texel is a mixture of surfaces, which may lie on both sides. */
 static void copy_scene(struct frame *f, const struct lom_scene_view *view)
 {
     const lom_renderer *r = f->renderer;
@@ -124,7 +124,8 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
                       lom_error *error)
 {
     lom_renderer *r = f->renderer;
-    lom_pass_desc pass = { .color = { color }, .depth = depth, .scissor = scissor };
+    const int samples = f->scene->output.samples;
+    lom_pass_desc pass = { .color = { color }, .depth = depth, .samples = samples, .scissor = scissor };
     pass.label = view->mirrored ? "reflection" : "refraction";
     for (int i = 0; i < 4; i++)
         pass.clear_color[0][i] = clear[i];
@@ -132,7 +133,7 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->height = lom_texture_height(color);
     step->scissor = scissor;
     lom_begin_pass(r->device, &pass);
-    if (is_shown && step->width == f->width && step->height == f->height)
+    if (is_shown && samples <= 1 && step->width == f->width && step->height == f->height)
         copy_scene(f, view);
     lom_draw_scene(r, view);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
