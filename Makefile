@@ -326,14 +326,19 @@ cpu           := $(if $(filter demo,$(MAKECMDGOALS)),$(shell grep -m1 ^flags /pr
 widest        := $(if $(filter-out $(cpu),avx512f avx512dq avx512bw avx512vl avx512cd),$(if $(filter avx2,$(cpu)),8),16)
 demo_variants := $(filter 4 $(widest),$(VARIANTS))
 demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o) %/view_sdl.o, \
-	$(sort $(cli_objects) $(BUILD)/src/cli/view_sdl_none.o) $(lesson_objects) $(measure_objects) $(lib_objects))
+	$(cli_objects) $(lesson_objects) $(measure_objects) $(lib_objects))
 
-$(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o
+$(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o $(if $(SDL),$(BUILD)/demo/view_sdl_none.o)
 	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 $(BUILD)/demo/variants.o: src/lanes/variants.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) $(CPPFLAGS) -ULOM_EACH_VARIANT '-DLOM_EACH_VARIANT(X,name)=$(foreach v,$(demo_variants),X(name,$v))' $(CFLAGS) -MMD -MP -c -o $@ $<
+
+# The demo opens no window.
+$(BUILD)/demo/view_sdl_none.o: src/cli/view_sdl_none.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/demo/absent.o: $(BUILD)/demo/absent.c
 	$(call short,CC)$(CC) $(CFLAGS) -c -o $@ $<

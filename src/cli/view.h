@@ -101,7 +101,8 @@ struct lom_view {
     struct lom_view_load *load;         /* a scene that is being read; NULL: none */
     struct lom_settings settings, good; /* what the scene has instead of its file; of the scene that is shown */
     bool has_changed;                   /* the settings or a file have: the scene is to be read again */
-    bool needs_renderer;                /* by another renderer, since a file that it names was written */
+    bool is_file_new;                   /* since one of its files was written */
+    bool needs_renderer;                /* by another renderer, since it is a file that the scene names */
 
     int width, height; /* of the window */
     double time;       /* of the scene, seconds */

@@ -12,7 +12,7 @@ struct lom_view_load {
     const char *path;
     struct lom_scene_options options;
     struct lom_settings settings;
-    struct lom_watched *watched;
+    struct lom_watched *watched; /* NULL: the scene names the files that it named before */
     lom_scene *scene;
     lom_renderer *renderer; /* the view's, which nobody else uses meanwhile; NULL: another one is to be made */
     bool is_done;
@@ -27,7 +27,8 @@ static void work(void *context)
     load->scene = lom_open_scene(load->path, &load->options, &load->error);
     if (load->scene == NULL)
         return;
-    lom_watch_scene(load->watched, load->scene);
+    if (load->watched != NULL)
+        lom_watch_scene(load->watched, load->scene);
     if (load->renderer != NULL) {
         load->is_done = lom_change_scene(load->renderer, load->scene, NULL, &load->error);
     } else {
@@ -45,13 +46,14 @@ static struct lom_view_load *begin(struct lom_view *view, lom_error *error)
     load->path = view->path;
     load->options = view->options;
     load->settings = view->settings;
-    load->watched = view->watched;
     if (load->options.set.count < LOM_OPTION_LIST_MAX)
         load->options.set.items[load->options.set.count++] = format;
     lom_list_settings(&load->settings, &load->options.set);
-    view->needs_renderer = view->needs_renderer || lom_has_named_file_changed(load->watched);
+    view->is_file_new = view->is_file_new || view->renderer == NULL || lom_has_changed(view->watched);
+    view->needs_renderer = view->needs_renderer || lom_has_named_file_changed(view->watched);
+    load->watched = view->is_file_new ? view->watched : NULL;
     load->renderer = view->needs_renderer ? NULL : view->renderer;
-    lom_look_at_watched(load->watched);
+    lom_look_at_watched(view->watched);
     load->background = lom_begin_background(work, load, error);
     if (load->background == NULL)
         lom_release(load);
@@ -72,7 +74,7 @@ static void show_loaded(struct lom_view *view, struct lom_view_load *load)
     if (load->renderer != view->renderer)
         lom_free_renderer(view->renderer);
     lom_free_scene(view->scene);
-    view->needs_renderer = false;
+    view->is_file_new = view->needs_renderer = false;
     view->renderer = load->renderer;
     view->scene = load->scene;
     view->good = load->settings;

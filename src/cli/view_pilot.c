@@ -1,5 +1,5 @@
 /* Steering an entity, and the sun. In: keys that are held, seconds. Out: settings that place them. Invariant: what is
- * steered is placed by its position and rotation alone, so that `lom render` with these settings draws the same. */
+ * steered is placed by one key frame, so that `lom render` with these settings draws the same. */
 #include "view_pilot.h"
 
 #include "base/numbers.h"
@@ -90,19 +90,24 @@ bool lom_take_controls(struct lom_view *view)
     return true;
 }
 
+/* One key frame: then it is a key frame that changes, for which nothing is loaded. */
 static bool place(struct lom_view *view)
 {
     const struct lom_pilot *pilot = &view->pilot;
     lom_vec3 turn = lom_rotation_of_flight(pilot->yaw, pilot->pitch, pilot->roll);
-    const double degrees[3] = { turn.x / lom_radians_per_degree, turn.y / lom_radians_per_degree,
+    const double numbers[6] = { pilot->position.x,
+                                pilot->position.y,
+                                pilot->position.z,
+                                turn.x / lom_radians_per_degree,
+                                turn.y / lom_radians_per_degree,
                                 turn.z / lom_radians_per_degree };
-    const double position[3] = { pilot->position.x, pilot->position.y, pilot->position.z };
-    char key[3][64];
-    snprintf(key[0], sizeof key[0], "entity.%zu.key", pilot->entity);
-    snprintf(key[1], sizeof key[1], "entity.%zu.position", pilot->entity);
-    snprintf(key[2], sizeof key[2], "entity.%zu.rotation", pilot->entity);
-    return lom_set_setting(&view->settings, key[0], "[]") && lom_set_numbers(&view->settings, key[1], position, 3) &&
-           lom_set_numbers(&view->settings, key[2], degrees, 3);
+    char key[64], value[LOM_MAX_SETTING], n[6][32];
+    for (int i = 0; i < 6; i++)
+        lom_print_double(n[i], numbers[i]);
+    snprintf(key, sizeof key, "entity.%zu.key", pilot->entity);
+    snprintf(value, sizeof value, "[{ time = 0, position = [%s, %s, %s], rotation = [%s, %s, %s] }]", n[0], n[1], n[2],
+             n[3], n[4], n[5]);
+    return lom_set_setting(&view->settings, key, value);
 }
 
 void lom_step_pilot(struct lom_view *view, double seconds)
@@ -182,13 +187,11 @@ void lom_step_sun(struct lom_view *view, double seconds)
 
 void lom_give_back(struct lom_view *view)
 {
-    static const char *const entity[] = { "key", "position", "rotation" };
     char key[64];
+    snprintf(key, sizeof key, "entity.%zu.key", view->pilot.entity);
     lom_drop_setting(&view->settings, "light");
-    for (size_t i = 0; view->pilot.flies && i < sizeof entity / sizeof entity[0]; i++) {
-        snprintf(key, sizeof key, "entity.%zu.%s", view->pilot.entity, entity[i]);
+    if (view->pilot.flies)
         lom_drop_setting(&view->settings, key);
-    }
     view->has_changed = view->has_changed || view->sun.moved || view->pilot.flies;
     view->sun = (struct lom_moved_sun){ .moved = false };
     view->pilot = (struct lom_pilot){ .flies = false };

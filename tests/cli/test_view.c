@@ -354,6 +354,150 @@ static void overlays_are_shown_in_turn(void)
     lom_close_view(view);
 }
 
+/* With a box that moves, followed by the camera in the first person or not. */
+static struct lom_view *open_moving(bool first_person)
+{
+    lom_error error = { .code = LOM_OK };
+    static char text[4096];
+    snprintf(text, sizeof text,
+             "%s[[entity.key]]\ntime = 0\nposition = [0, 2, 2]\n[[entity.key]]\ntime = 1\nposition = [0, 2, -38]\n"
+             "[[entity]]\nname = \"other\"\nmesh = \"box.obj\"\nposition = [3, 1, 1]\n",
+             small_scene);
+    char *at = strstr(text, "target = [0, 1, 0]\n");
+    if (first_person && at != NULL) {
+        static const char *const with = "follow = \"box\"\nperson = \"first\"\n";
+        at += strlen("target = [0, 1, 0]\n");
+        memmove(at + strlen(with), at, strlen(at) + 1);
+        memcpy(at, with, strlen(with));
+    }
+    CHECK(at != NULL && small_text("scene.toml", text, &error), "%s", error.text);
+    return open_view(LOM_ORDER_RGBX);
+}
+
+static void arrows_steer_the_aircraft(void)
+{
+    struct lom_view *view = open_moving(false);
+    go_on(view, 1);
+    uint64_t first = hash_of(view);
+    send(view, LOM_VIEW_PRESS, LOM_VIEW_RIGHT, 0, 0);
+    go_on(view, 20);
+    send(view, LOM_VIEW_RELEASE, LOM_VIEW_RIGHT, 0, 0);
+    lom_entity_place place = lom_scene_entity_at(&view->scene->entities[0], view->time);
+    CHECK(view->runs && view->pilot.speed > 39.9 && view->pilot.speed < 40.1, "%g m/s", view->pilot.speed);
+    CHECK(place.position.x > 0.05 && place.position.z < -8 && place.rotation.z < -0.2, "at %g %g, banked by %g",
+          place.position.x, place.position.z, place.rotation.z);
+    CHECK(hash_of(view) == drawn_afresh(view) && hash_of(view) != first, "it is not drawn there");
+    tap(view, LOM_VIEW_SPACE);
+    go_on(view, 3);
+    int pictures = view->pictures;
+    go_on(view, 10);
+    CHECK(view->pictures == pictures, "it flies while time stands");
+    send(view, LOM_VIEW_PRESS, LOM_VIEW_PAGE_UP, 0, 0);
+    send(view, LOM_VIEW_PRESS, LOM_VIEW_UP, 0, 0);
+    go_on(view, 10);
+    CHECK(view->pilot.speed > 45 && view->pilot.pitch > 0.02, "%g m/s, %g", view->pilot.speed, view->pilot.pitch);
+    send(view, LOM_VIEW_RELEASE, LOM_VIEW_PAGE_UP, 0, 0);
+    send(view, LOM_VIEW_RELEASE, LOM_VIEW_UP, 0, 0);
+    tap(view, LOM_VIEW_SPACE);
+    tap(view, LOM_VIEW_BACKSPACE);
+    tap(view, '0');
+    go_on(view, 3);
+    CHECK(hash_of(view) == first && view->settings.count == 0 && !view->pilot.flies, "not as the file has it");
+    lom_close_view(view);
+}
+
+static void nothing_to_steer_is_said(void)
+{
+    lom_error error = { .code = LOM_OK };
+    CHECK(small_text("scene.toml", small_scene, &error), "%s", error.text);
+    struct lom_view *view = open_view(LOM_ORDER_RGBX);
+    send(view, LOM_VIEW_PRESS, LOM_VIEW_LEFT, 0, 0);
+    go_on(view, 3);
+    CHECK(view->is_error && strstr(view->message, "no aircraft") != NULL && view->pictures == 1 && !view->runs, "%s",
+          view->message);
+    tap(view, 'n'); /* what is followed can be steered */
+    send(view, LOM_VIEW_PRESS, LOM_VIEW_LEFT, 0, 0);
+    go_on(view, 3);
+    CHECK(view->pilot.flies && view->runs, "%s", view->message);
+    lom_close_view(view);
+}
+
+/* Scene's, free, third, first person: each at rest a renderer's picture; in the first the entity is hidden. */
+static void persons_follow_in_turn(void)
+{
+    for (int first_person = 0; first_person < 2; first_person++) {
+        struct lom_view *view = open_moving(first_person != 0);
+        go_on(view, 1);
+        uint64_t first = hash_of(view);
+        for (int kind = LOM_EYE_FREE; kind <= LOM_EYE_KINDS; kind++) {
+            tap(view, 'c');
+            go_on(view, 3);
+            bool hides = view->scene->camera.followed != 0 && view->scene->camera.person == LOM_PERSON_FIRST;
+            CHECK((int)view->eye.kind == kind % LOM_EYE_KINDS, "eye %d instead of %d", (int)view->eye.kind, kind);
+            CHECK(hides == (view->eye.kind == LOM_EYE_FIRST || (kind == LOM_EYE_KINDS && first_person)), "eye %d",
+                  kind);
+            CHECK(view->is_exact && hash_of(view) == drawn_afresh(view), "eye %d", kind);
+        }
+        CHECK(hash_of(view) == first && view->settings.count == 0, "not the scene's camera again");
+        send(view, LOM_VIEW_PRESS, 'w', 0, 0);
+        go_on(view, 5);
+        send(view, LOM_VIEW_RELEASE, 'w', 0, 0);
+        CHECK(view->eye.kind == (first_person ? LOM_EYE_FIRST : LOM_EYE_FREE), "moved as %d", (int)view->eye.kind);
+        tap(view, 'n');
+        go_on(view, 3);
+        tap(view, 'n');
+        go_on(view, 3);
+        CHECK(view->eye.followed != 0 && hash_of(view) == drawn_afresh(view), "the next entity");
+        lom_close_view(view);
+    }
+}
+
+static void the_sun_is_moved_and_stopped(void)
+{
+    struct lom_view *view = open_moving(false);
+    go_on(view, 1);
+    uint64_t first = hash_of(view);
+    send(view, LOM_VIEW_PRESS, 'i', 0, 0);
+    go_on(view, 30);
+    send(view, LOM_VIEW_RELEASE, 'i', 0, 0);
+    go_on(view, 3);
+    uint64_t higher = hash_of(view);
+    CHECK(view->sun.elevation > 39.9 && view->sun.elevation < 40.1 && view->sun.azimuth > 19.9999 &&
+              view->sun.azimuth < 20.0001,
+          "%g %g", view->sun.azimuth, view->sun.elevation);
+    CHECK(higher != first && higher == drawn_afresh(view), "it is not drawn there");
+    tap(view, 'o');
+    go_on(view, 60);
+    tap(view, 'o');
+    go_on(view, 3);
+    CHECK(view->sun.azimuth > 29.9 && view->sun.azimuth < 30.1 && lom_view_rests(view), "%g", view->sun.azimuth);
+    tap(view, LOM_VIEW_BACKSPACE);
+    go_on(view, 3);
+    CHECK(hash_of(view) == first && view->settings.count == 0, "not as the file has it");
+    lom_close_view(view);
+}
+
+static void lines_are_as_wide_as_the_window(void)
+{
+    struct lom_view *view = open_moving(false);
+    static uint8_t pixels[640 * 400 * 4];
+    static const int sizes[][2] = { { 1, 1 }, { 7, 300 }, { 300, 7 }, { 640, 400 } };
+    tap(view, LOM_VIEW_TAB);
+    tap(view, 'g');
+    tap(view, 'v');
+    for (int i = 0; i < 4; i++) {
+        send(view, LOM_VIEW_RESIZE, 0, sizes[i][0], sizes[i][1]);
+        go_on(view, 2);
+        for (int keys = 0; keys < 2; keys++) {
+            tap(view, LOM_VIEW_F1);
+            lom_tell_view(view, keys != 0, "%0600d a b c", 7); /* longer than any line */
+            lom_paint_view(view, pixels, 4 * (size_t)sizes[i][0]);
+        }
+    }
+    CHECK(view->width == 640, "not resized");
+    lom_close_view(view);
+}
+
 /* The frame of a letter is dark, the letter light, whatever is behind; all of the window is written. */
 static void what_is_painted_is_legible(void)
 {
@@ -395,6 +539,11 @@ int main(int argc, char **argv)
     RUN(a_path_is_recorded);
     RUN(passes_are_shown_in_turn);
     RUN(overlays_are_shown_in_turn);
+    RUN(arrows_steer_the_aircraft);
+    RUN(nothing_to_steer_is_said);
+    RUN(persons_follow_in_turn);
+    RUN(the_sun_is_moved_and_stopped);
+    RUN(lines_are_as_wide_as_the_window);
     RUN(what_is_painted_is_legible);
     remove_small_scene();
     return check_result();
