@@ -9,7 +9,10 @@
 
 #include <string.h>
 
-enum { MARGIN = 4 }; /* letters' pixels from the border */
+enum {
+    MARGIN = 4,  /* letters' pixels from the border */
+    COLUMNS = 46 /* of the menu */
+};
 
 struct painting {
     const struct lom_view *view;
@@ -148,7 +151,8 @@ static void paint_cross(const struct painting *p)
     write_text(p, view->explained_x - half, view->explained_y - half - p->scale, "+", 0xffff60);
 }
 
-static void paint_status(const struct painting *p)
+/* At the bottom, or beside what is at the top, since an overlay's legend is at the bottom. */
+static void paint_status(const struct painting *p, int x)
 {
     static const char *const kinds[] = { "scene's camera", "free", "third person", "first person" };
     const struct lom_view *view = p->view;
@@ -166,19 +170,19 @@ static void paint_status(const struct painting *p)
              view->adapts ? "" : "  whole", view->load != NULL ? "  reading ..." : "",
              view->recording.runs ? "  recording" : "", view->saves ? "  writing ..." : "");
     int height = LOM_GLYPH_LINE * p->scale;
-    write_text(p, MARGIN * p->scale, view->height - height - p->scale, text, 0xffffff);
+    bool is_above = view->overlay >= 0;
+    write_text(p, (is_above ? x : 0) + MARGIN * p->scale, is_above ? p->scale : view->height - height - p->scale, text,
+               0xffffff);
 }
 
-/* What is shown in the place of the picture. */
+/* Which pass is shown; an overlay says it itself. */
 static void paint_pass(const struct painting *p, int y)
 {
-    const struct lom_view *view = p->view;
-    const lom_shown_pass *pass = view->pass >= 0 ? lom_describe_shown_pass((size_t)view->pass) : NULL;
-    const lom_overlay_kind *kind = view->overlay >= 0 ? lom_describe_overlay((size_t)view->overlay) : NULL;
-    char text[400] = "";
-    if (pass != NULL || kind != NULL)
-        snprintf(text, sizeof text, "%s: %s", pass != NULL ? pass->name : kind->name,
-                 pass != NULL ? pass->text : kind->text);
+    if (p->view->pass < 0)
+        return;
+    const lom_shown_pass *pass = lom_describe_shown_pass((size_t)p->view->pass);
+    char text[400];
+    snprintf(text, sizeof text, "%s: %s", pass->name, pass->text);
     paint_box(p, 0, y, columns_of(p, p->rows.width), text, 0x80e0ff);
 }
 
@@ -214,7 +218,6 @@ static size_t find_chosen(const struct lom_view *view)
 
 static void paint_menu(const struct painting *p)
 {
-    enum { COLUMNS = 46 };
     const struct lom_view *view = p->view;
     char text[LOM_MENU_ROW];
     bool is_chosen;
@@ -241,14 +244,14 @@ void lom_paint_view(struct lom_view *view, uint8_t *pixels, size_t pitch)
     paint_cross(&p);
     if (view->menu->is_open)
         paint_menu(&p);
+    int x = view->menu->is_open ? COLUMNS * LOM_GLYPH_STEP * p.scale + 3 * MARGIN * p.scale : 0;
     if (view->shows_status)
-        paint_status(&p);
-    int x = view->menu->is_open ? 46 * LOM_GLYPH_STEP * p.scale + 3 * MARGIN * p.scale : 0;
+        paint_status(&p, x);
     if (view->shows_keys) {
         paint_keys(&p);
     } else {
-        int y =
-            paint_box(&p, x, 0, columns_of(&p, view->width - x), view->message, view->is_error ? 0xff8070 : 0xffffff);
+        int y = view->overlay >= 0 && view->shows_status ? LOM_GLYPH_LINE * p.scale + p.scale : 0;
+        y = paint_box(&p, x, y, columns_of(&p, view->width - x), view->message, view->is_error ? 0xff8070 : 0xffffff);
         if (!view->menu->is_open)
             paint_pass(&p, y);
     }
