@@ -23,15 +23,19 @@ static bool is_bounded(const lom_key *key)
     return key->minimum != 0 || key->maximum != 0;
 }
 
-/* The value next to one that is `steps` steps of `step` from 0: computed from whole numbers, so that it prints as people
- * write it. */
+/* A tenth of the value's power of ten; of the default's when it is 0; else some parts of the range. */
+static double find_step(const lom_key *key, double value)
+{
+    double of = lom_magnitude(value != 0 ? value : key->initial[0]);
+    double span = is_bounded(key) ? lom_smaller(key->maximum - key->minimum, 100) : 100;
+    double step = of != 0 ? power_of_ten(of) / 10 : power_of_ten(span / 200);
+    return key->type == LOM_KEY_INTEGER ? lom_larger(lom_double_floor(step + 0.5), 1) : step;
+}
+
+/* The value next to one that is so many steps from 0: computed from whole numbers, so that it prints as people write it. */
 static double step_number(const lom_key *key, double value, int direction, bool fast)
 {
-    double span = is_bounded(key) ? lom_smaller(key->maximum - key->minimum, 100) : 100;
-    double least = key->type == LOM_KEY_INTEGER ? 1 : power_of_ten(span / 200);
-    double step = lom_larger(least, power_of_ten(lom_magnitude(value)) / 10);
-    if (key->type == LOM_KEY_INTEGER)
-        step = lom_double_floor(step + 0.5);
+    double step = find_step(key, value);
     double steps = lom_double_floor(value / step + 0.5) + direction * (fast ? 10 : 1);
     double inverse = lom_double_floor(1 / step + 0.5);
     double result = step < 1 ? steps / inverse : steps * step;
@@ -85,6 +89,31 @@ void lom_print_key_value(char text[64], const lom_key *key, double value)
         snprintf(text, 64, "%s", number);
 }
 
+/* False of the zeros of a table that is not in the file and must say more. */
+static bool is_within(const lom_key *key, double value)
+{
+    return !is_bounded(key) ||
+           (value <= key->maximum && (key->flags & LOM_KEY_ABOVE ? value > key->minimum : value >= key->minimum));
+}
+
+void lom_print_item(char text[160], const struct lom_menu_item *item, double value)
+{
+    char number[64];
+    if (item->key->count <= 1) {
+        lom_print_key_value(number, item->key, value);
+        snprintf(text, 160, "%s", number);
+        return;
+    }
+    const double *first = (const double *)item->member - item->component;
+    size_t used = 0;
+    for (int i = 0; i < item->key->count && used + 40 < 160; i++) {
+        double old = lom_key_value(item->key, first + i);
+        lom_print_key_value(number, item->key, i == item->component || !is_within(item->key, old) ? value : old);
+        used += (size_t)snprintf(text + used, 160 - used, "%s%s", i == 0 ? "[" : ", ", number);
+    }
+    snprintf(text + used, 160 - used, "]");
+}
+
 /* ---- what there is ---- */
 
 struct lom_menu *lom_create_menu(lom_error *error)
@@ -100,7 +129,8 @@ void lom_free_menu(struct lom_menu *menu)
     lom_release(menu);
 }
 
-static bool add_item(struct lom_menu *menu, const char *path, const lom_key *key, const void *member, lom_error *error)
+static bool add_item(struct lom_menu *menu, const char *path, const lom_key *key, const void *member, int component,
+                     lom_error *error)
 {
     if (menu->count == menu->room) {
         size_t room = menu->room == 0 ? 256 : 2 * menu->room;
@@ -117,13 +147,15 @@ static bool add_item(struct lom_menu *menu, const char *path, const lom_key *key
     snprintf(item->path, sizeof item->path, "%s", path);
     item->key = key;
     item->member = member;
+    item->component = component;
     return true;
 }
 
 static bool is_dial(const lom_key *key)
 {
-    bool is_number = key->type == LOM_KEY_INTEGER || key->type == LOM_KEY_NUMBER || key->type == LOM_KEY_ANGLE;
-    return key->count <= 1 && (is_number || key->type == LOM_KEY_BOOL || key->type == LOM_KEY_CHOICE);
+    bool is_one = key->type == LOM_KEY_INTEGER || key->type == LOM_KEY_BOOL || key->type == LOM_KEY_CHOICE;
+    bool is_some = key->type == LOM_KEY_NUMBER || key->type == LOM_KEY_ANGLE || key->type == LOM_KEY_COLOR;
+    return is_some ? key->count <= 3 : is_one && key->count <= 1;
 }
 
 static bool join(char path[LOM_MENU_PATH], const char *before, const char *name)
@@ -176,9 +208,10 @@ static bool add_table(struct lom_menu *menu, const char *path, const lom_key_tab
         const lom_key *key = &table->keys[i];
         if (!is_dial(key) || !join(at, path, key->name))
             continue;
-        done = is_named || add_item(menu, path, NULL, NULL, error);
+        done = is_named || add_item(menu, path, NULL, NULL, 0, error);
         is_named = true;
-        done = done && add_item(menu, at, key, members + key->offset, error);
+        for (int c = 0; done && c < lom_larger_int(key->count, 1); c++)
+            done = add_item(menu, at, key, members + key->offset + (size_t)c * sizeof(double), c, error);
     }
     for (int i = 0; done && i < table->key_count; i++) {
         const lom_key *key = &table->keys[i];
@@ -194,13 +227,13 @@ static bool add_table(struct lom_menu *menu, const char *path, const lom_key_tab
 
 bool lom_fill_menu(struct lom_menu *menu, const lom_scene *scene, lom_error *error)
 {
-    char chosen[LOM_MENU_PATH] = "";
+    struct lom_menu_item chosen = { .path = "" };
     if (menu->count != 0)
-        memcpy(chosen, menu->items[menu->chosen].path, sizeof chosen);
+        chosen = menu->items[menu->chosen];
     menu->count = menu->chosen = 0;
     bool done = add_table(menu, "", &lom_scene_keys, (const char *)scene, error);
     for (size_t i = 0; i < menu->count; i++)
-        if (strcmp(menu->items[i].path, chosen) == 0)
+        if (strcmp(menu->items[i].path, chosen.path) == 0 && menu->items[i].component == chosen.component)
             menu->chosen = i;
     return done;
 }
@@ -235,10 +268,12 @@ static void move(struct lom_menu *menu, int n)
 
 static void change(struct lom_view *view, const struct lom_menu_item *item, int direction)
 {
-    char text[64];
+    char text[160];
     double value = lom_key_value(item->key, item->member);
     double next = lom_step_key(item->key, value, direction, view->held[LOM_VIEW_SHIFT]);
-    lom_print_key_value(text, item->key, next);
+    if (next == value) /* the end of its range */
+        return;
+    lom_print_item(text, item, next);
     if (!lom_set_setting(&view->settings, item->path, text))
         lom_tell_view(view, true, "no more than %d keys can be changed at a time.", LOM_MAX_SETTINGS);
     view->has_changed = true;
@@ -282,10 +317,13 @@ bool lom_menu_row(const struct lom_view *view, size_t n, char text[LOM_MENU_ROW]
                  item->path[0] != '\0' ? item->path : "scene");
         return true;
     }
-    char value[64];
+    static const char *const letters[] = { "rgb", "01", "xyz" };
+    char value[64], name[64];
+    const char *letter = letters[item->key->type == LOM_KEY_COLOR ? 0 : item->key->count == 2 ? 1 : 2];
+    snprintf(name, sizeof name, item->key->count > 1 ? "%s.%c" : "%s", item->key->name, letter[item->component]);
     bool is_set = lom_find_setting(&view->settings, item->path) != NULL;
     lom_print_key_value(value, item->key, lom_key_value(item->key, item->member));
-    snprintf(text, LOM_MENU_ROW, "  %-19s %s%s%s%s", item->key->name, value, item->key->unit != NULL ? " " : "",
+    snprintf(text, LOM_MENU_ROW, "  %-19s %s%s%s%s", name, value, item->key->unit != NULL ? " " : "",
              item->key->unit != NULL ? item->key->unit : "", is_set ? " *" : "");
     return true;
 }

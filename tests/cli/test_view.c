@@ -201,6 +201,33 @@ static void files_are_read_again(void)
     lom_close_view(view);
 }
 
+/* A host that does not wait: whatever comes meanwhile, the old picture stands until the new scene is there. */
+static void the_old_picture_stands_while_another_is_read(void)
+{
+    lom_error error = { .code = LOM_OK };
+    CHECK(small_text("scene.toml", small_scene, &error), "%s", error.text);
+    struct lom_view *view = open_view(LOM_ORDER_RGBX);
+    view->host.is_patient = false;
+    go_on(view, 1);
+    uint64_t first = hash_of(view);
+    tap(view, 'r'); /* by another renderer */
+    CHECK(rewrite("elevation = 25", "elevation = 70"), "not written");
+    lom_reload_view(view);
+    for (int i = 0; i < 1000 && (view->load != NULL || view->has_changed); i++) {
+        CHECK(hash_of(view) == first && !lom_view_rests(view), "it does not stand");
+        send(view, LOM_VIEW_BUTTON, 0, 3, 3);
+        send(view, LOM_VIEW_LET_GO, 0, 3, 3);
+        lom_draw_view(view);
+        lom_step_view(view, turn);
+    }
+    go_on(view, 1);
+    CHECK(view->load == NULL && hash_of(view) != first && hash_of(view) == drawn_afresh(view),
+          "the change is not drawn");
+    tap(view, 'r'); /* closed while it reads */
+    lom_reload_view(view);
+    lom_close_view(view);
+}
+
 /* Chooses an item of the menu by its path. */
 static bool choose(struct lom_view *view, const char *path)
 {
@@ -533,6 +560,7 @@ int main(int argc, char **argv)
     RUN(slow_pictures_are_smaller_while_they_move);
     RUN(an_event_abandons_a_picture_at_rest);
     RUN(files_are_read_again);
+    RUN(the_old_picture_stands_while_another_is_read);
     RUN(the_menu_changes_the_scene);
     RUN(the_menu_is_walked_through);
     RUN(a_click_explains);

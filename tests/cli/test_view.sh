@@ -136,6 +136,8 @@ real_window() {
     xdotool key Escape Escape BackSpace || return 1
     again=$(picture_other_than "$menu") || return 1
     [ "$again" != "$start" ] || { echo "the file's change is not shown"; return 1; }
+    xdotool windowsize "$(xdotool search --onlyvisible --name scene.toml)" 240 210 || return 1
+    picture_other_than "$again" >"$folder/size" || return 1
     xdotool key Escape || return 1
     wait $viewer && grep -q 'pictures drawn in' "$folder/view.err"
 }
