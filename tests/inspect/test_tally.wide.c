@@ -56,6 +56,16 @@ static void textured_fragment(lom_fragment *out, const lom_varyings *in, const v
 LOM_SHADER(textured, place_values, textured_fragment, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 2),
            .differentiates = LOM_VARYINGS(0, 2), .colors = 1, .uniforms_size = sizeof(struct look))
 
+/* Names its column of pixels, from the 32nd on nothing. */
+static void named_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    constant_fragment(out, in, uniforms);
+    lom_float zero = { 0 };
+    LOM_NAME_AS(place, lom_select(in->x < 32.0f, in->x, zero / zero));
+}
+
+LOM_SHADER(named, place_values, named_fragment, .attributes = 2, .varyings = 4, .reads_position = true, .colors = 1)
+
 /* A slab that is an eighth of the medium thick in the first column, two eighths in the second, and so on. */
 static void marched_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
@@ -265,6 +275,39 @@ static void levels_are_those_of_the_distance(void)
     close_stage(&s);
 }
 
+/* The last number stays through what is blended over it without one, and no further than what is stored. */
+static void values_are_named_by_the_last_that_has_one(void)
+{
+    stage s = open(1);
+    vertex v[3];
+    struct look look = { .texture = lom_make_texture(s.device, &(lom_texture_desc){ .width = 4, .height = 4 }) };
+    cover(v, 0.5f, 1, 1);
+    tally_all(&s);
+    lom_draw_desc below = draw_of(&textured, v, 3), over = draw_of(&named, v, 3);
+    below.uniforms = &look;
+    below.depth_test_off = over.depth_test_off = true;
+    over.blend[0] = adding();
+    begin(&s, (lom_pass_desc){ .samples = 1 });
+    lom_draw(s.device, &below);
+    lom_draw(s.device, &over);
+    finish(&s);
+    for (int x = 0; x < SIZE; x++) {
+        const lom_tally *t = lom_tallied(s.device, x, 9);
+        float expected = (float)x + 0.5f;
+        CHECK(t->named_components == 1 && t->named[0] == (x < 32 ? expected : expected / SIZE), "%d: %g", x,
+              t->named[0]);
+        CHECK(!t->is_mipped && t->lookups == 1); /* it has one level */
+    }
+    over.blend[0] = (lom_blend){ .enabled = false };
+    begin(&s, (lom_pass_desc){ .samples = 1 });
+    lom_draw(s.device, &below);
+    lom_draw(s.device, &over);
+    finish(&s);
+    for (int x = 0; x < SIZE; x++)
+        CHECK(lom_tallied(s.device, x, 9)->named_components == (x < 32), "%d", x);
+    close_stage(&s);
+}
+
 /* Right triangles with legs of whole 1/256 pixels, in each of the pipeline's kinds of triangles. */
 static void areas_and_edges_are_those_of_the_triangle(void)
 {
@@ -435,6 +478,7 @@ int main(int argc, char **argv)
     RUN(sprites_are_counted);
     RUN(steps_are_those_of_the_slab);
     RUN(levels_are_those_of_the_distance);
+    RUN(values_are_named_by_the_last_that_has_one);
     RUN(areas_and_edges_are_those_of_the_triangle);
     RUN(made_vertices_are_where_clipping_puts_them);
     RUN(pictures_and_numbers_are_the_same_whatever_draws);
