@@ -39,18 +39,19 @@ static const struct seen_pass *find_pass(const char *name, lom_error *error)
 static bool find_scale(const lom_overlay_desc *desc, struct overlay_scale *scale, lom_error *error)
 {
     const lom_overlay_kind *kind = desc->kind;
-    bool is_own = desc->low == 0 && desc->high == 0;
-    *scale = (struct overlay_scale){ is_own ? kind->low : desc->low, is_own ? kind->high : desc->high,
-                                     kind->is_logarithmic };
-    if (is_own)
+    if (lom_overlay_row(kind) == NULL)
+        return lom_fail(error, LOM_ERROR_USAGE, "An overlay has a kind of lom_find_overlay or lom_describe_overlay.");
+    *scale = lom_overlay_scale(kind->low, kind->high, kind->is_logarithmic);
+    if (desc->low == 0 && desc->high == 0)
         return true;
     if (kind->low == 0 && kind->high == 0)
         return lom_fail(error, LOM_ERROR_USAGE, "The overlay %s has no scale.", kind->name);
-    if (!(scale->low < scale->high) || scale->high > 1e30 || scale->low < -1e30)
+    if (!(desc->low < desc->high && desc->high <= 1e30 && desc->low >= -1e30))
         return lom_fail(error, LOM_ERROR_USAGE, "A scale goes from a number to a greater one.");
-    if (kind->is_logarithmic && !(scale->low > 1e-30))
+    if (kind->is_logarithmic && !(desc->low >= 1e-30))
         return lom_fail(error, LOM_ERROR_USAGE, "The overlay %s has a logarithmic scale, which begins above 0.",
                         kind->name);
+    *scale = lom_overlay_scale(desc->low, desc->high, kind->is_logarithmic);
     return true;
 }
 

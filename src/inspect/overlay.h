@@ -39,7 +39,9 @@ uint64_t lom_tally_work(const lom_tally *tally);
 struct overlay_scale {
     double low, high;
     bool is_logarithmic;
+    double from, length; /* low, and high less low; of their logarithms */
 };
+struct overlay_scale lom_overlay_scale(double low, double high, bool is_logarithmic);
 /* Whether a value is shown: a logarithmic scale has no 0. */
 bool lom_has_number(const struct overlay_scale *scale, float value);
 /* 0..1 along the scale, bounded. */
@@ -49,8 +51,8 @@ double lom_overlay_part(const struct overlay_scale *scale, double value);
 lom_image *lom_show_overlay(const struct overlay_row *row, const struct overlay_scale *scale, lom_legend legend,
                             const lom_image *numbers, const lom_image *picture, lom_error *error);
 
-/* Rows that the legend takes of a picture of this width, and itself, into the lowest rows of a picture. */
-int lom_legend_height(const struct overlay_row *row, int width);
+/* A legend for a picture of the numbers' width: how many rows it takes, and itself, into the lowest of them. */
+int lom_legend_height(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers);
 void lom_draw_legend(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers,
                      lom_image *shown);
 

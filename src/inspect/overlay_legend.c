@@ -86,12 +86,6 @@ static int scale_of(int width)
     return width >= WIDE ? 2 : 1;
 }
 
-static int write_title(const struct overlay_row *row, int width, char title[LONGEST_TEXT])
-{
-    snprintf(title, LONGEST_TEXT, "%s: %s", row->kind.name, row->kind.text);
-    return wrap(title, (width / scale_of(width) - 2 * MARGIN) / LOM_GLYPH_STEP);
-}
-
 /* ---- numbers ---- */
 
 struct summary {
@@ -134,6 +128,22 @@ static void write_summary(const struct overlay_row *row, const struct overlay_sc
     else
         snprintf(text, LONGEST_TEXT, "here: %s to %s, mean %s%s", least, greatest, mean,
                  s.is_gray ? "; gray: nothing" : "");
+}
+
+/* What stands above and below the scale. */
+struct words {
+    char title[LONGEST_TEXT], summary[LONGEST_TEXT];
+    int title_lines, summary_lines;
+};
+
+static void write_words(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers,
+                        struct words *words)
+{
+    int letters = (numbers->width / scale_of(numbers->width) - 2 * MARGIN) / LOM_GLYPH_STEP;
+    snprintf(words->title, LONGEST_TEXT, "%s: %s", row->kind.name, row->kind.text);
+    write_summary(row, scale, numbers, words->summary);
+    words->title_lines = wrap(words->title, letters);
+    words->summary_lines = words->summary[0] != '\0' ? wrap(words->summary, letters) : 0;
 }
 
 /* ---- drawing ---- */
@@ -255,32 +265,38 @@ static void draw_squares(struct page *p, enum overlay_look look)
     p->y += LOM_GLYPH_LINE * p->scale;
 }
 
-int lom_legend_height(const struct overlay_row *row, int width)
+static int height_of(const struct overlay_row *row, const struct words *words, int width)
 {
-    char title[LONGEST_TEXT];
-    int lines = write_title(row, width, title);
     int scale = row->look == OVERLAY_SCALE ? BAR + TICK + 1 + LOM_GLYPH_LINE : LOM_GLYPH_LINE;
-    return (2 * MARGIN + (lines + 1) * LOM_GLYPH_LINE + scale) * scale_of(width);
+    int lines = words->title_lines + words->summary_lines;
+    return (2 * MARGIN + lines * LOM_GLYPH_LINE + scale) * scale_of(width);
+}
+
+int lom_legend_height(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers)
+{
+    struct words words;
+    write_words(row, scale, numbers, &words);
+    return height_of(row, &words, numbers->width);
 }
 
 void lom_draw_legend(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers,
                      lom_image *shown)
 {
-    char title[LONGEST_TEXT], summary[LONGEST_TEXT];
+    struct words words;
     struct page p = {
         .rows = { shown->pixels, (size_t)shown->width * 3, shown->width, shown->height, 3 },
         .scale = scale_of(shown->width),
     };
-    int height = lom_legend_height(row, shown->width), lines = write_title(row, shown->width, title);
+    write_words(row, scale, numbers, &words);
+    int height = height_of(row, &words, shown->width);
     p.left = MARGIN * p.scale;
     p.right = shown->width - MARGIN * p.scale;
     p.y = shown->height - height + MARGIN * p.scale;
     darken(&p, shown->height - height);
-    write_line(&p, title, lines);
+    write_line(&p, words.title, words.title_lines);
     if (row->look == OVERLAY_SCALE)
         draw_bar(&p, scale);
     else
         draw_squares(&p, row->look);
-    write_summary(row, scale, numbers, summary);
-    write_line(&p, summary, 1);
+    write_line(&p, words.summary, words.summary_lines);
 }

@@ -8,11 +8,18 @@
 
 const uint8_t lom_line_color[3] = { 255, 236, 160 };
 
+struct overlay_scale lom_overlay_scale(double low, double high, bool is_logarithmic)
+{
+    struct overlay_scale s = { .low = low, .high = high, .is_logarithmic = is_logarithmic };
+    s.from = is_logarithmic ? lom_double_log(low) : low;
+    s.length = (is_logarithmic ? lom_double_log(high) : high) - s.from;
+    return s;
+}
+
 double lom_overlay_part(const struct overlay_scale *s, double value)
 {
-    double part = s->is_logarithmic
-                      ? (value > 0 ? lom_double_log(value / s->low) / lom_double_log(s->high / s->low) : 0)
-                      : (value - s->low) / (s->high - s->low);
+    double along = !s->is_logarithmic ? value : value > 0 ? lom_double_log(value) : s->from;
+    double part = (along - s->from) / s->length;
     return part > 0 ? part < 1 ? part : 1 : 0;
 }
 
@@ -90,7 +97,7 @@ lom_image *lom_show_overlay(const struct overlay_row *row, const struct overlay_
                             const lom_image *numbers, const lom_image *picture, lom_error *error)
 {
     struct painter p = { .row = row, .scale = scale };
-    int strip = legend == LOM_LEGEND_BELOW ? lom_legend_height(row, numbers->width) : 0;
+    int strip = legend == LOM_LEGEND_BELOW ? lom_legend_height(row, scale, numbers) : 0;
     lom_image *shown = lom_create_image(numbers->width, numbers->height + strip, 1, LOM_FORMAT_RGB8, error);
     lom_make_color_map(p.map);
     for (int y = 0; shown != NULL && y < numbers->height; y++)

@@ -224,6 +224,9 @@ static void legends_lie_where_they_are_asked_for(void)
             ((float *)(void *)mirror.numbers->pixels)[i] > most ? ((float *)(void *)mirror.numbers->pixels)[i] : most;
     CHECK(most >= 1);
     lom_free_overlay(&mirror);
+    lom_overlay_kind foreign = *lom_describe_overlay(0);
+    lom_overlay_desc desc = { .frame = { .width = WIDTH, .height = HEIGHT }, .kind = &foreign };
+    CHECK(!lom_draw_overlay(o.renderer, &desc, &mirror, NULL) && mirror.numbers == NULL && mirror.shown == NULL);
     close_scene(&o);
 }
 
