@@ -54,10 +54,15 @@ struct lom_cloud_set {
     float *jitter;                        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 
-/* Makes or reads the volumes of the visible clouds. *loaded is NULL when there are none, or the model is off. */
+/* Makes or reads the volumes of the visible clouds. *loaded is NULL when there are none, or the model is off. What the
+ * set before (NULL: none), whose scene is still there and has the same filtering, holds of what is needed is shared with
+ * it: until lom_part_cloud_sets neither may be drawn or freed. */
 bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                        const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error);
+                        const struct lom_cloud_quality *quality, const struct lom_cloud_set *before,
+                        struct lom_cloud_set **loaded, lom_error *error);
 void lom_free_cloud_set(struct lom_cloud_set *set);
+/* What both have is from now on the first one's, and the other can only be freed. NULL is allowed. */
+void lom_part_cloud_sets(const struct lom_cloud_set *owner, struct lom_cloud_set *other);
 
 /* cloud_wind.c: how far the wind has taken a cloud at a time; puts all clouds there. */
 lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time);

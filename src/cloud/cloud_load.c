@@ -1,6 +1,6 @@
 /* The clouds of a scene, loaded. In: the [[cloud]] tables. Out: a medium for each different volume, a grid of light for
- * each cloud, the noise and the jitter they share. Invariant: clouds of one kind, seed and size of volume share one
- * density. */
+ * each cloud, the noise and the jitter they share; what a set that was loaded before has of it is taken from there.
+ * Invariant: clouds of one kind, seed and size of volume share one density. */
 #include "cloud/cloud_draw.h"
 #include "cloud/detail_noise.h"
 
@@ -47,13 +47,27 @@ static lom_image *load_image(const lom_cloud *cloud, lom_error *error)
     return lom_make_cloud(&(lom_cloud_desc){ cloud->kind, size[0], size[1], size[2], (uint64_t)cloud->seed }, error);
 }
 
-static const struct lom_cloud_density *find_density(struct lom_cloud_set *set, const lom_cloud *cloud, lom_error *error)
+static struct lom_cloud_density *held_density(const struct lom_cloud_set *set, const lom_cloud *cloud)
 {
-    for (size_t i = 0; i < set->density_count; i++)
+    for (size_t i = 0; set != NULL && i < set->density_count; i++)
         if (is_same_density(set->densities[i].source, cloud))
             return &set->densities[i];
-    struct lom_cloud_density *density = &set->densities[set->density_count++];
+    return NULL;
+}
+
+static const struct lom_cloud_density *find_density(struct lom_cloud_set *set, const struct lom_cloud_set *before,
+                                                    const lom_cloud *cloud, lom_error *error)
+{
+    struct lom_cloud_density *density = held_density(set, cloud);
+    const struct lom_cloud_density *shared = held_density(before, cloud);
+    if (density != NULL)
+        return density;
+    density = &set->densities[set->density_count++];
+    if (shared != NULL)
+        *density = *shared;
     density->source = cloud;
+    if (shared != NULL)
+        return density;
     density->image = load_image(cloud, error);
     if (density->image != NULL)
         density->medium = lom_create_medium(density->image, error);
@@ -70,7 +84,52 @@ static void fill_erosion(const struct lom_cloud_set *set, const lom_cloud *cloud
     }
 }
 
-static bool place_cloud(struct lom_cloud_set *set, const lom_cloud *cloud, lom_error *error)
+static float extinction_of(const lom_cloud *cloud)
+{
+    return (float)(cloud->extinction * cloud->density);
+}
+
+static bool holds_light(const struct lom_cloud_set *set, const lom_light_grid *light)
+{
+    for (size_t i = 0; i < set->count; i++)
+        if (set->clouds[i].light == light)
+            return true;
+    return false;
+}
+
+/* The light of a cloud of the set before that has the same density, size and thickness, unless another cloud has taken
+ * it; NULL: there is none. */
+static lom_light_grid *share_light(const struct lom_cloud_set *set, const struct lom_cloud_set *before,
+                                   const struct lom_placed_cloud *placed)
+{
+    const lom_cloud *cloud = placed->cloud;
+    for (size_t i = 0; before != NULL && i < before->count; i++) {
+        const struct lom_placed_cloud *other = &before->clouds[i];
+        const lom_cloud *source = other->cloud;
+        if (other->density->image == placed->density->image && source->detail == cloud->detail &&
+            extinction_of(source) == extinction_of(cloud) &&
+            memcmp(source->size, cloud->size, sizeof cloud->size) == 0 &&
+            before->quality.light_scale == set->quality.light_scale && !holds_light(set, other->light))
+            return other->light;
+    }
+    return NULL;
+}
+
+static bool make_light(const struct lom_cloud_set *set, struct lom_placed_cloud *placed, lom_error *error)
+{
+    const lom_cloud *cloud = placed->cloud;
+    float eroded[256];
+    fill_erosion(set, cloud, eroded);
+    placed->light = lom_create_light_grid(placed->density->image, set->quality.light_scale, eroded, error);
+    if (placed->light == NULL)
+        return false;
+    const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
+    lom_sweep_sky(placed->light, size, extinction_of(cloud));
+    return true;
+}
+
+static bool place_cloud(struct lom_cloud_set *set, const struct lom_cloud_set *before, const lom_cloud *cloud,
+                        lom_error *error)
 {
     struct lom_placed_cloud *placed = &set->clouds[set->count++];
     double s = lom_double_sin(cloud->yaw), c = lom_double_cos(cloud->yaw);
@@ -79,17 +138,11 @@ static bool place_cloud(struct lom_cloud_set *set, const lom_cloud *cloud, lom_e
                                          .detail = cloud->detail,
                                          .axes = { { c, 0, -s }, { 0, 1, 0 }, { s, 0, c } } };
     placed->middle.y += cloud->size[1] / 2;
-    placed->density = find_density(set, cloud, error);
+    placed->density = find_density(set, before, cloud, error);
     if (placed->density == NULL)
         return false;
-    float eroded[256];
-    fill_erosion(set, cloud, eroded);
-    placed->light = lom_create_light_grid(placed->density->image, set->quality.light_scale, eroded, error);
-    if (placed->light == NULL)
-        return false;
-    const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
-    lom_sweep_sky(placed->light, size, (float)(cloud->extinction * cloud->density));
-    return true;
+    placed->light = share_light(set, before, placed);
+    return placed->light != NULL || make_light(set, placed, error);
 }
 
 static bool load_picture(struct lom_cloud_set *set, lom_error *error)
@@ -109,26 +162,60 @@ static bool load_picture(struct lom_cloud_set *set, lom_error *error)
     return set->picture != NULL;
 }
 
-static bool load_shared(struct lom_cloud_set *set, lom_error *error)
+/* What all clouds share is the same for every scene; but `detail` that shapes in a crossfade have left. */
+static bool load_shared(struct lom_cloud_set *set, const struct lom_cloud_set *before, lom_error *error)
 {
+    static const struct lom_cloud_set none = { .count = 0 };
+    const struct lom_cloud_set *from = before != NULL ? before : &none;
     int fields = set->params->evolve > 0 ? LOM_DETAIL_FIELDS : 1;
     for (int i = 0; i < fields; i++) {
-        set->fields[i] = lom_make_detail_noise(i, error);
+        set->fields[i] = from->fields[i] != NULL ? from->fields[i] : lom_make_detail_noise(i, error);
         if (set->fields[i] == NULL)
             return false;
     }
-    set->detail = lom_create_detail(set->fields[0], error);
+    set->detail = from->detail != NULL && from->phase == 0 ? from->detail : lom_create_detail(set->fields[0], error);
     if (set->detail == NULL)
         return false;
-    if (set->quality.model == LOM_CLOUDS_BILLBOARD && !load_picture(set, error))
-        return false;
+    if (set->quality.model == LOM_CLOUDS_BILLBOARD) {
+        set->picture = from->picture;
+        if (set->picture == NULL && !load_picture(set, error))
+            return false;
+    }
     if (set->quality.jitter)
-        set->jitter = lom_make_blue_noise(LOM_BLUE_NOISE, 1, error);
+        set->jitter = from->jitter != NULL ? from->jitter : lom_make_blue_noise(LOM_BLUE_NOISE, 1, error);
     return set->jitter != NULL || !set->quality.jitter;
 }
 
+static void part_densities(const struct lom_cloud_set *owner, struct lom_cloud_set *other)
+{
+    for (size_t i = 0; i < other->density_count; i++)
+        for (size_t k = 0; k < owner->density_count; k++)
+            if (other->densities[i].image == owner->densities[k].image) {
+                other->densities[i].image = NULL;
+                other->densities[i].medium = NULL;
+                break;
+            }
+}
+
+void lom_part_cloud_sets(const struct lom_cloud_set *owner, struct lom_cloud_set *other)
+{
+    if (owner == NULL || other == NULL)
+        return;
+    part_densities(owner, other);
+    for (size_t i = 0; i < other->count; i++)
+        if (holds_light(owner, other->clouds[i].light))
+            other->clouds[i].light = NULL;
+    for (int i = 0; i < LOM_DETAIL_FIELDS; i++)
+        if (other->fields[i] == owner->fields[i])
+            other->fields[i] = NULL;
+    other->detail = other->detail == owner->detail ? NULL : other->detail;
+    other->picture = other->picture == owner->picture ? NULL : other->picture;
+    other->jitter = other->jitter == owner->jitter ? NULL : other->jitter;
+}
+
 bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                        const struct lom_cloud_quality *quality, struct lom_cloud_set **loaded, lom_error *error)
+                        const struct lom_cloud_quality *quality, const struct lom_cloud_set *before,
+                        struct lom_cloud_set **loaded, lom_error *error)
 {
     size_t visible = 0;
     *loaded = NULL;
@@ -145,13 +232,15 @@ bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds 
     set->order = lom_allocate(visible, sizeof *set->order, error);
     set->others = lom_allocate(visible, sizeof *set->others, error);
     bool done = set->densities != NULL && set->clouds != NULL && set->order != NULL && set->others != NULL &&
-                load_shared(set, error);
+                load_shared(set, before, error);
     for (size_t i = 0; done && i < count; i++)
         if (clouds[i].visible)
-            done = place_cloud(set, &clouds[i], error);
-    if (done)
+            done = place_cloud(set, before, &clouds[i], error);
+    if (done) {
         *loaded = set;
-    else
-        lom_free_cloud_set(set);
-    return done;
+        return true;
+    }
+    lom_part_cloud_sets(before, set);
+    lom_free_cloud_set(set);
+    return false;
 }

@@ -18,12 +18,17 @@ struct change {
     bool differ, all;
 };
 
+static bool has_new_textures(const struct change *c)
+{
+    return (c->parts & LOM_PART_TEXTURES) != 0;
+}
+
 static bool has_new_world(const struct change *c)
 {
     return (c->parts & (LOM_PART_HEIGHTS | LOM_PART_ENTITIES)) != 0;
 }
 
-/* Takes the parts out of the renderer. Textures are shared by what is kept, unless all are made anew. */
+/* Takes the parts out of the renderer. */
 static void set_aside(struct change *c)
 {
     c->before = *c->renderer;
@@ -32,9 +37,11 @@ static void set_aside(struct change *c)
             memset((char *)c->renderer + lom_rooms[i].offset, 0, lom_rooms[i].size);
     if (has_new_world(c))
         c->renderer->moment = (struct lom_moment){ .placements = NULL };
+    if (has_new_textures(c))
+        c->renderer->textures = (struct lom_texture_cache){ .count = 0 };
+    c->renderer->before = c->all ? NULL : &c->before;
     if (!c->all)
         return;
-    c->renderer->textures = (struct lom_texture_cache){ .count = 0 };
     c->renderer->reference = NULL;
     lom_set_device_filtering(c->renderer->device, c->scene->quality.filtering);
 }
@@ -48,17 +55,19 @@ static bool load(struct change *c, lom_error *error)
     else
         lom_follow_scene(r->world, c->scene);
     bool done = lom_load_renderer(r, c->parts, error);
+    r->before = NULL;
     return lom_check_device(r->device, error) && done;
 }
 
 /* Frees what one of two renderers, which share a device and perhaps textures, has of the parts. */
 static void free_parts(struct change *c, lom_renderer *owner, lom_renderer *other)
 {
-    const bool shares = !c->all;
-    if (shares)
+    if (!has_new_textures(c))
         owner->textures = c->renderer->textures;
+    if ((c->parts & LOM_PART_CLOUDS) != 0)
+        lom_part_cloud_sets(other->clouds.set, owner->clouds.set);
     lom_free_rooms(owner, c->parts);
-    if (shares)
+    if (!has_new_textures(c))
         c->renderer->textures = c->before.textures = owner->textures;
     else
         lom_free_textures(owner);

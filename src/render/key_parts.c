@@ -13,14 +13,15 @@ enum { each_frame = 0 };
 const struct lom_key_row lom_key_rows[] = {
     { each_frame, "title output output.width output.height output.frames output.fps camera.* light.* haze.*" },
     { LOM_PART_TARGETS, "output.format output.samples" },
-    { LOM_PARTS_ALL, "output.transfer" },
+    { LOM_PART_TEXTURES | LOM_PART_TARGETS, "output.transfer" },
 
     { LOM_PART_SKY, "sky sky.pattern sky.faces sky.sun sky.sun_rays" },
     { each_frame, "sky.rotation sky.intensity sky.color sky.gradient sky.zenith sky.horizon sky.haze sky.haze_height "
                   "sky.glow sky.sun_size" },
 
-    { LOM_PART_HEIGHTS, "terrain terrain.height_map terrain.size terrain.height terrain.base" },
-    { LOM_PART_GROUND, "terrain.texture terrain.detail_map terrain.normal_map terrain.layer terrain.layer.map "
+    { LOM_PART_HEIGHTS | LOM_PART_GROUND_MAPS, "terrain" },
+    { LOM_PART_HEIGHTS, "terrain.height_map terrain.size terrain.height terrain.base" },
+    { LOM_PART_GROUND_MAPS, "terrain.texture terrain.detail_map terrain.normal_map terrain.layer terrain.layer.map "
                        "terrain.layer.grain" },
     { each_frame, "terrain.tile terrain.detail_tile terrain.material.* terrain.layer.tile terrain.layer.from_height "
                   "terrain.layer.to_height terrain.layer.from_slope terrain.layer.to_slope terrain.layer.blend "
@@ -71,7 +72,9 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_CLOUDS, "quality.clouds quality.cloud_jitter quality.cloud_light_scale" },
     { LOM_PART_CLOUD_LIGHT, "quality.march" },
     { LOM_PART_SPRAY | LOM_PART_TARGETS, "quality.spray" },
-    { LOM_PARTS_ALL, "quality.texture_filter quality.filtering quality.mipmaps" },
+    { LOM_PARTS_ALL, "quality.filtering" },
+    { LOM_PART_TEXTURES, "quality.texture_filter" },
+    { LOM_PART_TEXTURES | LOM_PART_GROUND, "quality.mipmaps" },
     { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
     { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
@@ -128,6 +131,7 @@ static unsigned add_made_from(unsigned parts)
         unsigned part, makes;
     } chain[] = {
         { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES },
+        { LOM_PART_TEXTURES, LOM_PART_SKY | LOM_PART_GROUND_MAPS | LOM_PART_ENTITIES | LOM_PART_WATER_MAPS },
         { LOM_PART_ENTITIES, LOM_PART_FOLLOWED },
         { LOM_PART_WATER_MAPS, LOM_PART_WAVES },
     };

@@ -25,12 +25,14 @@ struct lom_renderer {
     struct lom_texture_cache textures;
     struct lom_drawn_sky sky;
     struct lom_ground ground; /* its blocks are NULL when the scene has no terrain */
+    struct lom_ground_maps ground_maps;
     struct lom_drawn_entities entities;
     struct lom_drawn_water water;
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
     struct lom_targets targets, other_targets; /* of this frame; of the size before */
     char loaded[128];                          /* what the last change of the scene loaded */
+    const lom_renderer *before;                /* while a scene is changed: what rooms may share; else NULL */
 };
 
 #endif

@@ -41,6 +41,8 @@ static bool has_drops(const lom_scene *scene)
 const struct lom_room lom_rooms[LOM_ROOMS] = {
     { LOM_PART_SKY, "sky", MEMBERS(sky, sky), has_sky, lom_load_sky, lom_free_sky },
     { LOM_PART_GROUND, "ground", MEMBERS(ground, ground), has_terrain, lom_load_ground, lom_free_ground },
+    { LOM_PART_GROUND_MAPS, "maps of the ground", MEMBERS(ground_maps, ground_maps), has_terrain, lom_load_ground_maps,
+      lom_free_ground_maps },
     { LOM_PART_ENTITIES, "entities", MEMBERS(entities, entities), has_entities, lom_load_entities, lom_free_entities },
     { LOM_PART_WATER_MAPS, "maps of the water", MEMBERS(water.normal_map, water.flow_map), has_water,
       lom_load_water_maps, lom_free_water_maps },

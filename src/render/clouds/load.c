@@ -18,7 +18,9 @@ bool lom_load_clouds(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     const struct lom_cloud_quality quality = quality_of(&scene->quality);
-    return lom_load_cloud_set(scene->cloud, scene->cloud_count, &scene->clouds, &quality, &renderer->clouds.set, error);
+    const struct lom_cloud_set *before = renderer->before != NULL ? renderer->before->clouds.set : NULL;
+    return lom_load_cloud_set(scene->cloud, scene->cloud_count, &scene->clouds, &quality, before, &renderer->clouds.set,
+                              error);
 }
 
 void lom_free_clouds(lom_renderer *renderer)

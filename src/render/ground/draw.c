@@ -40,14 +40,14 @@ static struct lom_layer_uniform layer_uniform(const lom_renderer *renderer, size
     const lom_terrain *t = &renderer->scene->terrain;
     const lom_terrain_layer *from = &t->layers[number];
     const double height = t->base + eye[1];
-    return (struct lom_layer_uniform){ .laid = lay(renderer->ground.maps.layer[number], from->tile, t->size, eye),
+    return (struct lom_layer_uniform){ .laid = lay(renderer->ground_maps.layer[number], from->tile, t->size, eye),
                                        .from_height = (float)(from->from_height - height),
                                        .to_height = (float)(from->to_height - height),
                                        .from_slope = (float)from->from_slope,
                                        .to_slope = (float)from->to_slope,
                                        .blend = (float)(from->blend > least_blend ? from->blend : least_blend),
                                        .slope_blend = from->slope_blend > 1e-3 ? (float)from->slope_blend : 1e-3f,
-                                       .grain = (float)from->grain / renderer->ground.maps.brightness_below[number],
+                                       .grain = (float)from->grain / renderer->ground_maps.brightness_below[number],
                                        .grain_offset = (float)from->grain,
                                        .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
 }
@@ -59,9 +59,9 @@ static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer
     const double eye[3] = { place.x, place.y - t->base, place.z };
     struct lom_terrain_uniforms u = { .view = *view,
                                       .vertex_texture = renderer->ground.vertex_texture,
-                                      .base = lay(renderer->ground.maps.base, t->tile, t->size, eye),
-                                      .detail = lay(renderer->ground.maps.detail, t->detail_tile, t->size, eye),
-                                      .normals = lay(renderer->ground.maps.normals, t->detail_tile, t->size, eye),
+                                      .base = lay(renderer->ground_maps.base, t->tile, t->size, eye),
+                                      .detail = lay(renderer->ground_maps.detail, t->detail_tile, t->size, eye),
+                                      .normals = lay(renderer->ground_maps.normals, t->detail_tile, t->size, eye),
                                       .layer_count = (int)t->layer_count };
     lom_map_ground(&renderer->ground, t->size, place, u.vertex_scale, u.vertex_shift);
     for (int i = 0; i < 3; i++) {

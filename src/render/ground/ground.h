@@ -53,7 +53,6 @@ struct lom_ground {
     lom_texture *vertex_texture;
     lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
     lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
-    struct lom_ground_maps maps;
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
 
@@ -71,6 +70,9 @@ bool lom_prepare_ground(struct frame *f, lom_error *error);
 void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
                      const struct lom_view_uniform *uniform);
 void lom_free_ground(lom_renderer *renderer);
+/* The scene's pictures of it. */
+bool lom_load_ground_maps(lom_renderer *renderer, lom_error *error);
+void lom_free_ground_maps(lom_renderer *renderer);
 /* The shadow is cast anew by the next frame. */
 void lom_drop_ground_shadow(lom_renderer *renderer);
 

@@ -29,10 +29,12 @@ static bool load_map(lom_renderer *renderer, const char *path, bool color, const
     return path == NULL || *map != NULL;
 }
 
-static bool load_maps(lom_renderer *renderer, lom_error *error)
+bool lom_load_ground_maps(lom_renderer *renderer, lom_error *error)
 {
     const lom_terrain *t = &renderer->scene->terrain;
-    struct lom_ground_maps *maps = &renderer->ground.maps;
+    struct lom_ground_maps *maps = &renderer->ground_maps;
+    if (!t->present)
+        return true;
     if (!load_map(renderer, t->texture, true, &maps->base, error))
         return false;
     if (t->layer_count > LOM_MAX_TERRAIN_LAYERS)
@@ -57,18 +59,21 @@ bool lom_load_ground(lom_renderer *renderer, lom_error *error)
     const lom_image *map = lom_world_height_map(renderer->world, error);
     return map != NULL &&
            lom_make_ground_blocks(&renderer->ground, t, map, renderer->world->heights, &renderer->scene->quality,
-                                  renderer->device, error) &&
-           load_maps(renderer, error);
+                                  renderer->device, error);
 }
 
-void lom_free_ground(lom_renderer *renderer)
+void lom_free_ground_maps(lom_renderer *renderer)
 {
-    const struct lom_ground_maps *maps = &renderer->ground.maps;
+    const struct lom_ground_maps *maps = &renderer->ground_maps;
     const lom_texture *const used[] = { maps->base, maps->detail, maps->normals };
     for (size_t i = 0; i < sizeof used / sizeof *used; i++)
         lom_drop_texture(renderer, used[i]);
     for (int i = 0; i < LOM_MAX_TERRAIN_LAYERS; i++)
         lom_drop_texture(renderer, maps->layer[i]);
+}
+
+void lom_free_ground(lom_renderer *renderer)
+{
     lom_release_texture(renderer->device, renderer->ground.vertex_texture);
     lom_free_ground_blocks(&renderer->ground);
 }
