@@ -22,7 +22,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_HEIGHTS | LOM_PART_GROUND_MAPS, "terrain" },
     { LOM_PART_HEIGHTS, "terrain.height_map terrain.size terrain.height terrain.base" },
     { LOM_PART_GROUND_MAPS, "terrain.texture terrain.detail_map terrain.normal_map terrain.layer terrain.layer.map "
-                       "terrain.layer.grain" },
+                            "terrain.layer.grain" },
     { each_frame, "terrain.tile terrain.detail_tile terrain.material.* terrain.layer.tile terrain.layer.from_height "
                   "terrain.layer.to_height terrain.layer.from_slope terrain.layer.to_slope terrain.layer.blend "
                   "terrain.layer.slope_blend terrain.layer.mapping" },
@@ -30,17 +30,18 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_WATER_MAPS | LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES | LOM_PART_TARGETS, "water" },
     { LOM_PART_WATER_MAPS, "water.normal_map water.flow_map water.flow" },
     { LOM_PART_TARGETS, "water.enabled" },
-    { LOM_PART_WAVES, "water.level water.position water.size water.tile water.normal_up" },
-    { each_frame, "water.reflection water.refraction water.projection water.normals water.fresnel water.specular "
+    { LOM_PART_WAVES, "water.level" },
+    { each_frame, "water.position water.size water.tile water.normal_up water.reflection water.refraction "
+                  "water.projection water.normals water.fresnel water.specular "
                   "water.tint water.soft_shore water.flow_strength water.flow_speed water.reflectivity "
                   "water.fresnel_power water.shininess water.specular_strength water.color water.tint_color "
                   "water.tint_amount water.shore_depth water.clip_offset" },
-    { LOM_PART_WAVES, "water.waves water.waves.kind water.waves.direction water.waves.seed water.waves.height "
-                      "water.waves.length water.waves.count water.waves.steepness water.waves.spread "
-                      "water.waves.spectrum water.waves.wind_level water.waves.wind_speed water.waves.fetch "
-                      "water.waves.depth water.waves.height_scale water.waves.choppiness water.waves.cascades "
-                      "water.waves.size water.waves.speed water.waves.patch" },
-    { each_frame, "water.waves.cell" },
+    { LOM_PART_WAVES, "water.waves water.waves.kind water.waves.direction water.waves.seed water.waves.spectrum "
+                      "water.waves.wind_level water.waves.wind_speed water.waves.fetch water.waves.depth "
+                      "water.waves.height_scale water.waves.choppiness water.waves.cascades water.waves.size "
+                      "water.waves.patch" },
+    { each_frame, "water.waves.height water.waves.length water.waves.count water.waves.steepness water.waves.spread "
+                  "water.waves.speed water.waves.cell" },
     { LOM_PART_BED, "water.optics.caustics" },
     { LOM_PART_CAUSTICS, "water.optics.caustics_texels" },
     { each_frame, "water.optics water.optics.index water.optics.fresnel water.optics.type water.optics.absorption "
@@ -48,7 +49,8 @@ const struct lom_key_row lom_key_rows[] = {
                   "water.optics.steps water.optics.caustics_size water.optics.opacity" },
     { LOM_PART_FOAM, "water.foam water.foam.amount water.foam.shore_depth" },
     { each_frame, "water.foam.threshold water.foam.window water.foam.tile" },
-    { LOM_PART_WAVES, "surf.* shallow.*" },
+    { LOM_PART_WAVES, "surf surf.height surf.period surf.direction shallow.*" },
+    { each_frame, "surf.variation" },
 
     { LOM_PART_ENTITIES, "entity entity.mesh entity.position entity.rotation entity.scale entity.material.* "
                          "entity.on_ground entity.visible entity.key" },

@@ -25,6 +25,7 @@ static lom_format format_of(const lom_image *image, bool srgb)
     return image->format == LOM_FORMAT_RGBA8 && srgb ? LOM_FORMAT_RGBA8_SRGB : image->format;
 }
 
+/* The path stays valid with the texture. */
 static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
@@ -70,7 +71,7 @@ lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool col
     if (!lom_reserve(&cache->items, &cache->capacity, cache->count + 1, sizeof *cache->items, error))
         return NULL;
     char *copy = copy_path(path, error);
-    lom_texture *texture = copy != NULL ? make_texture(renderer, path, color, error) : NULL;
+    lom_texture *texture = copy != NULL ? make_texture(renderer, copy, color, error) : NULL;
     if (texture != NULL)
         cache->items[cache->count++] = (struct lom_cached_texture){ copy, color, texture, 1 };
     else

@@ -20,10 +20,12 @@ typedef enum { NOTHING, MEMORY, FILES, THREADS } fault_kind;
 
 static struct {
     fault_kind kind;
-    bool lasting;     /* all from there on, not that one alone */
-    int at;           /* which call fails, from 0 */
-    atomic_int calls; /* of the kind, so far */
-    atomic_long held; /* allocations not yet released */
+    bool lasting;       /* all from there on, not that one alone */
+    int at;             /* which call fails, from 0 */
+    atomic_int calls;   /* of the kind, so far */
+    atomic_long held;   /* allocations not yet released */
+    atomic_llong bytes; /* of all allocations */
+    atomic_int opened;  /* files */
     int file_error;
 } fault;
 
@@ -71,6 +73,7 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size)
         return NULL;
     void *memory = __real_aligned_alloc(alignment, size);
     atomic_fetch_add(&fault.held, memory != NULL);
+    atomic_fetch_add(&fault.bytes, (long long)size);
     return memory;
 }
 
@@ -101,6 +104,7 @@ int __wrap_openat(int folder, const char *path, int flags, ...)
     va_start(rest, flags);
     mode_t mode = va_arg(rest, mode_t);
     va_end(rest);
+    atomic_fetch_add(&fault.opened, 1);
     return file_fails() ? -1 : __real_openat(folder, path, flags, mode);
 }
 

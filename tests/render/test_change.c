@@ -3,7 +3,7 @@
  * byte for byte, after the scene of before was freed. The cases come from the table of keys; a key that no row of
  * src/render/key_parts.c names fails. One other value is tried, and several with LOM_EXHAUSTIVE=1. */
 #include "check.h"
-#include "key_bases.h"
+#include "change_bases.h"
 #include "render/rooms.h"
 #include "scene/scene_keys.h"
 #include "small_scene.h"
@@ -15,6 +15,8 @@
 #endif
 
 enum { FRAMES = 2, LONGEST_PATH = 200 };
+/* The first frames that a renderer draws of its scene, of the next one, of one after a change. */
+enum { AT_FIRST = 1, AFTERWARDS = 3 };
 
 static bool exhaustive(void)
 {
@@ -23,20 +25,19 @@ static bool exhaustive(void)
 
 /* ---- pictures ---- */
 
-/* What a renderer draws from frame 1 on. */
 struct pictures {
     bool drawn;
     uint64_t hash[FRAMES];
 };
 
-static struct pictures draw(lom_renderer *renderer)
+/* Frames from `first` on. */
+static struct pictures draw(lom_renderer *renderer, int first)
 {
     struct pictures p = { .drawn = renderer != NULL };
     for (int i = 0; p.drawn && i < FRAMES; i++) {
+        const lom_frame_desc desc = { .width = 16, .height = 9, .frame = first + i };
         lom_frame frame;
-        lom_error error = { 0 };
-        p.drawn =
-            lom_render_frame(renderer, &(lom_frame_desc){ .width = 16, .height = 9, .frame = 1 + i }, &frame, &error);
+        p.drawn = lom_render_frame(renderer, &desc, &frame, NULL);
         p.hash[i] = p.drawn ? lom_hash_image(frame.image) : 0;
         lom_free_image(frame.image);
     }
@@ -58,66 +59,72 @@ static lom_renderer *create(const lom_scene *scene)
     return scene != NULL ? lom_create_renderer(scene, &(lom_device_desc){ .threads = 1, .lanes = 4 }, NULL) : NULL;
 }
 
-static struct pictures draw_fresh(const lom_scene *scene)
-{
-    lom_renderer *renderer = create(scene);
-    struct pictures p = draw(renderer);
-    lom_free_renderer(renderer);
-    return p;
-}
-
 /* ---- one case ---- */
 
 struct cases {
     const struct base *base;
     const char *text;
-    struct pictures own;     /* of the scene as it is */
-    int count, others, not ; /* whose pictures are others than the scene's; that cannot be loaded */
-    int kinds[4];            /* by lom_change */
+    struct pictures first, after, twice; /* of the scene as it is */
+    int count, others, not ;             /* whose pictures are others than the scene's; that cannot be loaded */
+    int kinds[4];                        /* by lom_change */
 };
 
-/* The scene of before is freed after the change, and its memory filled with other bytes. */
-static lom_change change(struct cases *cases, lom_renderer *renderer, lom_scene **scene, lom_scene *next,
-                         const char *override, const struct pictures *expected)
+/* The textures that are shared are called by names of their own. */
+static void check_labels(const lom_renderer *renderer)
+{
+    for (size_t i = 0; i < renderer->textures.count; i++)
+        CHECK(lom_texture_label(renderer->textures.items[i].texture) == renderer->textures.items[i].path, "a label");
+}
+
+/* Gives a renderer the next scene and frees the one before, whose memory is then filled with other bytes; its frames from
+ * `first` on are to be the expected ones, or where the next scene cannot be loaded those of the scene as it is. */
+static void change(struct cases *cases, lom_renderer *renderer, lom_scene **scene, lom_scene *next,
+                   const char *override, int first, const struct pictures *expected)
 {
     lom_change done = LOM_CHANGE_NONE;
     lom_error error = { 0 };
     bool changed = lom_change_scene(renderer, next, &done, &error);
     CHECK(changed || error.code != LOM_OK, "%s, %s: failed without a word", cases->base->name, override);
+    CHECK(changed == (expected->drawn || error.code == LOM_OK), "%s, %s: %s", cases->base->name, override, error.text);
     lom_free_scene(changed ? *scene : next);
     *scene = changed ? next : *scene;
+    cases->not += !changed;
+    cases->kinds[done] += changed;
+    check_labels(renderer);
+    struct pictures p = draw(renderer, first);
     if (!changed)
-        cases->not ++;
-    struct pictures p = draw(renderer);
-    if (!changed)
-        expected = &cases->own;
+        expected = first == AFTERWARDS ? &cases->after : &cases->twice;
     CHECK(are_same(&p, expected), "%s, %s: %s %d (%s): %016llx %016llx instead of %016llx %016llx", cases->base->name,
           override, changed ? "change" : "failure", (int)done, lom_renderer_loaded(renderer),
           (unsigned long long)p.hash[0], (unsigned long long)p.hash[1], (unsigned long long)expected->hash[0],
           (unsigned long long)expected->hash[1]);
-    return done;
 }
 
-/* False when the scene may not have this value. */
+enum { TWICE = AFTERWARDS + FRAMES };
+
+/* The scene becomes one with this value, and again itself; a renderer that was made for the value is given the scene. False
+ * when the scene may not have this value. */
 static bool try(struct cases *cases, const char *path, const char *value)
 {
     char override[256];
     snprintf(override, sizeof override, "%s=%s", path, value);
-    lom_scene *scene = decode(cases->text, NULL), *next = decode(cases->text, override);
-    if (next == NULL) {
-        lom_free_scene(scene);
+    lom_scene *next = decode(cases->text, override);
+    if (next == NULL)
         return false;
-    }
-    lom_renderer *renderer = create(scene);
-    struct pictures before = draw(renderer), expected = draw_fresh(next);
-    CHECK(are_same(&before, &cases->own), "%s is drawn otherwise", cases->base->name);
+    lom_scene *scene = decode(cases->text, NULL), *other = decode(cases->text, override);
+    lom_renderer *renderer = create(scene), *fresh = create(other);
+    struct pictures first = draw(renderer, AT_FIRST), expected = draw(fresh, AFTERWARDS);
+    CHECK(are_same(&first, &cases->first), "%s is drawn otherwise", cases->base->name);
     cases->count++;
-    cases->others += !are_same(&expected, &cases->own);
-    lom_change done = change(cases, renderer, &scene, next, override, &expected);
-    cases->kinds[done]++;
-    change(cases, renderer, &scene, decode(cases->text, NULL), override, &cases->own);
+    cases->others += !are_same(&expected, &cases->after);
+    change(cases, renderer, &scene, next, override, AFTERWARDS, &expected);
+    change(cases, renderer, &scene, decode(cases->text, NULL), override, TWICE, &cases->twice);
+    if (expected.drawn)
+        change(cases, fresh, &other, decode(cases->text, NULL), override, TWICE, &cases->twice);
     lom_free_renderer(renderer);
+    lom_free_renderer(fresh);
     lom_free_scene(scene);
+    lom_free_scene(other);
     return true;
 }
 
@@ -171,6 +178,12 @@ static bool try_choice(struct cases *cases, const char *path, const lom_key *key
     return tried;
 }
 
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), less = strlen(end);
+    return less <= length && strcmp(text + length - less, end) == 0 && (less > 0 || length == 0);
+}
+
 static bool try_text(struct cases *cases, const char *path, const lom_key *key, const char *const *now)
 {
     static const char *const others[] = { "color.png",     "layer.ppm",  "box",   "cumulus_humilis", "other.obj",
@@ -182,7 +195,7 @@ static bool try_text(struct cases *cases, const char *path, const lom_key *key, 
         if (key->count > 1)
             snprintf(value, sizeof value, "[\"%s\", \"%s\", \"%s\", \"%s\", \"%s\", \"%s\"]", others[i], others[i],
                      others[i], others[i], others[i], others[i]);
-        tried |= (*now == NULL || strcmp(*now, others[i]) != 0) && try(cases, path, value);
+        tried |= (*now == NULL ? others[i][0] != 0 : !ends_with(*now, others[i])) && try(cases, path, value);
     }
     return tried;
 }
@@ -299,18 +312,62 @@ static void try_if_named(void *context, const char *path, const lom_key *key, co
         printf("  %s: %s %s\n", cases->base->name, path, tried ? "changes no byte" : "has no other value");
 }
 
+static struct pictures draw_fresh(const lom_scene *scene, int first)
+{
+    lom_renderer *renderer = create(scene);
+    struct pictures p = draw(renderer, first);
+    lom_free_renderer(renderer);
+    return p;
+}
+
 static void try_base(const struct base *base)
 {
     char text[4000], path[LONGEST_PATH] = "";
     snprintf(text, sizeof text, "%s%s", head, base->text);
     lom_scene *scene = decode(text, NULL);
-    struct cases cases = { .base = base, .text = text, .own = draw_fresh(scene) };
-    CHECK(cases.own.drawn, "%s is not drawn", base->name);
+    struct cases cases = { .base = base, .text = text, .first = draw_fresh(scene, AT_FIRST) };
+    cases.after = draw_fresh(scene, AFTERWARDS);
+    cases.twice = draw_fresh(scene, TWICE);
+    CHECK(cases.twice.drawn, "%s is not drawn", base->name);
     walk(&lom_scene_keys, ".0", path, 0, scene, try_if_named, &cases);
-    printf("  %s: %d changes, %d of them to other pictures, %d refused; %d by frames, %d in part, %d in all\n",
-           base->name, cases.count, cases.others, cases.not, cases.kinds[LOM_CHANGE_FRAME],
-           cases.kinds[LOM_CHANGE_PART], cases.kinds[LOM_CHANGE_ALL]);
+    printf("  %s: %d values, %d of them with other pictures; %d changes by frames, %d in part, %d in all, %d refused\n",
+           base->name, cases.count, cases.others, cases.kinds[LOM_CHANGE_FRAME], cases.kinds[LOM_CHANGE_PART],
+           cases.kinds[LOM_CHANGE_ALL], cases.not );
     lom_free_scene(scene);
+}
+
+static void try_bases(const struct base *of, size_t count, int argc, char **argv)
+{
+    for (size_t i = 0; i < count; i++)
+        if (check_selected(argc, argv, of[i].name)) {
+            check_failures = 0;
+            try_base(&of[i]);
+            if (check_failures != 0)
+                check_failed_tests++;
+            printf("%s changes_of_%s%s%s %s\n", check_failures != 0 ? "FAIL" : "PASS", of[i].name,
+                   check_failures != 0 ? "; repeat: " : "", check_failures != 0 ? argv[0] : "",
+                   check_failures != 0 ? of[i].name : "");
+            fflush(stdout);
+        }
+}
+
+/* Files that the small scene has not: another sky, a volume. */
+static bool make_other_files(void)
+{
+    static const char *const faces[] = { "right", "left", "top", "bottom", "front", "back" };
+    lom_error error = { 0 };
+    bool made = true;
+    for (int i = 0; made && i < 6; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "other_%s.png", faces[i]);
+        made = small_picture(name, 7, LOM_FORMAT_RGB8, &error);
+    }
+    lom_image *volume = lom_make_cloud(&(lom_cloud_desc){ "cumulus_fractus", 6, 6, 6, 3 }, &error);
+    made = made && volume != NULL && lom_write_image(small_path("cloud.nrrd"), NULL, volume, &error);
+    lom_free_image(volume);
+    if (!made)
+        printf("FAIL other_files: %s\n", error.text);
+    return made;
 }
 
 int main(int argc, char **argv)
@@ -318,20 +375,12 @@ int main(int argc, char **argv)
 #ifdef __GLIBC__
     mallopt(M_PERTURB, 0xA5); /* freed memory is filled, so what still points into a scene reads other values */
 #endif
-    if (!make_small_scene())
+    if (!make_small_scene() || !make_other_files())
         return 1;
     RUN(every_key_is_classified);
     RUN(every_row_names_keys);
-    for (size_t i = 0; i < sizeof bases / sizeof *bases; i++)
-        if (check_selected(argc, argv, bases[i].name)) {
-            check_failures = 0;
-            try_base(&bases[i]);
-            if (check_failures != 0)
-                check_failed_tests++;
-            printf("%s changes_of_%s%s%s %s\n", check_failures != 0 ? "FAIL" : "PASS", bases[i].name,
-                   check_failures != 0 ? "; repeat: " : "", check_failures != 0 ? argv[0] : "",
-                   check_failures != 0 ? bases[i].name : "");
-        }
+    try_bases(bases, sizeof bases / sizeof *bases, argc, argv);
+    try_bases(more_bases, sizeof more_bases / sizeof *more_bases, argc, argv);
     remove_small_scene();
     return check_result();
 }

@@ -57,9 +57,8 @@ bool lom_load_ground(lom_renderer *renderer, lom_error *error)
     if (!t->present)
         return true;
     const lom_image *map = lom_world_height_map(renderer->world, error);
-    return map != NULL &&
-           lom_make_ground_blocks(&renderer->ground, t, map, renderer->world->heights, &renderer->scene->quality,
-                                  renderer->device, error);
+    return map != NULL && lom_make_ground_blocks(&renderer->ground, t, map, renderer->world->heights,
+                                                 &renderer->scene->quality, renderer->device, error);
 }
 
 void lom_free_ground_maps(lom_renderer *renderer)
