@@ -144,6 +144,8 @@ typedef struct lom_stage_picture {
 typedef struct lom_stages_desc {
     lom_frame_desc frame; /* its crop, progress and pixels are not used */
     const char *pass;     /* a pass by its label, the last of this name; NULL: "scene", or the last one that draws */
+    bool (*progress)(void *context, double done); /* the share (0..1) that is done; false abandons it; NULL: none */
+    void *progress_context;
 } lom_stages_desc;
 
 typedef struct lom_stage_pictures {

@@ -3,6 +3,7 @@
  * input is found before anything is written. */
 #include "commands.h"
 #include "paths.h"
+#include "progress.h"
 #include "scene_options.h"
 #include "steps_page.h"
 
@@ -12,6 +13,7 @@ struct values {
     struct lom_scene_options scene;
     const char *output, *pass;
     lom_option_integers frame;
+    bool quiet;
 };
 
 static const lom_option options[] = {
@@ -20,6 +22,7 @@ static const lom_option options[] = {
     { "pass", 0, LOM_OPTION_TEXT, offsetof(struct values, pass), "NAME", 0, 0,
       "the pass whose stages are shown, \"scene\" when not given; another name's error lists them" },
     { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9, "the frame, 0 when not given" },
+    { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, quiet), NULL, 0, 0, "no progress bar" },
     LOM_SCENE_OPTIONS(struct values),
 };
 
@@ -66,6 +69,12 @@ static bool write_all(const struct lom_steps_page *page, const char *folder, lom
     return done;
 }
 
+static bool move_bar(void *context, double done)
+{
+    lom_show_progress(context, 100 * done, "");
+    return true;
+}
+
 static bool draw_steps(const struct values *v, const char *path, const lom_scene *scene, lom_error *error)
 {
     lom_device_desc device = lom_device_of_options(&v->scene);
@@ -78,7 +87,11 @@ static bool draw_steps(const struct values *v, const char *path, const lom_scene
     if (!lom_check_frame(scene, &desc.frame, error))
         return false;
     lom_renderer *renderer = lom_create_renderer(scene, &device, error);
+    struct lom_progress bar = lom_begin_progress("lom steps", 100, v->quiet);
+    desc.progress = move_bar;
+    desc.progress_context = &bar;
     lom_stage_pictures *pictures = renderer != NULL ? lom_picture_stages(renderer, &desc, error) : NULL;
+    lom_end_progress(&bar);
     lom_free_renderer(renderer);
     const struct lom_steps_page page = { .scene = lom_path_file(path), .frame = number, .pictures = pictures };
     bool done = pictures != NULL && write_all(&page, v->output, error);

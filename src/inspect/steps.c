@@ -6,6 +6,7 @@
 #include "inspect/steps.h"
 #include "base/reserve.h"
 #include "pipeline/check_device.h"
+#include "pipeline/device.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -132,7 +133,38 @@ bool lom_draw_chosen(struct steps *s, const lom_listener *listener)
     lom_free_image(frame.image);
     if (!done)
         *s->error = error;
-    return done;
+    return done && lom_tell_steps(s, 1);
+}
+
+bool lom_tell_steps(struct steps *s, int frames)
+{
+    s->drawn += frames;
+    if (s->desc->progress == NULL || s->desc->progress(s->desc->progress_context, (double)s->drawn / s->frames))
+        return true;
+    return lom_fail(s->error, LOM_ERROR_ABANDONED, "The pictures of the stages were abandoned.");
+}
+
+bool lom_is_alive(const struct steps *s, const lom_texture *texture)
+{
+    const lom_device *device = s->renderer->device;
+    for (size_t i = 0; i < device->texture_count; i++)
+        if (device->textures[i] == texture)
+            return true;
+    return false;
+}
+
+bool lom_watch_target(struct steps *s, lom_rect at)
+{
+    const lom_watch_desc watch = { s->target, at.x, at.y, at.width, at.height, s->last + 1 };
+    if (!lom_is_alive(s, s->target))
+        return lom_fail(s->error, LOM_ERROR_USAGE, "The target of pass \"%s\" is another one in each frame.",
+                        s->out->pass);
+    return lom_watch(s->renderer->device, &watch, 1) || lom_check_device(s->renderer->device, s->error);
+}
+
+bool lom_is_seen(const struct steps *s, const lom_triangle_record *t)
+{
+    return t->covered && (s->attachment < 0 ? t->fragment.depth_written : t->fragment.write[0].written);
 }
 
 /* ---- the passes ---- */
@@ -142,24 +174,39 @@ static const char *label_of(const lom_pass_desc *desc)
     return desc->label != NULL ? desc->label : "pass";
 }
 
+static const lom_texture *target_of(const lom_pass_desc *desc)
+{
+    return desc->color[0] != NULL ? desc->color[0] : desc->depth;
+}
+
+static const char *target_label(const lom_pass_desc *desc)
+{
+    const char *label = lom_texture_label(target_of(desc));
+    return label != NULL ? label : "";
+}
+
+/* Passes of one label into targets of one label are one entry. */
+static struct listed_pass *find_entry(struct steps *s, const lom_pass_desc *desc)
+{
+    for (size_t i = 0; i < s->pass_count; i++)
+        if (strcmp(s->passes[i].label, label_of(desc)) == 0 && strcmp(s->passes[i].target, target_label(desc)) == 0)
+            return &s->passes[i];
+    if (!lom_reserve(&s->passes, &s->pass_capacity, s->pass_count + 1, sizeof *s->passes, s->error)) {
+        s->failed = true;
+        return NULL;
+    }
+    s->passes[s->pass_count] = (struct listed_pass){ .label = label_of(desc), .target = target_label(desc) };
+    return &s->passes[s->pass_count++];
+}
+
 static void list_pass(void *context, uint64_t number, const lom_pass_desc *desc, size_t draws, bool blends)
 {
     struct steps *s = context;
-    const lom_texture *target = desc->color[0] != NULL ? desc->color[0] : desc->depth;
-    struct listed_pass *pass = NULL;
-    for (size_t i = 0; i < s->pass_count && pass == NULL; i++)
-        if (strcmp(s->passes[i].label, label_of(desc)) == 0)
-            pass = &s->passes[i];
-    if (pass == NULL) {
-        if (!lom_reserve(&s->passes, &s->pass_capacity, s->pass_count + 1, sizeof *s->passes, s->error)) {
-            s->failed = true;
-            return;
-        }
-        pass = &s->passes[s->pass_count++];
-        *pass = (struct listed_pass){ .label = label_of(desc) };
-    }
+    struct listed_pass *pass = find_entry(s, desc);
+    if (pass == NULL)
+        return;
     lom_free_image(pass->image);
-    pass->image = lom_read_texture(target, 0, 0, s->error);
+    pass->image = lom_read_texture(target_of(desc), 0, 0, s->error);
     s->failed |= pass->image == NULL;
     pass->number = number;
     pass->desc = *desc;
@@ -168,12 +215,28 @@ static void list_pass(void *context, uint64_t number, const lom_pass_desc *desc,
     pass->times++;
 }
 
+/* The last of this label. */
 static const struct listed_pass *find_pass(const struct steps *s, const char *label)
 {
+    const struct listed_pass *last = NULL;
     for (size_t i = 0; i < s->pass_count; i++)
-        if (strcmp(s->passes[i].label, label) == 0)
-            return &s->passes[i];
-    return NULL;
+        if (strcmp(s->passes[i].label, label) == 0 && (last == NULL || s->passes[i].number > last->number))
+            last = &s->passes[i];
+    return last;
+}
+
+/* The labels, each once, in the order of the frame. */
+static void list_labels(const struct steps *s, char names[400])
+{
+    names[0] = 0;
+    for (size_t i = 0; i < s->pass_count; i++) {
+        bool is_first = true;
+        for (size_t k = 0; k < i; k++)
+            is_first &= strcmp(s->passes[k].label, s->passes[i].label) != 0;
+        size_t length = strlen(names);
+        if (is_first)
+            snprintf(names + length, 400 - length, "%s%s", i > 0 ? ", " : "", s->passes[i].label);
+    }
 }
 
 static bool choose_pass(struct steps *s)
@@ -184,11 +247,8 @@ static bool choose_pass(struct steps *s)
         if (s->passes[i].draws > 0)
             pass = &s->passes[i];
     if (pass == NULL) {
-        char names[400] = "";
-        for (size_t i = 0; i < s->pass_count; i++) {
-            size_t length = strlen(names);
-            snprintf(names + length, sizeof names - length, "%s%s", i > 0 ? ", " : "", s->passes[i].label);
-        }
+        char names[400];
+        list_labels(s, names);
         return lom_fail(s->error, LOM_ERROR_USAGE, "This frame draws no pass \"%s\"; it draws %s.",
                         name != NULL ? name : "scene", names);
     }
@@ -200,12 +260,13 @@ static bool choose_pass(struct steps *s)
             s->blended = *p;
     }
     s->attachment = pass->desc.color[0] != NULL ? 0 : -1;
-    s->target = s->attachment == 0 ? pass->desc.color[0] : pass->desc.depth;
+    s->target = target_of(&pass->desc);
     s->width = lom_texture_width(s->target);
     s->height = lom_texture_height(s->target);
     s->zoom = (SLIDE + s->width - 1) / s->width;
+    s->frames = 4 + lom_count_bands(s); /* the whole one, twice the triangles, the detail */
     snprintf(s->out->pass, sizeof s->out->pass, "%s", pass->label);
-    return true;
+    return lom_tell_steps(s, 1);
 }
 
 static bool draw_whole(struct steps *s, lom_frame *frame)

@@ -10,9 +10,9 @@
 /* A pass of the frame, as it ended. */
 struct listed_pass {
     uint64_t number;
-    const char *label;
+    const char *label, *target; /* target: the label of its texture */
     lom_pass_desc desc;
-    size_t draws, times; /* times: as many of this name, one after the other */
+    size_t draws, times; /* times: as many of this name and target */
     bool blends;
     lom_image *image; /* of its first colour or its depth, as it stands there */
 };
@@ -54,6 +54,7 @@ struct steps {
     const lom_texture *target;          /* of the chosen one */
     int attachment;
     int width, height, zoom; /* of the target; pixels of a picture for one of its */
+    int drawn, frames;       /* of all that are to be drawn */
 
     struct plane *planes;
     size_t plane_count, plane_capacity;
@@ -72,6 +73,16 @@ void lom_add_scale(lom_stage_picture *picture, const uint8_t ramp[LOM_RAMP_COLOR
                    bool is_logarithmic);
 /* Draws the frame up to the pass s->last, to a listener or, NULL, as it is watched. */
 bool lom_draw_chosen(struct steps *s, const lom_listener *listener);
+/* So many frames more have been drawn: tells whoever waits; false: it is abandoned. */
+bool lom_tell_steps(struct steps *s, int frames);
+/* Whether a texture that a frame had is there still: plates come and go. */
+bool lom_is_alive(const struct steps *s, const lom_texture *texture);
+/* Watches a part of the chosen pass's target, up to the pass s->last. */
+bool lom_watch_target(struct steps *s, lom_rect at);
+/* Whether a triangle wrote what the chosen pass's target held then. */
+bool lom_is_seen(const struct steps *s, const lom_triangle_record *t);
+/* Frames that lom_record_planes draws. */
+int lom_count_bands(const struct steps *s);
 
 void lom_picture_triangles(struct steps *s);
 void lom_record_planes(struct steps *s);

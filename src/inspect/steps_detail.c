@@ -3,7 +3,6 @@
 #include "inspect/steps.h"
 
 #include "base/numbers.h"
-#include "pipeline/check_device.h"
 
 enum { COLUMNS = 32, ROWS = 18 };
 static const struct ink ground = { { 0.055f, 0.065f, 0.085f }, 1 };
@@ -63,7 +62,7 @@ static const lom_triangle_record *find_owner(const struct steps *s, const lom_pi
         for (const lom_draw_record *draw = pass->number == s->chosen.number ? pass->draws : NULL; draw != NULL;
              draw = draw->next)
             for (const lom_triangle_record *t = draw->triangles; t != NULL; t = t->next)
-                if (t->covered && (s->attachment < 0 ? t->fragment.depth_written : t->fragment.write[0].written))
+                if (lom_is_seen(s, t))
                     owner = t;
     return owner;
 }
@@ -134,20 +133,15 @@ static void draw_detail(struct detail *d)
 
 void lom_picture_detail(struct steps *s)
 {
-    lom_device *device = s->renderer->device;
     struct detail d = { .steps = s,
                         .width = lom_smaller_int(COLUMNS, s->width),
                         .height = lom_smaller_int(ROWS, s->height) };
     d.scale = lom_larger_int(1, lom_smaller_int(s->width * s->zoom / d.width, s->height * s->zoom / d.height));
     choose_place(s, d.width, d.height, d.place);
     s->last = s->chosen.number;
-    const lom_watch_desc watch = { s->target, d.place[0], d.place[1], d.width, d.height, s->last + 1 };
-    s->failed |= !lom_make_canvas(&d.canvas, d.width * d.scale, d.height * d.scale, ground, s->error);
-    if (!s->failed && !lom_watch(device, &watch, 1)) {
-        lom_check_device(device, s->error);
-        s->failed = true;
-    }
-    s->failed = s->failed || !lom_draw_chosen(s, NULL);
+    s->failed |= !lom_make_canvas(&d.canvas, d.width * d.scale, d.height * d.scale, ground, s->error) ||
+                 !lom_watch_target(s, (lom_rect){ d.place[0], d.place[1], d.width, d.height }) ||
+                 !lom_draw_chosen(s, NULL);
     if (!s->failed) {
         draw_detail(&d);
         lom_stage_picture *p =

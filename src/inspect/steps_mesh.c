@@ -34,7 +34,7 @@ static bool find_offset(const lom_vertex_record *vertex, double place[PLACE])
     return false;
 }
 
-static bool find_places(const lom_told_triangle *t, double place[3][PLACE])
+static bool find_places(struct meshes *m, const lom_told_triangle *t, double place[3][PLACE])
 {
     const lom_attribute *a = &t->desc->attribute[0];
     lom_vertex_record vertex[3];
@@ -42,8 +42,10 @@ static bool find_places(const lom_told_triangle *t, double place[3][PLACE])
         t->desc->shader->attributes > 0 && a->data != NULL && a->stride != 0 &&
         (a->kind == LOM_ATTRIBUTE_FLOAT2 || a->kind == LOM_ATTRIBUTE_FLOAT3 || a->kind == LOM_ATTRIBUTE_FLOAT4);
     bool done = true;
-    if (!reads && !lom_tell_vertices(t, vertex))
+    if (!reads && !lom_tell_vertices(t, vertex)) {
+        m->failed = true;
         return false;
+    }
     for (int k = 0; k < 3; k++)
         done = done && (reads ? read_place(a, t->index[k], place[k]) : find_offset(&vertex[k], place[k]));
     return done;
@@ -95,12 +97,49 @@ static struct seen_mesh *mesh_of(struct meshes *m, const lom_told_triangle *t)
     return mesh >= 0 ? &m->mesh[mesh] : NULL;
 }
 
+/* Every so many triangles one: when there is no more room, every second is dropped. */
+static void take_sample(struct seen_mesh *mesh, const double place[PLACE])
+{
+    if (mesh->samples == MESH_SAMPLES) {
+        for (int i = 0; i < MESH_SAMPLES; i++)
+            for (int axis = 0; axis < PLACE; axis++)
+                mesh->sample[axis][i / 2] = mesh->sample[axis][i];
+        mesh->samples /= 2;
+        mesh->skip = 2 * mesh->skip + 1;
+    }
+    if ((mesh->triangles & mesh->skip) == 0) {
+        for (int axis = 0; axis < PLACE; axis++)
+            mesh->sample[axis][mesh->samples] = place[axis];
+        mesh->samples++;
+    }
+}
+
+/* Of a mesh that reaches far with few triangles, like a sea to the horizon, the part that has nine tenths of them. */
+static void trim(struct seen_mesh *mesh)
+{
+    for (int axis = 0; axis < PLACE; axis++) {
+        double *v = mesh->sample[axis];
+        for (int i = 1; i < mesh->samples; i++) /* by insertion */
+            for (int k = i; k > 0 && v[k] < v[k - 1]; k--) {
+                double swap = v[k];
+                v[k] = v[k - 1];
+                v[k - 1] = swap;
+            }
+        double low = v[mesh->samples / 20], high = v[mesh->samples - 1 - mesh->samples / 20];
+        if (mesh->high[axis] - mesh->low[axis] > 6 * (high - low)) {
+            mesh->low[axis] = low;
+            mesh->high[axis] = high;
+        }
+    }
+}
+
 void lom_measure_mesh(struct meshes *m, const lom_told_triangle *t)
 {
     double place[3][PLACE];
     struct seen_mesh *mesh = mesh_of(m, t);
-    if (mesh == NULL || !find_places(t, place))
+    if (mesh == NULL || !find_places(m, t, place))
         return;
+    take_sample(mesh, place[0]);
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < PLACE; i++) {
             bool first = mesh->triangles == 0 && k == 0;
@@ -124,6 +163,7 @@ bool lom_lay_cells(struct meshes *m, const struct canvas *like, lom_error *error
         if (most == NULL)
             break;
         most->cell = m->cells;
+        trim(most);
     }
     m->columns = m->cells > 4 ? 3 : m->cells > 1 ? 2 : 1;
     m->rows = m->cells > 2 ? 2 : 1;
@@ -190,7 +230,7 @@ void lom_draw_meshes(struct meshes *m, const lom_told_triangle *t)
 {
     const struct seen_mesh *mesh = mesh_of(m, t);
     double place[3][PLACE], seen[3][PLACE];
-    if (mesh == NULL || mesh->cell < 0 || !find_places(t, place))
+    if (mesh == NULL || mesh->cell < 0 || !find_places(m, t, place))
         return;
     struct cell cell = find_cell(m, mesh);
     for (int k = 0; k < 3; k++) {

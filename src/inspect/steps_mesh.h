@@ -4,15 +4,17 @@
 
 #include "inspect/steps.h"
 
-enum { MOST_MESHES = 48, MOST_CELLS = 6 };
+enum { MOST_MESHES = 48, MOST_CELLS = 6, MESH_SAMPLES = 256 };
 
 /* All draws of one label, or of one array of vertices. */
 struct seen_mesh {
     const char *label;
     const void *data;
-    double low[3], high[3]; /* of its places */
-    uint64_t triangles;
-    int cell; /* -1: none */
+    double low[3], high[3];         /* of its places */
+    double sample[3][MESH_SAMPLES]; /* places of some triangles, by axis */
+    int samples;
+    uint64_t triangles, skip; /* skip: triangles between samples */
+    int cell;                 /* -1: none */
 };
 
 struct seen_draw { /* what a draw reads: the same again is not drawn again */

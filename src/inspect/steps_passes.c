@@ -35,6 +35,14 @@ static lom_image *show(struct steps *s, struct listed_pass *pass)
     return shown != NULL && shown->width == s->width ? lom_magnify(shown, s->zoom, s->error) : shown;
 }
 
+static bool is_several(const struct steps *s, size_t pass)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->pass_count; i++)
+        count += strcmp(s->passes[i].label, s->passes[pass].label) == 0;
+    return count > 1;
+}
+
 void lom_picture_passes(struct steps *s)
 {
     for (size_t i = 0; i < s->pass_count && !s->failed; i++) {
@@ -42,7 +50,8 @@ void lom_picture_passes(struct steps *s)
         char name[64], title[96], times[64] = "";
         bool is_depth = lom_describe_format(pass->image->format)->is_depth;
         snprintf(name, sizeof name, "pass-%s", pass->label);
-        snprintf(title, sizeof title, "Pass \"%s\"", pass->label);
+        bool several = is_several(s, i); /* of this name, into other targets */
+        snprintf(title, sizeof title, several ? "Pass \"%s\" into the %s" : "Pass \"%s\"", pass->label, pass->target);
         if (pass->times > 1)
             snprintf(times, sizeof times, " The last of %zu of this name.", pass->times);
         lom_add_picture(s, "Passes", name, title, "src/pipeline/resolve.c", show(s, pass),

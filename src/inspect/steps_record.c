@@ -7,7 +7,6 @@
 #include "base/numbers.h"
 #include "base/reserve.h"
 #include "image/texture.h"
-#include "pipeline/check_device.h"
 
 #include <stdio.h>
 
@@ -35,13 +34,13 @@ static struct plane *find_plane(struct steps *s, enum plane_kind kind, const cha
     plane.value = lom_allocate(pixels, (size_t)components * sizeof(float), s->error);
     plane.is_there = lom_allocate(pixels, sizeof(bool), s->error);
     s->failed |= plane.value == NULL || plane.is_there == NULL;
-    s->planes[s->plane_count] = plane;
-    return s->failed ? NULL : &s->planes[s->plane_count++];
+    s->planes[s->plane_count++] = plane;
+    return s->failed ? NULL : &s->planes[s->plane_count - 1];
 }
 
 static void set(struct plane *plane, size_t pixel, const float *value)
 {
-    if (plane == NULL)
+    if (plane == NULL || plane->value == NULL || plane->is_there == NULL)
         return;
     memcpy(plane->value + pixel * (size_t)plane->components, value, (size_t)plane->components * sizeof *value);
     plane->there += !plane->is_there[pixel];
@@ -93,7 +92,8 @@ static struct read_level *find_level(struct steps *s, const lom_texture *texture
 {
     for (size_t i = 0; i < s->level_count; i++) {
         struct read_level *l = &s->levels[i];
-        if (l->texture == texture && l->level == level && l->layer == layer)
+        if (l->texture == texture && l->level == level && l->layer == layer &&
+            l->width == texture->level[level].width && l->height == texture->level[level].height)
             return l;
     }
     struct read_level l = { texture, level, layer, texture->level[level].width, texture->level[level].height, NULL, 0 };
@@ -144,11 +144,6 @@ static void take_lookups(struct steps *s, const lom_note_record *notes, size_t p
 
 /* ---- a pixel ---- */
 
-static bool is_written(const struct steps *s, const lom_triangle_record *t)
-{
-    return t->covered && (s->attachment < 0 ? t->fragment.depth_written : t->fragment.write[0].written);
-}
-
 static void take_owner(struct steps *s, const lom_triangle_record *t, size_t pixel)
 {
     const lom_fragment_record *f = &t->fragment;
@@ -171,7 +166,7 @@ static void take_chosen(struct steps *s, const lom_pass_record *pass, size_t pix
         for (const lom_triangle_record *t = draw->triangles; t != NULL; t = t->next) {
             covering += t->covered;
             hidden += t->covered && t->fate == LOM_FATE_DEPTH;
-            owner = is_written(s, t) ? t : owner;
+            owner = lom_is_seen(s, t) ? t : owner;
         }
     set_number(s, PLANE_COUNT, "covering", pixel, (float)covering);
     set_number(s, PLANE_COUNT, "hidden", pixel, (float)hidden);
@@ -219,26 +214,25 @@ static int rows_of_band(const struct steps *s)
     return lom_larger_int(1, lom_smaller_int(most, lom_larger_int(LEAST_BAND, share)) / s->width);
 }
 
+int lom_count_bands(const struct steps *s)
+{
+    int rows = rows_of_band(s);
+    return (s->height + rows - 1) / rows;
+}
+
 void lom_record_planes(struct steps *s)
 {
-    lom_device *device = s->renderer->device;
     int rows = rows_of_band(s);
     s->last = s->blended.label != NULL ? s->blended.number : s->chosen.number;
     s->owner = lom_allocate((size_t)s->width * (size_t)s->height, sizeof *s->owner, s->error);
     s->failed |= s->owner == NULL;
     for (int y = 0; y < s->height && !s->failed; y += rows) {
-        const lom_watch_desc watch = { .target = s->target,
-                                       .y = y,
-                                       .width = s->width,
-                                       .height = lom_smaller_int(rows, s->height - y),
-                                       .before = s->last + 1 };
-        s->failed = !lom_watch(device, &watch, 1);
-        if (s->failed)
-            lom_check_device(device, s->error);
-        s->failed = s->failed || !lom_draw_chosen(s, NULL);
-        for (int i = 0; i < watch.width * watch.height && !s->failed; i++) {
-            int column = i % watch.width, row = y + i / watch.width;
-            take_pixel(s, lom_watched_pixel(device, 0, column, row), (size_t)row * (size_t)s->width + (size_t)column);
+        const lom_rect band = { 0, y, s->width, lom_smaller_int(rows, s->height - y) };
+        s->failed = !lom_watch_target(s, band) || !lom_draw_chosen(s, NULL);
+        for (int i = 0; i < band.width * band.height && !s->failed; i++) {
+            int x = i % band.width, row = y + i / band.width;
+            take_pixel(s, lom_watched_pixel(s->renderer->device, 0, x, row),
+                       (size_t)row * (size_t)s->width + (size_t)x);
         }
     }
 }

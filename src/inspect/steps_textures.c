@@ -4,7 +4,6 @@
 
 #include "base/numbers.h"
 #include "image/texture.h"
-#include "pipeline/device.h"
 
 #include <stdio.h>
 
@@ -12,16 +11,6 @@ enum { MOST_TEXTURES = 32, MOST_SHOWN = 16 };
 static const struct ink ground = { { 0.055f, 0.065f, 0.085f }, 1 };
 static const struct ink read_ink = { { 1, 0.85f, 0.3f }, 1 };
 static const struct ink unread_ink = { { 0.3f, 0.31f, 0.34f }, 1 };
-
-/* A texture of a frame may be gone when the next is drawn. */
-static bool is_alive(const struct steps *s, const lom_texture *texture)
-{
-    const lom_device *device = s->renderer->device;
-    for (size_t i = 0; i < device->texture_count; i++)
-        if (device->textures[i] == texture)
-            return true;
-    return false;
-}
 
 /* The levels of a texture that were read, larger ones first. */
 static int list_levels(const struct steps *s, const lom_texture *texture, const struct read_level *list[MOST_SHOWN],
@@ -47,16 +36,38 @@ static int list_levels(const struct steps *s, const lom_texture *texture, const 
     return count;
 }
 
-/* The picture of a level for eyes: depths and single numbers as gray. */
+/* Floats that are no colours: halved around gray where some are negative, else as parts of the largest. */
+static void stretch(lom_image *image)
+{
+    float *value = (float *)(void *)image->pixels, low = 0, high = 0;
+    size_t count = lom_image_size(image) / sizeof *value;
+    for (size_t i = 0; i < count; i++) {
+        low = value[i] < low ? value[i] : low;
+        high = value[i] > high ? value[i] : high;
+    }
+    float most = -low > high ? -low : high;
+    for (size_t i = 0; i < count && (low < 0 || high > 1); i++)
+        value[i] = low < 0 ? 0.5f + value[i] / most * 0.5f : value[i] / most;
+}
+
+/* The picture of a level for eyes. */
 static lom_image *read_level(const struct steps *s, const struct read_level *l)
 {
-    lom_image *image = lom_read_texture(l->texture, l->level, l->layer, s->error);
+    lom_image *image = lom_read_texture(l->texture, l->level, l->layer, s->error), *floats = NULL, *shown = NULL;
     const lom_format_info *format = image != NULL ? lom_describe_format(image->format) : NULL;
-    lom_image *shown = NULL;
-    if (image != NULL)
-        shown = lom_convert_image(image, format->is_srgb || format->is_float ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8,
-                                  s->error);
+    if (format != NULL && format->is_depth) {
+        floats = lom_show_to_eyes(lom_convert_image(image, LOM_FORMAT_R32F, s->error), "depth", s->error);
+    } else if (format != NULL && format->is_float) {
+        floats = lom_convert_image(image, LOM_FORMAT_RGB32F, s->error);
+        if (floats != NULL)
+            stretch(floats);
+    }
+    if (floats != NULL)
+        shown = lom_convert_image(floats, LOM_FORMAT_RGB8, s->error);
+    else if (format != NULL && !format->is_depth && !format->is_float)
+        shown = lom_convert_image(image, format->is_srgb ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8, s->error);
     lom_free_image(image);
+    lom_free_image(floats);
     return shown;
 }
 
@@ -157,7 +168,7 @@ void lom_picture_textures(struct steps *s)
         bool is_first = true;
         for (size_t k = 0; k < i; k++)
             is_first &= s->levels[k].texture != s->levels[i].texture;
-        if (!is_first || !is_alive(s, s->levels[i].texture))
+        if (!is_first || !lom_is_alive(s, s->levels[i].texture))
             continue;
         add_texture(s, s->levels[i].texture);
         count++;

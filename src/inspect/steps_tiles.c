@@ -16,7 +16,7 @@ void lom_count_bin(const struct steps *s, struct tiles *tiles, const lom_rect *t
         tiles->columns = (s->width + tile->width - 1) / tile->width + 1; /* one more: the attachment may begin within */
         tiles->rows = (s->height + tile->width - 1) / tile->width + 1;
         lom_renew(&tiles->count, &tiles->capacity, (size_t)tiles->columns * (size_t)tiles->rows, sizeof *tiles->count,
-                  NULL);
+                  s->error);
     }
     int x = tile->x / tiles->edge - pass->origin_x / tiles->edge;
     int y = tile->y / tiles->edge - pass->origin_y / tiles->edge;

@@ -341,35 +341,57 @@ static void clear(struct all_triangles *a)
     lom_release(a->tiles.count);
 }
 
-void lom_picture_triangles(struct steps *s)
+static void draw_lines_of_the_view(struct all_triangles *a)
 {
-    struct all_triangles a = { .steps = s, .is_flat = true, .has_near = true };
-    const lom_listener listener = { .context = &a, .begins = is_chosen, .triangle = take_triangle, .bin = take_bin };
+    const struct steps *s = a->steps;
+    const lom_pass_desc *pass = &s->chosen.desc;
+    const float corner[2][3] = { { (float)pass->origin_x, (float)pass->origin_y, 0 },
+                                 { (float)(pass->origin_x + s->width), (float)(pass->origin_y + s->height), 0 } };
+    double from[2], to[2];
+    place_window(a, corner[0], true, from);
+    place_window(a, corner[1], true, to);
+    for (int twice = 0; twice < 2; twice++)
+        lom_draw_box(&a->window, from[0], from[1], to[0] - from[0], to[1] - from[1], frame_ink);
+    draw_frustum(a);
+    lom_draw_tiles(s, &a->tiles, &a->bins);
+}
+
+/* Once to measure, once to draw. */
+static void hear_twice(struct all_triangles *a)
+{
+    struct steps *s = a->steps;
+    const lom_listener listener = { .context = a, .begins = is_chosen, .triangle = take_triangle, .bin = take_bin };
     s->last = s->chosen.number;
-    s->failed |= !lom_draw_chosen(s, &listener) || !make_canvases(&a);
-    a.draws = true;
-    if (a.most_w == 0)
-        a.most_w = 1;
+    s->failed |= !lom_draw_chosen(s, &listener) || !make_canvases(a);
+    a->draws = true;
+    a->most_w = a->most_w == 0 ? 1 : a->most_w;
     if (!s->failed) {
-        draw_near(&a);
-        draw_guard(&a);
+        draw_near(a);
+        draw_guard(a);
         s->failed = !lom_draw_chosen(s, &listener);
     }
-    if (!s->failed && a.triangles > 0) {
-        const float corner[2][3] = { { (float)s->chosen.desc.origin_x, (float)s->chosen.desc.origin_y, 0 },
-                                     { (float)(s->chosen.desc.origin_x + s->width),
-                                       (float)(s->chosen.desc.origin_y + s->height), 0 } };
-        double from[2], to[2];
-        place_window(&a, corner[0], true, from);
-        place_window(&a, corner[1], true, to);
-        for (int twice = 0; twice < 2; twice++)
-            lom_draw_box(&a.window, from[0], from[1], to[0] - from[0], to[1] - from[1], frame_ink);
-        draw_frustum(&a);
-        lom_draw_tiles(s, &a.tiles, &a.bins);
-        if (a.meshes.cells > 0)
-            lom_picture_mesh(s, &a.meshes);
-        add_clip_pictures(&a);
-        add_window_pictures(&a);
+    if (a->meshes.failed)
+        lom_fail(s->error, LOM_ERROR_MEMORY, "The system gave no memory for the list of a pass's draws.");
+    s->failed |= s->error->code != LOM_OK;
+}
+
+void lom_picture_triangles(struct steps *s)
+{
+    struct all_triangles *a = lom_allocate(1, sizeof *a, s->error);
+    if (a == NULL) {
+        s->failed = true;
+        return;
     }
-    clear(&a);
+    a->steps = s;
+    a->is_flat = a->has_near = true;
+    hear_twice(a);
+    if (!s->failed && a->triangles > 0) {
+        draw_lines_of_the_view(a);
+        if (a->meshes.cells > 0)
+            lom_picture_mesh(s, &a->meshes);
+        add_clip_pictures(a);
+        add_window_pictures(a);
+    }
+    clear(a);
+    lom_release(a);
 }

@@ -45,6 +45,7 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     state->field = lom_make_texture(
         source->device, &(lom_texture_desc){ .width = CELLS,
                                              .height = CELLS,
+                                             .label = "flow of the river",
                                              .format = LOM_FORMAT_RG32F,
                                              .pixels = field->pixels,
                                              .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });

@@ -56,11 +56,22 @@ static void unload(void *memory)
     lom_release(state->moments);
 }
 
-static bool fill_field(const struct state *state, lom_texture **field, int size, const float *pixels)
+/* By cascade: what records call its fields. */
+static const char *const labels[LOM_SURFACE_CASCADES][3] = {
+    { "displacement 0", "derivatives 0", "moments 0" },
+    { "displacement 1", "derivatives 1", "moments 1" },
+    { "displacement 2", "derivatives 2", "moments 2" },
+    { "displacement 3", "derivatives 3", "moments 3" },
+};
+
+static bool fill_field(const struct state *state, lom_texture **field, const char *label, int size, const float *pixels)
 {
-    const lom_texture_desc desc = {
-        .width = size, .height = size, .format = LOM_FORMAT_RGBA32F, .pixels = pixels, .mips = LOM_MIPS_ALL
-    };
+    const lom_texture_desc desc = { .width = size,
+                                    .height = size,
+                                    .format = LOM_FORMAT_RGBA32F,
+                                    .pixels = pixels,
+                                    .mips = LOM_MIPS_ALL,
+                                    .label = label };
     return lom_renew_texture(state->device, field, &desc);
 }
 
@@ -136,7 +147,7 @@ static bool fill_cascade(struct state *state, struct lom_waves_uniform *out, int
     run_samples(state, cascade, add_slopes, 1);
     const float *const pixels[3] = { c.displacement, c.derivatives, state->moments };
     for (int i = 0; i < 3; i++)
-        if (!fill_field(state, &held[i], c.size, pixels[i]))
+        if (!fill_field(state, &held[i], labels[cascade][i], c.size, pixels[i]))
             return lom_check_device(state->device, error);
     *u = (struct lom_cascade_uniform){ held[0], held[1], held[2], .inverse_length = (float)(1 / c.length) };
     for (int i = 0; i < 2; i++) {

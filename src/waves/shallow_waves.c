@@ -44,10 +44,11 @@ static void unload(void *memory)
     lom_release(state->moments);
 }
 
-static bool fill_map(const struct state *state, lom_texture **map, const void *pixels)
+static bool fill_map(const struct state *state, lom_texture **map, const char *label, const void *pixels)
 {
     const lom_texture_desc desc = { .width = state->region.columns,
                                     .height = state->region.rows,
+                                    .label = label,
                                     .format = LOM_FORMAT_RGBA32F,
                                     .pixels = pixels,
                                     .mips = LOM_MIPS_ALL,
@@ -75,7 +76,7 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
                                           state->moments, bounds);
     const void *const pixels[2] = { state->surface, state->moments };
     for (int i = 0; i < 2; i++)
-        if (!fill_map(state, &state->map[i], pixels[i]))
+        if (!fill_map(state, &state->map[i], i == 0 ? "shallow water" : "moments of shallow water", pixels[i]))
             return lom_check_device(state->device, error);
     out->shallow = (struct lom_shallow_uniform){ .surface = state->map[0], .moments = state->map[1] };
     for (int i = 0; i < 2; i++) {

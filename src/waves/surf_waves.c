@@ -30,6 +30,7 @@ static lom_texture *make_texture(lom_device *device, const struct lom_surf_map *
     lom_texture *texture = lom_make_texture(
         device, &(lom_texture_desc){ .width = map->width,
                                      .height = map->height,
+                                     .label = first == 0 ? "surf: phase" : "surf: height",
                                      .format = LOM_FORMAT_RGBA32F,
                                      .pixels = texels,
                                      .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
