@@ -209,8 +209,9 @@ static struct cell find_cell(const struct meshes *m, const struct seen_mesh *mes
     return c;
 }
 
-/* Bright where it faces the light, and dim where it is turned away from the eye; of many small triangles each is faint. */
-static struct ink ink_of(const double seen[3][PLACE], double area, uint64_t triangles)
+/* Bright where it faces the light, and dim where it is turned away from the eye, unless the mesh is a sheet that a shader
+ * makes; of many small triangles each is faint. */
+static struct ink ink_of(const double seen[3][PLACE], double area, const struct seen_mesh *mesh)
 {
     double u[PLACE], v[PLACE];
     for (int i = 0; i < PLACE; i++) {
@@ -220,9 +221,9 @@ static struct ink ink_of(const double seen[3][PLACE], double area, uint64_t tria
     double n[PLACE] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
     double length = lom_double_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     double light = length > 0 ? (-n[0] * 0.55 + n[1] * 0.65 - n[2] * 0.52) / length : 0;
-    double each = lom_double_sqrt(area / (double)triangles), bright = 0.38 + 0.62 * lom_larger(light, 0);
-    double turned = n[2] < 0 ? 1 : lom_smaller(0.2 + each / 200, 0.8);
-    double cover = lom_smaller(0.14 + each / 16, 0.9) * turned;
+    double each = lom_double_sqrt(area / (double)mesh->triangles), bright = 0.38 + 0.62 * lom_larger(light, 0);
+    double turned = n[2] < 0 || mesh->data == NULL ? 1 : lom_smaller(0.2 + each / 200, 0.8);
+    double cover = lom_smaller(0.16 + each / 14, 0.9) * turned;
     return (struct ink){ { (float)(0.62 * bright), (float)(0.88 * bright), (float)bright }, (float)cover };
 }
 
@@ -239,7 +240,7 @@ void lom_draw_meshes(struct meshes *m, const lom_told_triangle *t)
             seen[k][i] = seen[k][i] * cell.scale + cell.shift[i];
         seen[k][2] *= cell.scale;
     }
-    struct ink ink = ink_of((const double(*)[PLACE])seen, cell.area, mesh->triangles);
+    struct ink ink = ink_of((const double(*)[PLACE])seen, cell.area, mesh);
     for (int k = 0; k < 3; k++)
         lom_draw_line(&m->canvas, seen[k], seen[(k + 1) % 3], ink);
 }
