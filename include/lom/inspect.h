@@ -104,13 +104,13 @@ typedef struct lom_overlay_desc {
 } lom_overlay_desc;
 
 typedef struct lom_overlay {
-    lom_frame frame;    /* as lom_render_frame gives it, to the same bytes */
+    lom_frame frame;    /* as lom_render_frame gives it with one sample a pixel, to the same bytes */
     lom_image *numbers; /* R32F, of normals RGB32F, a number a pixel of the target; NaN: nothing is there to be told */
     lom_image *shown;   /* RGB8: the numbers in colours; where there is none, the picture in a dark gray; the legend */
 } lom_overlay;
 
-/* Draws a frame as lom_render_frame does, by the stages at 4 lanes that tally (lom/record.h; kinds by the clock: as
- * ever), and shows the kind's numbers. Called for the frames of a run, it goes on with the run as lom_render_frame does.
+/* Draws a frame as lom_render_frame does, by the stages at 4 lanes that tally (lom/record.h; with one sample a pixel;
+ * kinds by the clock: as ever), and shows the kind's numbers. Called for the frames of a run, it goes on with the run as lom_render_frame does.
  * False on failure (all of *overlay is NULL then): a scene or frame without that pass, a scale that is none. Freed with
  * lom_free_overlay, whatever it returned. */
 bool lom_draw_overlay(lom_renderer *renderer, const lom_overlay_desc *desc, lom_overlay *overlay, lom_error *error);

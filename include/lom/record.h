@@ -3,9 +3,10 @@
  * Steps of use, in order: lom_watch names pixels of textures; passes into those textures are then drawn by the same
  * stages at 4 lanes, in the variant that records (their bytes are the same); lom_watched_pixel gives what was recorded,
  * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
- * there. But all passes of a device that does one of these have one sample a pixel, its centre. Sprites (LOM_SPRITES) are drawn, but not recorded. Named values of a shader (lom/notes.h) are recorded where it
+ * there. Sprites (LOM_SPRITES) are drawn, but not recorded. Named values of a shader (lom/notes.h) are recorded where it
  * was compiled in that variant, as lom's own are. Who wants to know of all triangles of a pass instead of some pixels
- * calls lom_listen; who wants to count at every texel of a target, lom_tally_target. A device does one of these.
+ * calls lom_listen; who wants to count at every texel of a target, lom_tally_target. A device does one of these; all
+ * passes of one that does have one sample a pixel, its centre, but where tiles are timed.
  */
 #ifndef LOM_RECORD_H
 #define LOM_RECORD_H

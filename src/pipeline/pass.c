@@ -155,7 +155,8 @@ static bool choose_samples(lom_device *device, struct lom_pass *pass)
 {
     pass->samples = pass->desc.samples != 0 ? pass->desc.samples : 1;
     bool is_number = lom_sample_offsets(pass->samples) != NULL;
-    if (is_number && (device->recorder != NULL || device->tallier != NULL))
+    bool counts = device->tallier != NULL && !device->tallier->desc.clock;
+    if (is_number && (device->recorder != NULL || counts))
         pass->samples = 1; /* lom/record.h */
     pass->offset = lom_sample_offsets(pass->samples);
     if (!is_number)

@@ -439,6 +439,18 @@ static void time_is_that_of_tiles_alone(void)
     stage s = open_stage((lom_device_desc){ .threads = 2, .tile = 16 }, SIZE, SIZE, LOM_FORMAT_RGBA8, LOM_FORMAT_NONE);
     vertex v[3];
     cover(v, 0.5f, 1, 1);
+    make_soup();
+    for (int round = 0; round < 2; round++) { /* at several samples, too */
+        lom_draw_desc draw = draw_of(&shown, soup, 3 * TRIANGLES);
+        lom_image *before = s.image;
+        s.image = NULL;
+        CHECK(lom_tally_target(s.device, round == 0 ? NULL : &(lom_tally_desc){ .target = s.color, .clock = true }));
+        begin(&s, (lom_pass_desc){ .samples = 4 });
+        lom_draw(s.device, &draw);
+        finish(&s);
+        CHECK(round == 0 || same_images(before, s.image));
+        lom_free_image(before);
+    }
     CHECK(lom_tally_target(s.device, &(lom_tally_desc){ .target = s.color, .clock = true }));
     draw_one(&s, &shown, v, 3, NULL);
     for (int p = 0; p < SIZE * SIZE; p++) {
