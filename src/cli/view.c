@@ -113,8 +113,8 @@ static void point(struct lom_view *view, int x, int y)
         return;
     if (was_still)
         lom_use_eye(view);
-    double sign = view->eye.kind == LOM_EYE_THIRD ? -1 : 1; /* around: the thing turns with the hand */
-    lom_turn_eye(&view->eye, radians_of_pixels(view, right), sign * radians_of_pixels(view, down));
+    double sign = view->eye.kind == LOM_EYE_THIRD ? -1 : 1; /* the world goes with the hand, or turns with it */
+    lom_turn_eye(&view->eye, sign * radians_of_pixels(view, right), sign * radians_of_pixels(view, down));
     lom_spoil_view(view);
     view->is_nudged = true;
 }

@@ -479,6 +479,53 @@ static void persons_follow_in_turn(void)
     }
 }
 
+/* What is near goes with the hand: of the world, or of the thing that the eye goes around. */
+static void a_drag_goes_with_the_hand(void)
+{
+    struct lom_view *view = open_moving(false);
+    for (int third = 0; third < 2; third++) {
+        if (third)
+            tap(view, 'n');
+        go_on(view, 2);
+        send(view, LOM_VIEW_BUTTON, 0, 10, 5);
+        send(view, LOM_VIEW_POINT, 0, 16, 5);
+        struct lom_eye eye = view->eye;
+        lom_camera_view before = lom_eye_view(&eye, view->scene, 0);
+        send(view, LOM_VIEW_POINT, 0, 22, 9);
+        send(view, LOM_VIEW_LET_GO, 0, 22, 9);
+        lom_camera_view after = lom_eye_view(&view->eye, view->scene, 0);
+        lom_vec3 way = lom_vec3_subtract(after.target, after.position);
+        CHECK(third ? after.position.x < before.position.x && after.position.y > before.position.y
+                    : way.x < 0 && way.y > lom_vec3_subtract(before.target, before.position).y,
+              "person %d", third);
+    }
+    lom_close_view(view);
+}
+
+/* Plates of a run of moving pictures are not those of a frame alone: at rest it is drawn afresh. */
+static void at_rest_plates_are_made_anew(void)
+{
+    static const char clouds[] = "[[cloud]]\nkind = \"cumulus_mediocris\"\nsize = [12, 6, 8]\nposition = [0, 2, -8]\n"
+                                 "voxels = [8, 6, 7]\n[quality]\nimpostors = \"bounded\"\n"
+                                 "[quality.impostor]\nbound = 30\n";
+    lom_error error = { .code = LOM_OK };
+    static char text[4096];
+    snprintf(text, sizeof text, "%s%s", small_scene, clouds);
+    CHECK(small_text("scene.toml", text, &error), "%s", error.text);
+    struct lom_view *view = open_view(LOM_ORDER_RGBX);
+    if (view == NULL)
+        return;
+    go_on(view, 1);
+    send(view, LOM_VIEW_PRESS, 'd', 0, 0);
+    go_on(view, 6);
+    uint64_t moving = hash_of(view), alone = drawn_afresh(view);
+    CHECK(!view->is_exact && moving != alone, "the run's plates are those of a frame alone");
+    send(view, LOM_VIEW_RELEASE, 'd', 0, 0);
+    go_on(view, 2);
+    CHECK(view->is_exact && hash_of(view) == alone, "not drawn afresh");
+    lom_close_view(view);
+}
+
 static void the_sun_is_moved_and_stopped(void)
 {
     struct lom_view *view = open_moving(false);
@@ -570,6 +617,8 @@ int main(int argc, char **argv)
     RUN(arrows_steer_the_aircraft);
     RUN(nothing_to_steer_is_said);
     RUN(persons_follow_in_turn);
+    RUN(a_drag_goes_with_the_hand);
+    RUN(at_rest_plates_are_made_anew);
     RUN(the_sun_is_moved_and_stopped);
     RUN(lines_are_as_wide_as_the_window);
     RUN(what_is_painted_is_legible);

@@ -47,12 +47,13 @@ without_a_window() {
 
 in_a_dummy_window() {
     exits 0 env SDL_VIDEODRIVER=dummy "$lom" view scene.toml --script "$folder/moves" --times &&
-        cmp "$folder/out" "$folder/headless" && complains "pictures drawn in"
+        cmp "$folder/out" "$folder/headless" && complains "pictures drawn in" &&
+        (export SDL_VIDEODRIVER=dummy && recorded --times)
 }
 
 recorded() {
     printf '0 press e\n30 release e\n40 hash\n' >"$folder/up"
-    exits 0 "$lom" view scene.toml --script "$folder/up" --no-window && says "a54799e5ee149d83"
+    exits 0 "$lom" view scene.toml --script "$folder/up" ${1:---no-window} && says "a54799e5ee149d83"
 }
 
 screenshot() {
