@@ -129,9 +129,40 @@ LOM_INLINE int32_t *cover_window(const struct frame *frame, int slot, uint32_t m
     return to;
 }
 
-/* Of a slot; `cut` to bounds, or NULL. The third edge function is what the other two leave of the area. */
-LOM_INLINE int32_t *cover_parts(const struct lom_tile *tile, const struct frame *frame, int slot,
-                                const struct lom_bounds *cut, int32_t *to)
+/* What the early depth test needs of a slot. */
+struct slot_depth {
+    lom_int bias1, bias2; /* that coverage has in edge functions 1 and 2 */
+    float inverse, at, by1, by2, low, high;
+};
+
+static struct slot_depth find_slot_depth(const float *slots, int slot)
+{
+    const int32_t *words = (const int32_t *)(const void *)slots;
+    return (struct slot_depth){
+        .bias1 = lom_splat_int(words[slot_word(SLOT_COVER1, slot)] - words[slot_word(SLOT_START1, slot)]),
+        .bias2 = lom_splat_int(words[slot_word(SLOT_COVER2, slot)] - words[slot_word(SLOT_START2, slot)]),
+        .inverse = slots[slot_word(SLOT_INVERSE, slot)],
+        .at = slots[slot_word(SLOT_DEPTH0, slot)],
+        .by1 = slots[slot_word(SLOT_DEPTH1, slot)],
+        .by2 = slots[slot_word(SLOT_DEPTH2, slot)],
+        .low = slots[slot_word(SLOT_LOW, slot)],
+        .high = slots[slot_word(SLOT_HIGH, slot)],
+    };
+}
+
+/* The same depths and test as pack.wide.c's, of a part's pixels, which lie side by side in tile memory. */
+LOM_INLINE lom_mask test_part(struct lom_tile *tile, const struct slot_depth *d, lom_int e1, lom_int e2,
+                              lom_mask covered, int place)
+{
+    lom_float l1 = lom_to_float(e1 - d->bias1) * d->inverse, l2 = lom_to_float(e2 - d->bias2) * d->inverse;
+    lom_float z = lom_clamp(d->at + l1 * d->by1 + l2 * d->by2, lom_splat(d->low), lom_splat(d->high));
+    return lom_test_depth(tile, place, covered, z);
+}
+
+/* Of a slot; `cut` to bounds, or NULL; the early depth test done, or, with `depth` NULL, not. The third edge function is
+ * what the other two leave of the area. */
+LOM_INLINE int32_t *cover_parts(struct lom_tile *tile, const struct frame *frame, int slot,
+                                const struct lom_bounds *cut, const struct slot_depth *depth, int32_t *to)
 {
     const int32_t *words = (const int32_t *)(const void *)tile->list.slots;
     lom_int step1 = lom_splat_int(words[slot_word(SLOT_STEP1, slot)]);
@@ -151,6 +182,8 @@ LOM_INLINE int32_t *cover_parts(const struct lom_tile *tile, const struct frame 
             lom_mask covered = (e1 | e2 | (whole - e1 - e2)) >= 0;
             if (cut != NULL)
                 covered &= inside_bounds(tile, cut, x, y, 0);
+            if (depth != NULL && lom_any(covered))
+                covered = test_part(tile, depth, e1, e2, covered, memory_index(tile, x, y));
             to = list_part(to, covered, codes);
             at += PART_WIDTH;
             codes += PART_WIDTH * 2 + (PART_WIDTH << CODE_X);
@@ -159,11 +192,21 @@ LOM_INLINE int32_t *cover_parts(const struct lom_tile *tile, const struct frame 
     return to;
 }
 
-static int32_t *cover_cut(const struct lom_tile *tile, const struct frame *frame, int slot, int32_t *to)
+static int32_t *cover_cut(struct lom_tile *tile, const struct frame *frame, int slot, bool tests, int32_t *to)
 {
     struct lom_bounds bounds = lom_bounds_of(&tile->chunk->triangles[tile->list.number[slot]]);
-    return cover_parts(tile, frame, slot, &bounds, to);
+    struct slot_depth depth = find_slot_depth(tile->list.slots, slot);
+    return cover_parts(tile, frame, slot, &bounds, tests ? &depth : NULL, to);
 }
+
+static int32_t *cover_tested(struct lom_tile *tile, const struct frame *frame, int slot, int32_t *to)
+{
+    struct slot_depth depth = find_slot_depth(tile->list.slots, slot);
+    return cover_parts(tile, frame, slot, NULL, &depth, to);
+}
+
+/* Triangles of so many parts have them full enough for the early depth test to be made there. */
+enum { TESTED_PARTS = 20 };
 
 int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from)
 {
@@ -175,15 +218,23 @@ int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from)
             lom_load_int(tile->offset + part * LOM_LANES) + (lane_x(part) << CODE_X) + (lane_y(part) << CODE_Y);
     int32_t *to = list->code + list->count, *end = list->code + LIST_SIZE;
     int slot = from, triangles = list->triangles;
+    const uint32_t fewest = tile->tests_early ? TESTED_PARTS : UINT32_MAX;
     for (; slot < triangles && to < end; slot++) {
         uint32_t state = (uint32_t)words[slot_word(SLOT_STATE, slot)];
         uint32_t parts = (uint32_t)words[slot_word(SLOT_PARTS, slot)];
-        if ((state >> TRIANGLE_KIND & 3) == TRIANGLE_WINDOW)
+        if ((state >> TRIANGLE_KIND & 3) == TRIANGLE_WINDOW) {
             to = cover_window(&frame, slot, state & 0xffff, (int)(parts & 255), (int)(parts >> 8 & 255), to);
-        else if (state >> TRIANGLE_CUT & 1)
-            to = cover_cut(tile, &frame, slot, to);
+            continue;
+        }
+        bool tested = (parts >> 16 & 255) * (parts >> 24) >= fewest;
+        if (tested && to > list->code + list->tested)
+            break;
+        if (state >> TRIANGLE_CUT & 1)
+            to = cover_cut(tile, &frame, slot, tested, to);
         else
-            to = cover_parts(tile, &frame, slot, NULL, to);
+            to = tested ? cover_tested(tile, &frame, slot, to) : cover_parts(tile, &frame, slot, NULL, NULL, to);
+        if (tested)
+            list->tested = (int)(to - list->code);
     }
     list->count = (int)(to - list->code);
     return slot;

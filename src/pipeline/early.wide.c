@@ -81,6 +81,12 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
     if (bits == 0)
         return;
     tile->fragments += lom_count_bits(bits);
+    if (tile->rejects_early) {
+        covered = lom_test_depth(tile, at->base + tile->offset[at->part * LOM_LANES], covered, z);
+        bits = lom_bits(covered);
+        if (bits == 0)
+            return;
+    }
     if (draw->desc.shader->fragment[draw->variant] == NULL)
         return;
     if (!draw->constant && bits == ALL_LANES && (alone || tile->queue.count == 0)) {

@@ -64,7 +64,7 @@ static depth_rule rule_of(const struct lom_draw *draw)
         [LOM_COMPARE_GREATER] = DEPTH_GREATER,       [LOM_COMPARE_NOT_EQUAL] = DEPTH_REPLACED,
         [LOM_COMPARE_GREATER_EQUAL] = DEPTH_GREATER, [LOM_COMPARE_ALWAYS] = DEPTH_REPLACED
     };
-    return draw->depth_write ? rules[draw->compare] : DEPTH_STAYS;
+    return draw->depth_write && !draw->late_depth ? rules[draw->compare] : DEPTH_STAYS;
 }
 
 /* Leaves depths in memory, one after the other, since two may go to one place; gives what was there before. */
@@ -106,12 +106,12 @@ LOM_INLINE lom_mask test_depths(struct lom_tile *tile, lom_int place, lom_float 
     return lom_compare_depth(draw->compare, units, old);
 }
 
-/* Leaves of the entries from `from` on those that pass. */
-static void test_entries(struct lom_tile *tile, int from)
+/* Leaves of the entries that are not tested yet those that pass. */
+static void test_entries(struct lom_tile *tile)
 {
     struct lom_list *list = &tile->list;
-    int passed = from;
-    for (int at = from, step; at < list->count; at += step) {
+    int passed = list->tested;
+    for (int at = list->tested, step; at < list->count; at += step) {
         struct packed p = take(list, at, list->count);
         lom_float l[3];
         weigh(list, &p, l);
@@ -192,11 +192,14 @@ void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
 #endif
     int slot = list->kept;
     while (slot < list->triangles) {
-        int tested = list->count;
+        int before = list->count;
+        list->tested = before;
         slot = LOM_WIDE(lom_cover_slots)(tile, slot);
         if (tile->tests_early)
-            test_entries(tile, tested);
-        tile->fragments += (uint64_t)(list->count - tested);
+            test_entries(tile);
+        tile->fragments += (uint64_t)(list->count - before);
+        if (tile->rejects_early)
+            test_entries(tile);
         if (shades)
             shade_entries(tile, false);
         else

@@ -173,7 +173,8 @@ LOM_INLINE lom_mask lom_compare_depth(lom_compare compare, lom_float z, lom_floa
     }
 }
 
-/* Early depth test and write of a part of a window, which begins at `place` in tile memory; the lanes that pass. */
+/* Early depth test, and write unless a late one follows, of a part of a window, which begins at `place` in tile memory; the
+ * lanes that pass. */
 LOM_INLINE lom_mask lom_test_depth(struct lom_tile *tile, int place, lom_mask covered, lom_float z)
 {
     const struct lom_draw *draw = tile->draw;
@@ -181,7 +182,7 @@ LOM_INLINE lom_mask lom_test_depth(struct lom_tile *tile, int place, lom_mask co
     lom_float stored = lom_as_float(lom_load_block(memory, tile));
     lom_float units = lom_depth_units(tile->pass, z);
     lom_mask passed = covered & lom_compare_depth(draw->compare, units, stored);
-    if (draw->depth_write)
+    if (draw->depth_write && !draw->late_depth)
         lom_store_block(memory, tile, lom_as_int(lom_select(passed, units, stored)));
     return passed;
 }

@@ -100,6 +100,15 @@ static bool is_packed(const lom_triangle *t)
            (kind == TRIANGLE_WINDOW || (kind == TRIANGLE_SMALL && (width + 4) * (height + 4) <= LIST_PIXELS));
 }
 
+/* Whether a fragment that fails the depth test now fails it after its shader, too: the shader leaves its depth as it is, and
+ * what the draw's own fragments write until then does not let it pass. */
+static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *draw)
+{
+    bool stays = !draw->depth_write || (draw->compare != LOM_COMPARE_NOT_EQUAL && draw->compare != LOM_COMPARE_ALWAYS);
+    return tile->depth != NULL && draw->late_depth && !draw->desc.shader->writes_depth && stays &&
+           !tile->pass->one_by_one;
+}
+
 static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
     switch (lom_kind_of(t)) {
@@ -132,6 +141,7 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
         (sprites ? LOM_WIDE(lom_raster_sprite_samples) : LOM_WIDE(lom_raster_samples))(tile, list, count);
         return;
     }
+    tile->rejects_early = rejects_early(tile, draw);
     size_t folded = tile->is_whole ? LOM_WIDE(lom_fold)(tile, list, count) : 0;
     if (tile->is_whole && folded < count)
         lom_load_whole_tile(tile);

@@ -66,8 +66,9 @@ struct packed {
     int count; /* lanes that are entries; the others repeat the last one */
 };
 
-/* Codes of the pixels that the tile's slots from `from` on cover, in order, after those that the list holds; stops
- * where the list is full and returns the slot that is next. */
+/* Codes of the pixels that the tile's slots from `from` on cover, in order, after those that the list holds; stops where
+ * the list is full, or before a slot whose pixels are tested at once while others wait for their test, and returns the
+ * slot that is next. */
 int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from);
 /* Fills the slots of the list's triangles; and, for slots by word, what the fragment stage needs of them. */
 void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile);

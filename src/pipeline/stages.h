@@ -211,7 +211,7 @@ enum {
     CODE_Y = 18,
     CODE_TRIANGLE = 24,
     LIST_SIZE = 512,     /* codes after which it is drained */
-    LIST_PIXELS = 256,   /* that one triangle's parts may have, covered or not */
+    LIST_PIXELS = 1024,  /* that one triangle's parts may have, covered or not */
     LIST_TRIANGLES = 64, /* of which some may be left from the last time */
     LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
     SLOT_PITCH = LIST_TRIANGLES + 16,
@@ -225,7 +225,8 @@ struct lom_list {
     float slots[SLOT_WORDS * SLOT_PITCH]; /* what was found of them */
     float value[(LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS) * SLOT_PITCH];
     int count, triangles;
-    int kept; /* triangles of which only the fragments that are there are left */
+    int kept;   /* triangles of which only the fragments that are there are left */
+    int tested; /* codes whose early depth test is done */
 };
 
 /* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). */
@@ -250,6 +251,7 @@ struct lom_tile {
     const struct lom_draw *draw;   /* of the fragments in the queue */
     const struct lom_chunk *chunk; /* likewise */
     bool tests_early;              /* the draw's depth test comes before its fragment shader */
+    bool rejects_early;            /* it comes after, but who fails before would fail then, and is not shaded */
     int x, y;                      /* frame pixel of the tile's first pixel */
     int edge;
     int32_t offset[16];          /* of the pixels of a 4x4 window to its first, in tile memory */
