@@ -31,11 +31,13 @@ typedef enum lom_change {
 
 /* Makes the renderer draw `scene` from the next frame on, and loads only what the keys that differ from those of its
  * scene are loaded for. Frames then have the bytes that they have with a renderer that was created for the scene; a run
- * of impostors begins anew. As lom_create_renderer's it is not copied and outlives the renderer or its next change; that
- * of before is not looked at any more, and may be freed. Files that keep their names are taken as unchanged: a renderer
- * whose files have been written must be created again. *change (may be NULL) says what was done, LOM_CHANGE_NONE on
- * failure. False on failure: a file that cannot be read, memory, or what lom_create_renderer refuses; the renderer goes
- * on drawing the scene of before, with the same bytes. While parts are loaded anew, the old ones are kept in memory. */
+ * of impostors begins anew, unless nothing differs but the camera, key frames of entities and the sun's way: then a
+ * frame goes on with it that says so (`continues`). As lom_create_renderer's it is not copied and outlives the renderer
+ * or its next change; that of before is not looked at any more, and may be freed. Files that keep their names are taken
+ * as unchanged: a renderer whose files have been written must be created again. *change (may be NULL) says what was done,
+ * LOM_CHANGE_NONE on failure. False on failure: a file that cannot be read, memory, or what lom_create_renderer refuses;
+ * the renderer goes on drawing the scene of before, with the same bytes. While parts are loaded anew, the old ones are
+ * kept in memory. */
 bool lom_change_scene(lom_renderer *renderer, const lom_scene *scene, lom_change *change, lom_error *error);
 /* What the last successful lom_change_scene loaded, as "clouds, waves"; empty when that was nothing, or everything. It
  * belongs to the renderer. */

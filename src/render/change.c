@@ -15,7 +15,7 @@ struct change {
     lom_renderer before; /* its members; those of the parts are not the renderer's any more */
     const lom_scene *scene, *scene_before;
     unsigned parts;
-    bool differ, all;
+    bool differ, ends_run, all;
 };
 
 static bool has_new_textures(const struct change *c)
@@ -111,15 +111,20 @@ static void go_on(struct change *c)
         lom_follow_clouds(r, c->scene_before, c->scene);
     lom_follow_water(r);
     lom_drop_made(r, c->parts);
-    if (c->differ)
+    if (c->ends_run)
         lom_end_impostor_run(r);
+    else if (c->differ)
+        lom_interrupt_impostor_run(r);
     list_rooms(r, c->all ? 0 : c->parts);
 }
 
 bool lom_change_scene(lom_renderer *renderer, const lom_scene *scene, lom_change *change, lom_error *error)
 {
     struct change c = { .renderer = renderer, .scene = scene, .scene_before = renderer->world->scene };
-    c.parts = lom_parts_between(c.scene_before, scene, &c.differ);
+    struct lom_difference difference = lom_difference_between(c.scene_before, scene);
+    c.parts = difference.parts;
+    c.differ = difference.any;
+    c.ends_run = difference.ends_run;
     c.all = c.parts == LOM_PARTS_ALL;
     lom_change done = c.all ? LOM_CHANGE_ALL : (c.parts & LOM_PARTS_LOADED) != 0 ? LOM_CHANGE_PART : LOM_CHANGE_FRAME;
     if (change != NULL)

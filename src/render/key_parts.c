@@ -94,35 +94,41 @@ static bool names(const char *name, size_t length, const char *path)
     return strncmp(name, path, length) == 0 && (path[length] == 0 || (all && path[length] == '.'));
 }
 
+/* What may differ within a run of impostors, since the rule of plates looks at it in each frame. */
+static const char run_keys[] = "camera.* entity.key.* light light.azimuth light.elevation light.key.*";
+
+static bool is_named(const char *names_of_keys, const char *path)
+{
+    for (const char *name = names_of_keys; *name != 0;) {
+        size_t length = strcspn(name, " ");
+        if (names(name, length, path))
+            return true;
+        name += length + (name[length] == ' ');
+    }
+    return false;
+}
+
 int lom_find_key_parts(const char *path, unsigned *parts)
 {
     int found = 0;
     *parts = LOM_PARTS_ALL;
     for (size_t i = lom_key_row_count; i-- > 0;)
-        for (const char *name = lom_key_rows[i].names; *name != 0;) {
-            size_t length = strcspn(name, " ");
-            if (names(name, length, path)) {
-                *parts = lom_key_rows[i].parts;
-                found++;
-            }
-            name += length + (name[length] == ' ');
+        if (is_named(lom_key_rows[i].names, path)) {
+            *parts = lom_key_rows[i].parts;
+            found++;
         }
     return found;
 }
 
 /* ---- between scenes ---- */
 
-struct difference {
-    bool any;
-    unsigned parts;
-};
-
 static void add_key(void *context, const char *path)
 {
-    struct difference *d = context;
+    struct lom_difference *d = context;
     unsigned parts;
     lom_find_key_parts(path, &parts);
     d->any = true;
+    d->ends_run = d->ends_run || !is_named(run_keys, path);
     d->parts |= parts;
 }
 
@@ -148,11 +154,8 @@ static bool has_followers(const lom_scene *scene)
     return lom_shows_waves(scene) && scene->shallow.present && scene->shallow.body_count != 0;
 }
 
-unsigned lom_parts_between(const lom_scene *before, const lom_scene *after, bool *differ)
+static unsigned parts_between(const lom_scene *before, const lom_scene *after, struct lom_difference d)
 {
-    struct difference d = { .any = false };
-    lom_compare_scenes(before, after, add_key, &d);
-    *differ = d.any;
     if (d.any && (lom_is_traced(before) || lom_is_traced(after)))
         return LOM_PARTS_ALL;
     if (d.parts == LOM_PARTS_ALL)
@@ -167,4 +170,12 @@ unsigned lom_parts_between(const lom_scene *before, const lom_scene *after, bool
         if (!lom_rooms[i].exists(before) && !lom_rooms[i].exists(after))
             parts &= ~lom_rooms[i].part;
     return parts;
+}
+
+struct lom_difference lom_difference_between(const lom_scene *before, const lom_scene *after)
+{
+    struct lom_difference d = { .any = false };
+    lom_compare_scenes(before, after, add_key, &d);
+    d.parts = parts_between(before, after, d);
+    return d;
 }

@@ -63,8 +63,11 @@ extern const size_t lom_key_row_count;
 
 /* The rows that name a path; the parts of the first, all where there is none. */
 int lom_find_key_parts(const char *path, unsigned *parts);
-/* What is to be made anew where two scenes differ: these parts and all that are made from them, less those that neither
- * scene has. */
-unsigned lom_parts_between(const lom_scene *before, const lom_scene *after, bool *differ);
+struct lom_difference {
+    bool any;       /* a key differs */
+    bool ends_run;  /* one that a run of impostors does not look at in each frame */
+    unsigned parts; /* what is to be made anew: also what is made from that, less what neither scene has */
+};
+struct lom_difference lom_difference_between(const lom_scene *before, const lom_scene *after);
 
 #endif

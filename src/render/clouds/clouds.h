@@ -76,5 +76,7 @@ bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, cons
 void lom_free_impostors(lom_renderer *renderer);
 /* The next frame begins a run. */
 void lom_end_impostor_run(lom_renderer *renderer);
+/* So it does, unless it says that it continues. */
+void lom_interrupt_impostor_run(lom_renderer *renderer);
 
 #endif

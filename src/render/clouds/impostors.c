@@ -29,6 +29,11 @@ void lom_end_impostor_run(lom_renderer *renderer)
     renderer->clouds.impostors.width = 0; /* which no frame has */
 }
 
+void lom_interrupt_impostor_run(lom_renderer *renderer)
+{
+    renderer->clouds.impostors.frame = -2; /* which is before no frame's number */
+}
+
 static double angle_between(const double a[3], const double b[3])
 {
     double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
