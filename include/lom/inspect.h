@@ -67,7 +67,7 @@ const lom_shown_pass *lom_describe_shown_pass(size_t index);
 /* Whether there is one of this name; false: the error lists them. */
 bool lom_check_shown_pass(const char *name, lom_error *error);
 /* What the pass of this name left in the frame that the renderer drew last: floats, one or three channels, top row first.
- * "normals", "objects" and "motion" draw that frame again, in strips, while they watch every pixel. NULL on failure: an
+ * "normals" and "objects" draw that frame again while they tally it, "motion" in strips while it watches every pixel. NULL on failure: an
  * unknown name (the error lists them), a scene or frame without that pass. */
 lom_image *lom_show_pass(lom_renderer *renderer, const lom_frame_desc *desc, const char *name, lom_error *error);
 /* The same for eyes: 8-bit sRGB of three channels; numbers stretched from the lowest to the highest that is not 0, in 16

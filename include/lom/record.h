@@ -238,9 +238,9 @@ typedef struct lom_tally {
     uint32_t steps;          /* of rays through media */
     uint32_t broken;         /* fragments whose shader gave a colour or a depth that is NaN or infinite */
     double seconds;          /* with clock: of the tile that the texel lies in; differs from run to run */
-    /* The last fragment that was stored without blending: */
+    /* The last fragment that was stored without blending, or blended by a draw of an object (lom_draw_desc): */
     bool is_stored;     /* false: there is none, and what follows is 0 */
-    int object;         /* lom_draw_desc */
+    int object;         /* the draw's */
     float depth;        /* 0..1, as it was tested, less a bias */
     float edge;         /* pixels from the centre to the nearest edge of its triangle */
     float area;         /* of the triangle after clipping and snapping, square pixels */

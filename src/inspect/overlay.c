@@ -71,11 +71,10 @@ static bool missing(const char *name, lom_error *error)
                     "This frame has no pass \"%s\" to look at; `lom plan` says which passes it has, and why.", name);
 }
 
-/* The targets are there before the frame is drawn, so that they can be tallied. */
-static bool draw_frame(lom_renderer *r, const lom_overlay_desc *desc, const struct seen_pass *pass, lom_frame *frame,
-                       lom_error *error)
+bool lom_draw_tallied(lom_renderer *r, const lom_frame_desc *desc, lom_tally_desc tally, enum lom_target target,
+                      lom_frame *frame, lom_error *error)
 {
-    lom_frame_desc own = desc->frame;
+    lom_frame_desc own = *desc;
     struct frame f = { .renderer = r, .scene = r->scene, .desc = &own };
     own.pixels = NULL;
     if (r->reference != NULL)
@@ -84,13 +83,19 @@ static bool draw_frame(lom_renderer *r, const lom_overlay_desc *desc, const stru
                         "model, like --set quality.water=planar and --set quality.clouds=lit.");
     if (!lom_find_frame_sizes(&f, error) || !lom_make_targets(r, f.width, f.height, f.crop.width, f.crop.height, error))
         return false;
-    lom_tally_desc tally = lom_overlay_row(desc->kind)->tally;
-    tally.target = r->targets.of[pass->target];
+    tally.target = r->targets.of[target];
     if (tally.target == NULL)
-        return missing(pass->name, error);
+        return lom_render_frame(r, &own, frame, error);
     if (!lom_tally_target(r->device, &tally))
         return lom_check_device(r->device, error);
-    if (!lom_render_frame(r, &own, frame, error))
+    return lom_render_frame(r, &own, frame, error);
+}
+
+/* The frame has drawn into the pass's target. */
+static bool draw_frame(lom_renderer *r, const lom_overlay_desc *desc, const struct seen_pass *pass, lom_frame *frame,
+                       lom_error *error)
+{
+    if (!lom_draw_tallied(r, &desc->frame, lom_overlay_row(desc->kind)->tally, pass->target, frame, error))
         return false;
     return pass->target == LOM_TARGET_COLOR || has_run(&frame->plan, pass->name) || missing(pass->name, error);
 }

@@ -1,4 +1,4 @@
-/* Pictures of what is seen at each pixel, from records of the stages that draw (show_surface.c). */
+/* Pictures of what is seen at each pixel, from tallies and records of the stages that draw (show_surface.c). */
 #ifndef LOM_INSPECT_SHOW_H
 #define LOM_INSPECT_SHOW_H
 

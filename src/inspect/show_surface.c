@@ -1,6 +1,8 @@
-/* What is seen at each pixel: its normal, which object it is, how far it has moved. In: a frame, drawn again in strips
- * while every pixel of the strip is watched. Out: a picture of numbers. Invariant: a pixel shows the last triangle that
- * is stored there and belongs to an object: what was drawn, not what a second renderer would. */
+/* What is seen at each pixel: its normal, which object it is, how far it has moved. In: a frame, drawn again while it is
+ * tallied; for motion in strips while every pixel of the strip is watched. Out: a picture of numbers. Invariant: a pixel
+ * shows the last triangle that is stored there and belongs to an object: what was drawn, not what a second renderer
+ * would. */
+#include "inspect/overlay.h"
 #include "inspect/show.h"
 #include "pipeline/check_device.h"
 #include "render/frame.h"
@@ -28,19 +30,6 @@ static const lom_triangle_record *find_object(const lom_pixel_record *pixel)
                 if (draw->desc.object != 0 && (t->fate == LOM_FATE_STORED || t->fate == LOM_FATE_BLENDED_OVER))
                     last = t;
     return last;
-}
-
-static void tell_object(const struct seen *seen, float *value)
-{
-    value[0] = (float)seen->triangle->draw->desc.object;
-}
-
-/* The shaders of surfaces name it. */
-static void tell_normal(const struct seen *seen, float *value)
-{
-    for (const lom_note_record *n = seen->triangle->fragment.notes; n != NULL; n = n->next)
-        if (n->kind == LOM_NOTE_VALUE && n->components == 3 && strcmp(n->name, "normal") == 0)
-            memcpy(value, n->value, 3 * sizeof *value);
 }
 
 /* A place of an entity as it was in the frame before. */
@@ -123,14 +112,42 @@ static lom_image *fill(lom_renderer *r, const lom_frame_desc *desc, lom_format f
     return image;
 }
 
+typedef void telling_tally(const lom_tally *tally, float *value);
+
+static void tell_normal(const lom_tally *tally, float *value)
+{
+    if (tally->named_components == 3)
+        memcpy(value, tally->named, 3 * sizeof *value);
+}
+
+static void tell_object(const lom_tally *tally, float *value)
+{
+    *value = (float)tally->object;
+}
+
+static lom_image *show_tallied(lom_renderer *r, const lom_frame_desc *desc, const char *named, lom_format format,
+                               telling_tally *tell, lom_error *error)
+{
+    lom_frame frame = { .image = NULL };
+    bool drawn = lom_draw_tallied(r, desc, (lom_tally_desc){ .named = named }, LOM_TARGET_COLOR, &frame, error);
+    lom_image *image =
+        drawn ? lom_create_image(r->targets.drawn_width, r->targets.drawn_height, 1, format, error) : NULL;
+    for (int y = 0; image != NULL && y < image->height; y++)
+        for (int x = 0; x < image->width; x++)
+            tell(lom_tallied(r->device, x, y), lom_image_pixel(image, x, y, 0));
+    lom_tally_target(r->device, NULL);
+    lom_free_image(frame.image);
+    return image;
+}
+
 lom_image *lom_show_normals(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
-    return fill(r, desc, LOM_FORMAT_RGB32F, tell_normal, error);
+    return show_tallied(r, desc, "normal", LOM_FORMAT_RGB32F, tell_normal, error);
 }
 
 lom_image *lom_show_objects(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
-    return fill(r, desc, LOM_FORMAT_R32F, tell_object, error);
+    return show_tallied(r, desc, NULL, LOM_FORMAT_R32F, tell_object, error);
 }
 
 lom_image *lom_show_motion(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)

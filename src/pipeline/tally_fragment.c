@@ -235,7 +235,7 @@ void lom_tally_written(struct lom_tile *tile, const struct lom_places *places, c
         lom_tally *tally = tally_of(tile, places->pixel[i]);
         if (tally == NULL)
             continue;
-        if (!desc->blend[attachment].enabled)
+        if (!desc->blend[attachment].enabled || desc->object != 0)
             store(tile, tally, places->pixel[i], i);
         store_named(worker_of(tile), tally, i);
     }

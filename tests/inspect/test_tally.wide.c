@@ -161,6 +161,13 @@ static void passes_add_up_until_one_clears(void)
         CHECK(lom_tallied(s.device, 5, 7)->fragments == (unsigned)(pass % 3 + 1), "pass %d", pass);
         CHECK(!lom_tallied(s.device, 5, 7)->is_stored); /* only blended */
     }
+    lom_draw_desc draw = draw_of(&shown, v, 3);
+    draw.blend[0] = adding();
+    draw.object = 7;
+    begin(&s, (lom_pass_desc){ .samples = 1 });
+    lom_draw(s.device, &draw);
+    finish(&s);
+    CHECK(lom_tallied(s.device, 5, 7)->is_stored && lom_tallied(s.device, 5, 7)->object == 7);
     close_stage(&s);
 }
 
