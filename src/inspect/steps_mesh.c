@@ -117,7 +117,7 @@ static void take_sample(struct seen_mesh *mesh, const double place[PLACE])
 /* Of a mesh that reaches far with few triangles, like a sea to the horizon, the part that has nine tenths of them. */
 static void trim(struct seen_mesh *mesh)
 {
-    for (int axis = 0; axis < PLACE; axis++) {
+    for (int axis = 0; axis < PLACE && mesh->samples >= 40; axis++) {
         double *v = mesh->sample[axis];
         for (int i = 1; i < mesh->samples; i++) /* by insertion */
             for (int k = i; k > 0 && v[k] < v[k - 1]; k--) {

@@ -1,6 +1,6 @@
 /* Proves that the pictures of the stages show what the stages did, for a scene of three triangles that are known by their
  * formulas: which is drawn, culled, cut; where clipping makes new vertices; how many triangles the tiles get; which
- * pixels are covered; that the last picture is that of lom_render_frame, and that a frame drawn afterwards is too. */
+ * pixels are covered; which texels are read, what shaders name; that the last picture is that of lom_render_frame, and that a frame drawn afterwards is too. */
 #include "check.h"
 
 #include <lom/lom.h>
@@ -16,7 +16,9 @@ static const double drawn[3][3] = { { -0.8, 0.1, 0 }, { -0.3, 0.1, 0 }, { -0.8, 
 static const double turned[3][3] = { { 0.9, 0.2, 0 }, { 0.3, 0.2, 0 }, { 0.3, 0.8, 0 } };
 static const double cut[3][3] = { { 1, -1, 0 }, { -1, -1, 0 }, { 0, -1, 5 } }; /* its tip lies behind the eye */
 
-static char folder[] = "/tmp/lom-stages-XXXXXX", scene_path[64], mesh_path[64];
+static char folder[] = "/tmp/lom-stages-XXXXXX";
+enum { SCENE, MESH, MATERIAL, TEXTURE, FILES };
+static char paths[FILES][64];
 
 static bool write_scene(void)
 {
@@ -26,7 +28,8 @@ static bool write_scene(void)
         const double *v = triangles[i / 3][i % 3];
         snprintf(mesh + strlen(mesh), sizeof mesh - strlen(mesh), "v %.9g %.9g %.9g\n", v[0], v[1], v[2]);
     }
-    strcat(mesh, "f 1 2 3\nf 4 5 6\nf 7 8 9\n");
+    strcat(mesh, "mtllib three.mtl\nvt 0.05 0.5\nvt 0.35 0.5\nvt 0.05 0.6\n"
+                 "usemtl skin\nf 1/1 2/2 3/3\nusemtl plain\nf 4 5 6\nf 7 8 9\n");
     snprintf(
         scene, sizeof scene,
         "[output]\nwidth = %d\nheight = %d\n[camera]\nposition = [0, 0, 3]\ntarget = [0, 0, 0]\nfield_of_view = 60\n"
@@ -34,16 +37,24 @@ static bool write_scene(void)
         WIDTH, HEIGHT, near_plane);
     if (mkdtemp(folder) == NULL)
         return false;
-    snprintf(scene_path, sizeof scene_path, "%s/scene.toml", folder);
-    snprintf(mesh_path, sizeof mesh_path, "%s/three.obj", folder);
-    return lom_write_file(scene_path, scene, strlen(scene), NULL) &&
-           lom_write_file(mesh_path, mesh, strlen(mesh), NULL);
+    static const char *const names[FILES] = { "scene.toml", "three.obj", "three.mtl", "white.png" };
+    static const char material[] = "newmtl skin\nKd 1 1 1\nmap_Kd white.png\nnewmtl plain\nKd 1 1 1\n";
+    for (int i = 0; i < FILES; i++)
+        snprintf(paths[i], sizeof paths[i], "%s/%s", folder, names[i]);
+    lom_image *white = lom_create_image(4, 4, 1, LOM_FORMAT_RGB8, NULL);
+    memset(white->pixels, 255, lom_image_size(white));
+    bool done = lom_write_file(paths[SCENE], scene, strlen(scene), NULL) &&
+                lom_write_file(paths[MESH], mesh, strlen(mesh), NULL) &&
+                lom_write_file(paths[MATERIAL], material, strlen(material), NULL) &&
+                lom_write_image(paths[TEXTURE], "png", white, NULL);
+    lom_free_image(white);
+    return done;
 }
 
 static void remove_scene(void)
 {
-    unlink(scene_path);
-    unlink(mesh_path);
+    for (int i = 0; i < FILES; i++)
+        unlink(paths[i]);
     rmdir(folder);
 }
 
@@ -167,6 +178,33 @@ static void coverage_is_that_of_the_centres(const lom_stage_pictures *pictures)
     CHECK(coverage->low == 1 && coverage->high == 2 && coverage->has_scale);
 }
 
+/* Of 4 x 4 texels s from 0.05 to 0.35 reads columns -1 (which is 3), 0 and 1, t about 0.45 rows 1 and 2; the level is
+ * shown as 133 pixels a texel in the middle of the picture. */
+static void texels_that_are_read_are_bright(const lom_stage_pictures *pictures)
+{
+    const lom_stage_picture *texels = find(pictures, "texture-white-png");
+    CHECK(strstr(texels->text, "level 0: 4 x 4, 37.5 %") != NULL, "%s", texels->text);
+    for (int i = 0; i < 16 && texels->image != NULL; i++) {
+        const uint8_t *p = lom_image_pixel(texels->image, 214 + i % 4 * 133 + 66, 4 + i / 4 * 133 + 66, 0);
+        bool read = i % 4 != 2 && (i / 4 == 1 || i / 4 == 2);
+        CHECK((p[0] == 255) == read, "texel %d,%d: %d", i % 4, i / 4, p[0]);
+    }
+}
+
+/* The drawn triangle faces the eye: (0, 0, 1) as red, green and blue; 3 metres before it. */
+static void values_and_varyings_are_those_of_the_shaders(const lom_stage_pictures *pictures)
+{
+    double at[2];
+    project(drawn[0], at);
+    const uint8_t *normal =
+        lom_image_pixel(find(pictures, "normal")->image, ((int)at[0] + 5) * ZOOM, ((int)at[1] - 5) * ZOOM, 0);
+    CHECK(normal[0] == 128 && normal[1] == 128 && normal[2] == 255, "%d %d %d", normal[0], normal[1], normal[2]);
+    const lom_stage_picture *x = find(pictures, "varying-0-entity-phong"),
+                            *z = find(pictures, "varying-2-entity-phong");
+    CHECK(strcmp(x->title, "offset.x of entity_phong") == 0 && strcmp(z->title, "offset.z of entity_phong") == 0);
+    CHECK(z->low <= -2.9999 && z->low > -3.0001, "%g", z->low);
+}
+
 static void lists_are_whole(const lom_stage_pictures *pictures, const lom_frame *frame)
 {
     static const char *const wanted[] = { "mesh",     "vertex",
@@ -198,7 +236,7 @@ static void the_pictures_of_three_triangles(void)
 {
     lom_error error = { .code = LOM_OK };
     lom_frame before = { .image = NULL }, after = { .image = NULL };
-    lom_scene *scene = write_scene() ? lom_read_scene(scene_path, NULL, 0, &error) : NULL;
+    lom_scene *scene = write_scene() ? lom_read_scene(paths[SCENE], NULL, 0, &error) : NULL;
     lom_renderer *renderer = scene != NULL ? lom_create_renderer(scene, NULL, &error) : NULL;
     CHECK(renderer != NULL && lom_render_frame(renderer, NULL, &before, &error), "%s", error.text);
     if (renderer == NULL)
@@ -212,6 +250,8 @@ static void the_pictures_of_three_triangles(void)
         new_vertices_are_marked_where_the_plane_cuts(pictures);
         tiles_hold_what_lies_in_them(pictures);
         coverage_is_that_of_the_centres(pictures);
+        texels_that_are_read_are_bright(pictures);
+        values_and_varyings_are_those_of_the_shaders(pictures);
         CHECK(lom_render_frame(renderer, NULL, &after, &error) &&
               memcmp(after.image->pixels, before.image->pixels, lom_image_size(after.image)) == 0);
     }
