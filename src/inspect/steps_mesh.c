@@ -266,8 +266,8 @@ void lom_picture_mesh(struct steps *s, struct meshes *m)
         }
     lom_add_picture(
         s, "Triangles", "mesh", "Meshes", "src/pipeline/chunk.c", lom_canvas_image(&m->canvas, s->error),
-        "What the vertex stage reads: each mesh in its own space, with its triangles, row by row: %s. There are "
-        "%d%s, %llu triangles in all; nothing has a place in the picture yet.",
+        "What the vertex stage reads: each mesh in its own space, with its triangles, row by row: %s. In all "
+        "%d%s, with %llu triangles; nothing has a place in the picture yet.",
         names, m->count, m->count == MOST_MESHES ? " or more" : "", (unsigned long long)triangles);
 }
 

@@ -192,7 +192,7 @@ static void add_value(struct steps *s, const struct plane *p)
     if (p->components != 3)
         return;
     struct extremes e = find_extremes(s, p);
-    bool is_vector = e.low < 0 || strcmp(p->name, "normal") == 0;
+    bool is_vector = e.low < -0.01 * lom_larger(e.high, 0.1) || strcmp(p->name, "normal") == 0;
     lom_add_picture(s, "Light", p->name, p->name, "src/pipeline/fragment.wide.c", color_vectors(s, p, is_vector),
                     is_vector
                         ? "%s A vector: red, green and blue are x, y and z, -1 black, 0 half, 1 full. From %.4g to "

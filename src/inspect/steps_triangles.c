@@ -285,8 +285,8 @@ static void add_clip_pictures(struct all_triangles *a)
         return;
     p = lom_add_picture(
         s, "Triangles", "clip", "Clipped", "src/pipeline/clip.c", lom_canvas_image(&a->cut_canvas, s->error),
-        "The %llu triangles that cross a plane, from above as before, near the eye. Each is cut there: %llu "
-        "pieces are left. Both triangles at an edge get the same new vertex, so no gap opens.",
+        "Triangles that cross a plane: %llu, from above as before, near the eye. They are cut there; pieces left: "
+        "%llu. Both triangles at an edge get the same new vertex, so no gap opens.",
         (unsigned long long)a->cut, (unsigned long long)a->pieces);
     lom_add_legend(p, &new_ink, "new vertices, made by clipping: %llu corners", (unsigned long long)a->made);
     lom_add_legend(p, &own_ink, "vertices of the mesh");

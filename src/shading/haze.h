@@ -59,6 +59,8 @@ LOM_INLINE lom_float3 lom_apply_haze(const struct lom_haze_uniform *haze, const 
         lom_float towards = lom_clamp(cosine, lom_splat(1e-6f), lom_splat(1.0f));
         air = lom_add3(air, lom_scale3(lom_uniform3(haze->glow), lom_pow(towards, lom_splat(haze->glow_exponent))));
     }
+    LOM_NAME_AS(haze_clear, clear);
+    LOM_NAME_AS(haze_light, lom_mul3(air, lom_sub3(lom_splat3(1, 1, 1), clear)));
     return lom_add3(air, lom_mul3(lom_sub3(color, air), clear));
 }
 

@@ -123,7 +123,8 @@ static void new_vertices_are_marked_where_the_plane_cuts(const lom_stage_picture
 {
     const lom_stage_picture *clip = find(pictures, "clip");
     CHECK(clip->image != NULL && has_legend(clip, "new vertices, made by clipping: 3 corners"));
-    CHECK(strstr(clip->text, "The 1 triangles") != NULL && strstr(clip->text, "2 pieces") != NULL, "%s", clip->text);
+    CHECK(strstr(clip->text, "cross a plane: 1,") != NULL && strstr(clip->text, "pieces left: 2.") != NULL, "%s",
+          clip->text);
     double t = (3 - near_plane) / (3 - -2.0), x = 1 - t; /* of the way from w = 3 to w = -2; in parts of x1 */
     for (int side = -1; side <= 1; side += 2) {
         double share[2] = { (side * x + 1) / 2, (near_plane + 2) / 5 };
