@@ -1,5 +1,6 @@
 /* What a window shows. In: a picture, sentences, the menu. Out: pixels. Invariant: every pixel is written once by the
  * picture, and text can be read before any of them. */
+#include "view_enlarge.h"
 #include "view_menu.h"
 
 #include "base/numbers.h"
@@ -56,6 +57,16 @@ static lom_rect find_place(const struct lom_view_picture *picture, int width, in
     return place;
 }
 
+/* The whole number of times by which a smaller picture is to be enlarged, when it can be; else 0. */
+static int find_factor(const struct lom_view_picture *picture, int width, int height)
+{
+    for (int factor = 2; factor <= 4; factor += 2)
+        if (picture->fills && picture->width <= LOM_MAX_ENLARGED && picture->width == (width + factor - 1) / factor &&
+            picture->height == (height + factor - 1) / factor)
+            return factor;
+    return 0;
+}
+
 static void paint_row(const struct painting *p, const struct lom_view_picture *picture, lom_rect place, int y)
 {
     uint32_t *to = (uint32_t *)(void *)(p->rows.pixels + (size_t)y * p->rows.pitch);
@@ -83,8 +94,13 @@ static void paint_picture(const struct painting *p)
         return;
     }
     lom_rect place = find_place(picture, p->rows.width, p->rows.height);
+    const int factor = find_factor(picture, p->rows.width, p->rows.height);
     for (int y = 0; y < p->rows.height; y++)
-        paint_row(p, picture, place, y);
+        if (factor != 0)
+            lom_enlarge_row((const uint32_t *)(const void *)picture->pixels, picture->width, picture->height, factor, y,
+                            p->rows.width, (uint32_t *)(void *)(p->rows.pixels + (size_t)y * p->rows.pitch));
+        else
+            paint_row(p, picture, place, y);
 }
 
 /* Darkens what text will stand on. */

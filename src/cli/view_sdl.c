@@ -6,6 +6,8 @@
 
 #include <SDL.h>
 
+static const double turn_time = 1000.0 / 60; /* milliseconds */
+
 struct window {
     SDL_Window *window;
     struct lom_view *view;
@@ -185,27 +187,26 @@ static bool open_window(struct window *w, lom_error *error)
 
 /* ---- the loop ---- */
 
-/* Takes what has come; at rest waits for it, for a quarter of a second, since files may change. */
-static void take_events(struct window *w, bool rested)
+static void take_events(struct window *w)
 {
     SDL_Event event;
-    if (rested && SDL_WaitEventTimeout(&event, 250))
-        take_event(w->view, &event);
     while (SDL_PollEvent(&event))
         take_event(w->view, &event);
 }
 
-/* The seconds of a step; between two that move a sixtieth at least, unless as many are wanted as there can be. */
-static double wait_for_turn(const struct window *w, double *before, bool rested)
+/* The seconds since the last turn, a quarter at most. At rest that long is waited for an event, since files may change; else
+ * a turn takes a sixtieth, unless as many are wanted as there can be. */
+static double wait_for_turn(const struct window *w, double *before, bool rests)
 {
-    const double turn = 1000.0 / 60;
     double passed = milliseconds(NULL) - *before;
-    if (!rested && !w->view->is_free && passed < turn)
-        SDL_Delay((Uint32)lom_count_of(turn - passed, 16));
+    if (rests)
+        SDL_WaitEventTimeout(NULL, 250);
+    else if (!w->view->is_free && passed < turn_time)
+        SDL_Delay((Uint32)lom_count_of(turn_time - passed, 16));
     double now = milliseconds(NULL);
     passed = now - *before;
     *before = now;
-    return lom_smaller(passed, rested ? turn : 250) / 1000; /* nothing moved while it slept */
+    return lom_smaller(passed, 250) / 1000;
 }
 
 static void draw(struct window *w)
@@ -217,15 +218,25 @@ static void draw(struct window *w)
         w->drawing += milliseconds(NULL) - start;
 }
 
+static bool is_held(const struct lom_view *view)
+{
+    for (int i = 0; i < LOM_VIEW_KEYS; i++)
+        if (view->held[i])
+            return true;
+    return false;
+}
+
+/* What passed at rest moved nothing: it does not count for what begins to move now. */
 static bool turn(struct window *w, double *before, lom_error *error)
 {
-    bool rested = lom_view_rests(w->view) && !w->view->is_unpainted;
-    bool is_held = false;
-    for (int i = 0; i < LOM_VIEW_KEYS; i++)
-        is_held = is_held || w->view->held[i];
-    rested = rested && !is_held;
-    take_events(w, rested);
-    lom_step_view(w->view, wait_for_turn(w, before, rested));
+    bool rests = lom_view_rests(w->view) && !w->view->is_unpainted && !is_held(w->view);
+    double seconds = wait_for_turn(w, before, rests);
+    if (rests) {
+        lom_step_view(w->view, seconds);
+        seconds = turn_time / 1000;
+    }
+    take_events(w);
+    lom_step_view(w->view, seconds);
     draw(w);
     return !w->view->is_unpainted || paint(w, error);
 }

@@ -2,6 +2,7 @@
  * the rotation of a flight is that of its three turns; a banked aircraft turns as physics says; every dial of the menu
  * goes through values that a scene takes, and back. */
 #include "check.h"
+#include "cli/view_enlarge.h"
 #include "cli/view_menu.h"
 #include "cli/view_pilot.h"
 #include "small_scene.h"
@@ -146,6 +147,46 @@ static void a_turn_is_coordinated(void)
           expected);
 }
 
+/* ---- enlarging ---- */
+
+/* The value at a place, in pixels of the small picture from its first one's middle, by bilinear interpolation. */
+static double bilinear(const uint32_t *picture, int width, int height, double x, double y, int byte)
+{
+    x = x < 0 ? 0 : x > width - 1 ? width - 1 : x;
+    y = y < 0 ? 0 : y > height - 1 ? height - 1 : y;
+    int left = lom_int_of(x), top = lom_int_of(y);
+    int right = left + 1 < width ? left + 1 : left, bottom = top + 1 < height ? top + 1 : top;
+    double v[4];
+    const int places[4] = { top * width + left, top * width + right, bottom * width + left, bottom * width + right };
+    for (int i = 0; i < 4; i++)
+        v[i] = (double)(picture[places[i]] >> (8 * byte) & 255);
+    double upper = v[0] + (v[1] - v[0]) * (x - left), lower = v[2] + (v[3] - v[2]) * (x - left);
+    return upper + (lower - upper) * (y - top);
+}
+
+static void enlarging_is_bilinear(void)
+{
+    enum { SMALL = 13, ROWS = 5 };
+    static uint32_t picture[SMALL * ROWS], row[4 * SMALL + 1];
+    for (int i = 0; i < SMALL * ROWS; i++)
+        picture[i] = (uint32_t)lom_random_bits(5, (uint64_t)i) | 0xff000000;
+    for (int factor = 2; factor <= 4; factor += 2)
+        for (int cut = 0; cut < factor; cut++)
+            for (int y = 0; y < ROWS * factor; y++) {
+                const int width = SMALL * factor - cut;
+                row[width] = 0x12345678;
+                lom_enlarge_row(picture, SMALL, ROWS, factor, y, width, row);
+                CHECK(row[width] == 0x12345678, "written behind the row");
+                for (int i = 0; i < 4 * width; i++) {
+                    double expected =
+                        bilinear(picture, SMALL, ROWS, (i / 4 + 0.5) / factor - 0.5, (y + 0.5) / factor - 0.5, i % 4);
+                    double off = (double)(row[i / 4] >> (8 * (i % 4)) & 255) - expected;
+                    CHECK(off <= 1 && off >= -1, "%d times, row %d, pixel %d: off by %g", factor, y, i / 4, off);
+                    CHECK(i % 4 != 3 || off == 0, "equal bytes do not stay");
+                }
+            }
+}
+
 /* ---- settings and the menu ---- */
 
 static void a_setting_is_there_once(void)
@@ -260,6 +301,7 @@ int main(int argc, char **argv)
     RUN(a_new_eye_changes_nothing);
     RUN(a_flight_is_its_three_turns);
     RUN(a_turn_is_coordinated);
+    RUN(enlarging_is_bilinear);
     RUN(a_setting_is_there_once);
     RUN(dials_go_through_what_a_scene_takes);
     RUN(steps_print_as_people_write);
