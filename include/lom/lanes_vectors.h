@@ -72,6 +72,32 @@ LOM_INLINE lom_float3 lom_reflect3(lom_float3 incident, lom_float3 n)
     return lom_sub3(incident, lom_scale3(n, 2.0f * lom_dot3(n, incident)));
 }
 
+/* The squared cosine of the refracted ray, by Snell's law 1 - eta^2 (1 - c^2). Written so that it is c^2 for eta = 1,
+ * and its root then c: light passes straight, to the bit. */
+LOM_INLINE lom_float lom_refracted_square(lom_float cosine, lom_float eta)
+{
+    return (1.0f - eta) * (1.0f + eta) + (eta * cosine) * (eta * cosine);
+}
+
+/* What goes on of a ray of light through a surface (Snell's law): d and n of unit length, eta the index of refraction of
+ * the side that n points to over the other's; d may come from either side. refracted: eta d + (eta c - t) n, c the cosine
+ * to the normal and t that behind. The mask is clear where all light is reflected (then refracted is d). A normal of
+ * length zero bends nothing, and eta = 1 leaves d as it is, to the bit. */
+LOM_INLINE lom_mask lom_refract3(lom_float3 d, lom_float3 n, lom_float eta, lom_float3 *refracted)
+{
+    lom_float cosine = -lom_dot3(d, n);
+    lom_mask behind = cosine < 0.0f, no_normal = lom_dot3(n, n) == 0.0f;
+    lom_float ratio = lom_select(behind, 1.0f / eta, eta);
+    lom_float c = lom_abs(cosine), square = lom_refracted_square(c, ratio);
+    lom_mask passes = (square >= 0.0f) & ~no_normal;
+    lom_float t = lom_sqrt(lom_select(passes, square, lom_splat(0.0f)));
+    lom_float along = lom_select(passes, ratio, lom_splat(1.0f));
+    lom_float across = lom_select(passes, ratio * c - t, lom_splat(0.0f));
+    across = lom_select(behind, -across, across);
+    *refracted = lom_add3(lom_scale3(d, along), lom_scale3(n, across));
+    return passes | no_normal;
+}
+
 /* ---- matrices that are the same in every lane ---- */
 
 /* As uniforms hold it: m[row][column], for column vectors; lom_round_matrix of lom/geometry.h makes it of a lom_mat4.

@@ -14,6 +14,8 @@
 #include <lom/base.h>
 #include <lom/lanes.h>
 #include <lom/lanes_vectors.h>
+#include <lom/lanes_components.h>
+#include <lom/lanes_matrices.h>
 #include <lom/lanes_mathematics.h>
 #include <lom/fixed.h>
 #include <lom/notes.h>

@@ -387,18 +387,6 @@ typedef struct lom_attribute {
     lom_attribute_kind kind;
 } lom_attribute;
 
-typedef enum lom_compare {
-    LOM_COMPARE_DEFAULT = 0, /* greater: nearer in reversed depth */
-    LOM_COMPARE_NEVER,
-    LOM_COMPARE_LESS,
-    LOM_COMPARE_EQUAL,
-    LOM_COMPARE_LESS_EQUAL,
-    LOM_COMPARE_GREATER,
-    LOM_COMPARE_NOT_EQUAL,
-    LOM_COMPARE_GREATER_EQUAL,
-    LOM_COMPARE_ALWAYS
-} lom_compare;
-
 typedef enum lom_cull { LOM_CULL_NONE = 0, LOM_CULL_BACK, LOM_CULL_FRONT } lom_cull;
 
 typedef enum lom_factor {

@@ -201,6 +201,7 @@ typedef struct lom_quality {
     lom_impostor_dials impostor;
     lom_shading shading;
     lom_texture_filter texture_filter;
+    int anisotropy;          /* probes a sample of ground and entities, at most; 1 to 16 */
     lom_filtering filtering; /* of 8-bit textures, targets too */
     lom_filtering march;     /* of the volumes and media of clouds */
     bool mipmaps;            /* false: the finest level alone */

@@ -69,6 +69,19 @@ typedef enum lom_wrap {
     LOM_WRAP_COUNT
 } lom_wrap;
 
+/* What compares with what is stored: the new depth of a draw, the reference of lom_sample_compare. */
+typedef enum lom_compare {
+    LOM_COMPARE_DEFAULT = 0, /* greater: nearer in reversed depth */
+    LOM_COMPARE_NEVER,
+    LOM_COMPARE_LESS,
+    LOM_COMPARE_EQUAL,
+    LOM_COMPARE_LESS_EQUAL,
+    LOM_COMPARE_GREATER,
+    LOM_COMPARE_NOT_EQUAL,
+    LOM_COMPARE_GREATER_EQUAL,
+    LOM_COMPARE_ALWAYS
+} lom_compare;
+
 typedef struct lom_sampler_desc {
     lom_filter minify;               /* where the level of detail is above 0 */
     lom_filter magnify;              /* elsewhere: DEFAULT, NEAREST or LINEAR */
@@ -77,6 +90,7 @@ typedef struct lom_sampler_desc {
     float lod_bias;                  /* added to every level of detail */
     float lod_min, lod_max;          /* bounds of the sum; both 0: every level */
     lom_filtering filtering;         /* of 8-bit formats where a filter is linear; all else is filtered in float */
+    int anisotropy;                  /* the most probes of lom_sample_gradient, up to 16; 0 is 1: isotropic */
 } lom_sampler_desc;
 
 /* The zero descriptor with a width and height is an RGBA8 texture of zeros, repeated, linearly filtered. */
@@ -132,10 +146,16 @@ void LOM_WIDE(lom_sample_3d_lanes)(const lom_texture *texture, const lom_float3 
                                    lom_float4 *out);
 void LOM_WIDE(lom_sample_array_lanes)(const lom_texture *texture, const lom_float3 *at, const lom_float *lod,
                                       lom_float4 *out);
+void LOM_WIDE(lom_sample_gradient_lanes)(const lom_texture *texture, const lom_float2 *at,
+                                         const lom_float derivative[4], lom_float4 *out);
+void LOM_WIDE(lom_sample_gather_lanes)(const lom_texture *texture, const lom_float2 *at, int channel, lom_float4 *out);
+void LOM_WIDE(lom_sample_compare_lanes)(const lom_texture *texture, const lom_float2 *at, const lom_float *reference,
+                                        lom_compare compare, lom_float *out);
 void LOM_WIDE(lom_sample_depth_lanes)(const lom_texture *texture, const lom_float2 *at, lom_float *out);
 void LOM_WIDE(lom_fetch_lanes)(const lom_texture *texture, const lom_int *x, const lom_int *y, int level,
                                lom_float4 *out);
 void LOM_WIDE(lom_lod_lanes)(const lom_texture *texture, const lom_float derivative[4], lom_float *lod);
+void LOM_WIDE(lom_lod_3d_lanes)(const lom_texture *texture, const lom_float3 *dx, const lom_float3 *dy, lom_float *lod);
 
 /* A 2D texture at (s, t). lod: 0 is level 0, each 1 more a level of half the size; the sampler's bias is added, then it
  * is clamped (NaN gives the smallest) and the magnification filter is used up to 0. Without mips lod only chooses
@@ -188,6 +208,47 @@ LOM_INLINE lom_float4 lom_sample_1d_array(const lom_texture *texture, lom_float 
     return lom_sample_array(texture, s, lom_splat(0.5f), layer, lod);
 }
 
+/* A 2D texture at (s, t), whose change from a pixel to the next is (dsdx, dtdx) along x and (dsdy, dtdy) along y.
+ * Where the sampler's anisotropy A is at most 1 it is lom_sample at the level of lom_lod_of. Else, after EXT_texture_-
+ * filter_anisotropic and McCormack et al. (Feline, SIGGRAPH 1999), with P and p the longer and the shorter change in
+ * texels of level 0 (squares clamped as by lom_lod_of; equal: x is the longer):
+ *   the level of detail is log2(q), q = max(p, P / A), so that the shorter change decides unless P is A times longer;
+ *   w = max(q, 1), and N = min(ceil(P / w), A) probes at that level lie along the longer change, evenly, the first and
+ *   the last (P - w) / 2 from (s, t); the result is their mean, from the first to the last: m = mix(m, probe, 1 / (k + 1)).
+ * So a round footprint is lom_sample, bit for bit, a constant stays one, and the result is in the range of the texels. */
+LOM_INLINE lom_float4 lom_sample_gradient(const lom_texture *texture, lom_float s, lom_float t, lom_float dsdx,
+                                          lom_float dtdx, lom_float dsdy, lom_float dtdy)
+{
+    const lom_float derivative[4] = { dsdx, dtdx, dsdy, dtdy };
+    lom_float2 at = { s, t };
+    lom_float4 out;
+    LOM_WIDE(lom_sample_gradient_lanes)(texture, &at, derivative, &out);
+    return out;
+}
+
+/* One channel (0..3; others are 0) of the four texels of level 0 of a 2D texture that a linear filter would mix at
+ * (s, t), decoded: x left below, y right below, z right above, w left above, below being the greater t (the order of
+ * OpenGL's and Direct3D's gather). */
+LOM_INLINE lom_float4 lom_sample_gather(const lom_texture *texture, lom_float s, lom_float t, int channel)
+{
+    lom_float2 at = { s, t };
+    lom_float4 out;
+    LOM_WIDE(lom_sample_gather_lanes)(texture, &at, channel, &out);
+    return out;
+}
+
+/* How much of a 2D texture's first channel around (s, t) `reference` compares with, at level 0: each texel counts 1
+ * where (reference compare texel) holds, else 0, and these are filtered as the texels would be, with the magnification
+ * filter in float. NaN compares as unequal. For shadow maps of reversed depth: LOM_COMPARE_GREATER_EQUAL is the light. */
+LOM_INLINE lom_float lom_sample_compare(const lom_texture *texture, lom_float s, lom_float t, lom_float reference,
+                                        lom_compare compare)
+{
+    lom_float2 at = { s, t };
+    lom_float out;
+    LOM_WIDE(lom_sample_compare_lanes)(texture, &at, &reference, compare, &out);
+    return out;
+}
+
 /* The first channel of level 0 of a 2D texture, with the magnification filter. */
 LOM_INLINE lom_float lom_sample_depth(const lom_texture *texture, lom_float s, lom_float t)
 {
@@ -214,6 +275,14 @@ LOM_INLINE lom_float lom_lod_of(const lom_texture *texture, lom_float dsdx, lom_
     const lom_float derivative[4] = { dsdx, dtdx, dsdy, dtdy };
     lom_float lod;
     LOM_WIDE(lom_lod_lanes)(texture, derivative, &lod);
+    return lod;
+}
+
+/* The same of a 3D texture: dx and dy are the changes of (s, t, r). */
+LOM_INLINE lom_float lom_lod_of_3d(const lom_texture *texture, lom_float3 dx, lom_float3 dy)
+{
+    lom_float lod;
+    LOM_WIDE(lom_lod_3d_lanes)(texture, &dx, &dy, &lod);
     return lod;
 }
 

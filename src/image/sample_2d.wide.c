@@ -1,5 +1,6 @@
 /* Samplers of 2D textures and the level of detail. In: coordinates over lanes; out: filtered texels. One function a
  * storage, so that nothing is decided per texel. */
+#include "level_of_detail.h"
 #include "sample_fixed.h"
 
 LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, const lom_texture *texture,
@@ -42,18 +43,9 @@ void LOM_WIDE(lom_fetch_lanes)(const lom_texture *texture, const lom_int *x, con
     LOM_NOTE(LOM_NOTE_RESULT, texture, out->x, out->y, out->z, out->w);
 }
 
-/* P(m) = (m - 1) (1 + (2 - m) Q(m)), Q of degree 3 through Chebyshev nodes of [1, 2]: 4.9e-5 from log2(m). */
 void LOM_WIDE(lom_lod_lanes)(const lom_texture *texture, const lom_float derivative[4], lom_float *lod)
 {
-    float width = (float)texture->level[0].width, height = (float)texture->level[0].height;
-    lom_float sx = derivative[0] * width, tx = derivative[1] * height;
-    lom_float sy = derivative[2] * width, ty = derivative[3] * height;
-    lom_float along_x = sx * sx + tx * tx, along_y = sy * sy + ty * ty;
-    lom_float low = lom_splat(0x1p-126f), high = lom_splat(0x1.fffffep127f);
-    lom_float square = lom_max(lom_clamp(along_x, low, high), lom_clamp(along_y, low, high));
-    lom_int bits = lom_as_int(square);
-    lom_float exponent = lom_to_float((bits >> 23) - 127);
-    lom_float m = lom_as_float((bits & 0x7fffff) | 0x3f800000);
-    lom_float q = ((-0.04487395526f * m + 0.2851550624f) * m - 0.7052662739f) * m + 0.9074037454f;
-    *lod = (exponent + (m - 1.0f) * (1.0f + (2.0f - m) * q)) * 0.5f;
+    lom_float along_x, along_y;
+    sample_squares(texture, derivative, &along_x, &along_y);
+    *lod = sample_half_log2(lom_max(along_x, along_y));
 }

@@ -61,6 +61,8 @@ static bool check_desc(const lom_texture_desc *desc, lom_error *error)
     if ((unsigned)s->minify >= LOM_FILTER_COUNT || (unsigned)s->magnify > LOM_FILTER_LINEAR)
         return lom_fail(error, LOM_ERROR_USAGE, "A sampler cannot minify by filter %d and magnify by filter %d.",
                         (int)s->minify, (int)s->magnify);
+    if ((unsigned)s->anisotropy > 16)
+        return lom_fail(error, LOM_ERROR_USAGE, "A sampler's anisotropy is 0..16, not %d.", s->anisotropy);
     if ((unsigned)s->wrap_s >= LOM_WRAP_COUNT || (unsigned)s->wrap_t >= LOM_WRAP_COUNT ||
         (unsigned)s->wrap_r >= LOM_WRAP_COUNT)
         return lom_fail(error, LOM_ERROR_USAGE, "A sampler cannot wrap by modes %d, %d, %d.", (int)s->wrap_s,

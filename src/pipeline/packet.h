@@ -2,6 +2,7 @@
 #ifndef LOM_PIPELINE_PACKET_H
 #define LOM_PIPELINE_PACKET_H
 
+#include "image/compare_lanes.h"
 #include "image/convert_lanes.h"
 #include "pipeline/stages.h"
 
@@ -149,28 +150,6 @@ LOM_INLINE lom_float lom_depth_units(const struct lom_pass *pass, lom_float z)
 LOM_INLINE lom_float lom_depth_of_units(const struct lom_pass *pass, lom_float units)
 {
     return pass->depth_scale == 0 ? units : units / (float)pass->depth_scale;
-}
-
-LOM_INLINE lom_mask lom_compare_depth(lom_compare compare, lom_float z, lom_float stored)
-{
-    switch (compare) {
-    case LOM_COMPARE_NEVER:
-        return (lom_mask){ 0 };
-    case LOM_COMPARE_LESS:
-        return z < stored;
-    case LOM_COMPARE_EQUAL:
-        return z == stored;
-    case LOM_COMPARE_LESS_EQUAL:
-        return z <= stored;
-    case LOM_COMPARE_NOT_EQUAL:
-        return z != stored;
-    case LOM_COMPARE_GREATER_EQUAL:
-        return z >= stored;
-    case LOM_COMPARE_ALWAYS:
-        return lom_splat_int(-1);
-    default:
-        return z > stored;
-    }
 }
 
 /* Early depth test, and write unless a late one follows, of a part of a window, which begins at `place` in tile memory; the

@@ -75,7 +75,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_CLOUD_LIGHT, "quality.march" },
     { LOM_PART_SPRAY | LOM_PART_TARGETS, "quality.spray" },
     { LOM_PARTS_ALL, "quality.filtering" },
-    { LOM_PART_TEXTURES, "quality.texture_filter" },
+    { LOM_PART_TEXTURES, "quality.texture_filter quality.anisotropy" },
     { LOM_PART_TEXTURES | LOM_PART_GROUND, "quality.mipmaps" },
     { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },

@@ -16,7 +16,8 @@ static lom_sampler_desc sampler_of(const lom_quality *quality)
                     [LOM_TEXTURE_NEAREST] = { LOM_FILTER_NEAREST_MIPMAP_NEAREST, LOM_FILTER_NEAREST } };
     lom_filter within = quality->texture_filter == LOM_TEXTURE_NEAREST ? LOM_FILTER_NEAREST : LOM_FILTER_LINEAR;
     return (lom_sampler_desc){ .minify = quality->mipmaps ? filters[quality->texture_filter].minify : within,
-                               .magnify = filters[quality->texture_filter].magnify };
+                               .magnify = filters[quality->texture_filter].magnify,
+                               .anisotropy = quality->anisotropy };
 }
 
 /* 8-bit pictures stay 8-bit; deeper ones are sampled as 16-bit. */

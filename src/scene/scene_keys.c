@@ -126,6 +126,12 @@ static const lom_key quality[] = {
       .text = "Light for each fragment, for each vertex, or for each face." },
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),
       .choices = { "trilinear", "bilinear", "nearest" }, .text = "How textures are sampled." },
+    { "anisotropy", LOM_KEY_INTEGER, AT(lom_quality, anisotropy), .minimum = 1, .maximum = 16, .initial = { 1 },
+      .unit = "probes",
+      .text =
+          "How many samples along the longer side of its footprint a pixel of ground and entities takes at most, so "
+          "that pictures stay sharp on what is seen at a slant (docs/textures.md). 1: one, at the level of the "
+          "longer side." },
     { "filtering", LOM_KEY_CHOICE, AT(lom_quality, filtering), .choices = { "float", "fixed" },
       .initial = { LOM_FILTERING_FIXED },
       .text = "Arithmetic in which 8-bit textures are filtered: 24 bits, or 15 (docs/filtering.md). What is compared "

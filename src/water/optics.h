@@ -23,13 +23,6 @@ LOM_INLINE lom_float lom_fresnel_schlick(lom_float cosine, float eta)
     return r + (1.0f - r) * (square * square * x);
 }
 
-/* The squared cosine of the refracted ray, by Snell's law 1 - eta^2 (1 - c^2). Written so that it is c^2 for eta = 1,
- * and its root then c: light passes straight, to the bit. */
-LOM_INLINE lom_float lom_refracted_square(lom_float cosine, lom_float eta)
-{
-    return (1.0f - eta) * (1.0f + eta) + (eta * cosine) * (eta * cosine);
-}
-
 /* Fresnel's equations for unpolarised light, c in [0, 1]: the mean of both polarisations' squares. 1 where all light is
  * reflected (Snell's law has no solution), at c = 0 unless eta is 1, and for an eta that is NaN. */
 LOM_INLINE lom_float lom_fresnel_exact(lom_float cosine, lom_float eta)
@@ -40,23 +33,6 @@ LOM_INLINE lom_float lom_fresnel_exact(lom_float cosine, lom_float eta)
     lom_float s = (eta * cosine - t) / (eta * cosine + t), p = (cosine - eta * t) / (cosine + eta * t);
     lom_float mean = 0.5f * (s * s + p * p);
     return lom_select(passes, lom_select(mean < 1.0f, mean, lom_splat(1.0f)), lom_splat(1.0f));
-}
-
-/* The refracted ray eta d + (eta c - t) n, t its cosine; the mask is clear where all light is reflected (then the ray
- * is d). A normal of length zero bends nothing. */
-LOM_INLINE lom_mask lom_refract3(lom_float3 d, lom_float3 n, lom_float eta, lom_float3 *refracted)
-{
-    lom_float cosine = -lom_dot3(d, n);
-    lom_mask behind = cosine < 0.0f, no_normal = lom_dot3(n, n) == 0.0f;
-    lom_float ratio = lom_select(behind, 1.0f / eta, eta);
-    lom_float c = lom_abs(cosine), square = lom_refracted_square(c, ratio);
-    lom_mask passes = (square >= 0.0f) & ~no_normal;
-    lom_float t = lom_sqrt(lom_select(passes, square, (lom_float){ 0 }));
-    lom_float along = lom_select(passes, ratio, lom_splat(1.0f));
-    lom_float across = lom_select(passes, ratio * c - t, (lom_float){ 0 });
-    across = lom_select(behind, -across, across);
-    *refracted = lom_add3(lom_scale3(d, along), lom_scale3(n, across));
-    return passes | no_normal;
 }
 
 /* Beer and Lambert: e^(-a l) of each colour after l metres. */

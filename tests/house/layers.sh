@@ -26,7 +26,7 @@ below() {
 public() { # the public headers of each layer
     case $1 in
     base.h) echo base ;;
-    fixed.h | lanes.h | lanes_mathematics.h | lanes_vectors.h | lanes_x86.h | lanes_wasm.h | notes.h) echo lanes ;;
+    fixed.h | lanes.h | lanes_mathematics.h | lanes_components.h | lanes_matrices.h | lanes_vectors.h | lanes_x86.h | lanes_wasm.h | notes.h) echo lanes ;;
     image.h | texture.h) echo image ;;
     record.h) echo pipeline ;;
     sea.h | shallow.h) echo waves ;;

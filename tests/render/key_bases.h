@@ -25,7 +25,8 @@ static const struct base bases[] = {
       "camera.interpolation "
       "camera.key camera.person light.azimuth light.elevation light.color light.intensity light.ambient light.ground "
       "light.key haze sky terrain entity quality.terrain_error quality.terrain_shadows "
-      "quality.entity_shadows quality.ambient_occlusion quality.shading quality.texture_filter quality.mipmaps",
+      "quality.entity_shadows quality.ambient_occlusion quality.shading quality.texture_filter quality.anisotropy "
+      "quality.mipmaps",
       VIEW KEYS TERRAIN
       "tile = 5\ndetail_map = \"color.png\"\nnormal_map = \"normal.png\"\n[terrain.material]\nspecular = 0.3\n"
       "[[terrain.layer]]\nmap = \"layer.ppm\"\nfrom_height = 0\nto_slope = 60\n[haze]\nheight = 50\nglow = [0.4, 0.2, "

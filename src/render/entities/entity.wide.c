@@ -69,7 +69,8 @@ static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_var
     const lom_texture *texture = entity->material.texture;
     if (texture == NULL)
         return lom_splat3(1, 1, 1);
-    lom_float4 texel = lom_sample(texture, in->varying[UV], in->varying[UV + 1], lom_lod(texture, in, UV, UV + 1));
+    lom_float4 texel = lom_sample_gradient(texture, in->varying[UV], in->varying[UV + 1], lom_dx(in, UV),
+                                           lom_dx(in, UV + 1), lom_dy(in, UV), lom_dy(in, UV + 1));
     return (lom_float3){ texel.x, texel.y, texel.z };
 }
 

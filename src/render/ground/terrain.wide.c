@@ -75,9 +75,9 @@ static lom_float4 sample_side(const struct lom_laid_uniform *laid, const lom_var
 {
     const float *scale = laid->scale[side], *shift = laid->shift[side];
     int s = side == LOM_SIDE_X ? OFFSET + 2 : OFFSET, t = side == LOM_SIDE_ABOVE ? OFFSET + 2 : OFFSET + 1;
-    lom_float lod = lom_lod_of(laid->map, lom_dx(in, s) * scale[0], lom_dx(in, t) * scale[1], lom_dy(in, s) * scale[0],
+    return lom_sample_gradient(laid->map, in->varying[s] * scale[0] + shift[0], in->varying[t] * scale[1] + shift[1],
+                               lom_dx(in, s) * scale[0], lom_dx(in, t) * scale[1], lom_dy(in, s) * scale[0],
                                lom_dy(in, t) * scale[1]);
-    return lom_sample(laid->map, in->varying[s] * scale[0] + shift[0], in->varying[t] * scale[1] + shift[1], lod);
 }
 
 /* From the three sides, mixed by how much the surface faces each: the squares of the normal's components, of which
