@@ -3,6 +3,7 @@
  * committed files again byte for byte. */
 #include "base/numbers.h"
 #include "commands.h"
+#include "image/level_chart.h"
 #include "options.h"
 #include "paths.h"
 #include "picture_kinds.h"
@@ -78,6 +79,19 @@ static bool make_albedo(const recipe *r, const parameters *p, const char *path, 
     return write_and_free(path, lom_make_albedo(&(lom_albedo_desc){ r->name, p->size, p->seed }, error), error);
 }
 
+static bool write_bytes(const char *path, lom_bytes bytes, lom_error *error)
+{
+    bool written = bytes.data != NULL && lom_write_file(path, bytes.data, bytes.size, error);
+    lom_release(bytes.data);
+    return written;
+}
+
+static bool make_level_chart(const recipe *r, const parameters *p, const char *path, lom_error *error)
+{
+    (void)r;
+    return write_bytes(path, lom_make_level_chart(p->size, error), error);
+}
+
 static bool make_sky_box(const recipe *r, const parameters *p, const char *path, lom_error *error)
 {
     static const char *const faces[6] = { "right", "left", "top", "bottom", "front", "back" };
@@ -119,13 +133,6 @@ static bool write_textures(const lom_mesh *mesh, const char *path, int folder, l
     return done;
 }
 
-static bool write_bytes(const char *path, lom_bytes bytes, lom_error *error)
-{
-    bool written = bytes.data != NULL && lom_write_file(path, bytes.data, bytes.size, error);
-    lom_release(bytes.data);
-    return written;
-}
-
 /* NAME.obj, NAME.mtl and the pictures. */
 static bool make_entity(const recipe *r, const parameters *p, const char *path, lom_error *error)
 {
@@ -155,6 +162,7 @@ static const recipe recipes[] = {
     { "albedo", "snow", "terrain/snow.png", make_albedo, { .seed = 1 } },
     { "normal-map", NULL, "water/normal.png", make_normal_map, { .size = 512, .seed = 1 } },
     { "flow-map", NULL, "water/flow.png", make_flow_map, { .size = 512, .seed = 1 } },
+    { "level-chart", NULL, "textures/levels.dds", make_level_chart, { .size = 64 } },
     { "sky-box",
       NULL,
       "sky/%s.png",
@@ -216,7 +224,9 @@ static const lom_command_line line = {
     .arguments = "KIND [NAME]",
     .summary = "Makes a picture, a mesh or a volume of the project",
     .details =
-        "KIND is height-map, coast NAME, normal-map, flow-map, sky-box, albedo NAME, entity NAME, cloud NAME or all.\n"
+        "KIND is height-map, coast NAME, normal-map, flow-map, level-chart, sky-box, albedo NAME, entity NAME, cloud "
+        "NAME or\n"
+        "all. A level-chart is a DDS file whose mip levels have a colour each.\n"
         "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
         "options a\n"
         "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"

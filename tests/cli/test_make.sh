@@ -7,7 +7,7 @@ root=$PWD
 
 remade() {
     exits 0 "$lom" make all -o "$folder/all" || return 1
-    (cd assets && find terrain water sky entities -type f) | sort >"$folder/committed"
+    (cd assets && find terrain water sky entities textures -type f) | sort >"$folder/committed"
     (cd "$folder/all" && find . -type f | sed 's|^\./||') | sort >"$folder/made"
     cmp "$folder/committed" "$folder/made" || { diff "$folder/committed" "$folder/made"; return 1; }
     while read -r file; do

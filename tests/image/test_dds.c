@@ -6,6 +6,8 @@
 
 #include <lom/texture.h>
 
+#include "image/level_chart.h"
+
 static lom_image *decode(const coded_file *file, lom_error *error)
 {
     return lom_decode_image(file->data, file->size, "t.dds", error);
@@ -224,6 +226,39 @@ static void blocks_are_cut(void)
     free(whole.data);
 }
 
+/* ---- the chart of levels ---- */
+
+/* Two colours a level, in checks of blocks, and no colour in two levels of the first eight. */
+static void the_chart_has_a_colour_a_level(void)
+{
+    for (int size = 1; size <= 8192; size *= 2) {
+        lom_error error = { 0 };
+        lom_bytes file = lom_make_level_chart(size, &error);
+        CHECK((file.data != NULL) == (size >= 4 && size <= 4096) && (file.data == NULL) == (error.code != LOM_OK), "%d",
+              size);
+        lom_image *image = file.data != NULL ? lom_decode_image(file.data, file.size, "t.dds", &error) : NULL;
+        uint8_t seen[13][4];
+        int level = 0;
+        for (const lom_image *l = image; l != NULL; l = l->smaller, level++) {
+            const uint8_t *bright = lom_image_pixel(l, 0, 0, 0);
+            const uint8_t *dark = l->width > 4 ? lom_image_pixel(l, 4, 3, 0) : NULL;
+            CHECK(l->width == size >> level && l->height == l->width, "%d: level %d", size, level);
+            CHECK(dark == NULL || (bright[0] + bright[1] + bright[2] > dark[0] + dark[1] + dark[2] &&
+                                   memcmp(dark, lom_image_pixel(l, 3, 4, 0), 4) == 0 &&
+                                   memcmp(bright, lom_image_pixel(l, 4, 4, 0), 4) == 0),
+                  "%d: level %d", size, level);
+            memcpy(seen[level], bright, 4);
+            for (int other = level - 7 > 0 ? level - 7 : 0; other < level; other++)
+                CHECK(memcmp(seen[other], bright, 4) != 0, "%d: levels %d and %d", size, other, level);
+        }
+        CHECK(image == NULL || size >> (level - 1) == 1, "%d: %d levels", size, level);
+        lom_free_image(image);
+        lom_release(file.data);
+    }
+    lom_error error = { 0 };
+    CHECK(lom_make_level_chart(48, &error).data == NULL && error.code == LOM_ERROR_USAGE, "%s", error.text);
+}
+
 /* ---- refusals ---- */
 
 static void refusals(void)
@@ -282,6 +317,7 @@ int main(int argc, char **argv)
     RUN(masks_say_where_channels_are);
     RUN(surfaces_in_their_order);
     RUN(blocks_are_cut);
+    RUN(the_chart_has_a_colour_a_level);
     RUN(refusals);
     return check_result();
 }
