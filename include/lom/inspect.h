@@ -162,6 +162,18 @@ typedef struct lom_stage_pictures {
 lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_desc *desc, lom_error *error);
 void lom_free_stage_pictures(lom_stage_pictures *pictures); /* NULL is allowed */
 
+/* What draws by a device without a renderer, as a function that is called again and again. Each time it draws the same
+ * passes into the same textures, and looks up the same ones, which stay; each of its passes has a label of its own. */
+typedef struct lom_drawing {
+    lom_device *device;
+    void *context;
+    lom_image *(*draw)(void *context, lom_error *error); /* its picture, for the caller to free; NULL on failure */
+} lom_drawing;
+
+/* The same pictures of a drawing, with an empty plan. pass: by its label; NULL: "scene", or the first one that draws. The
+ * device watches nothing afterwards. NULL on failure. */
+lom_stage_pictures *lom_picture_drawing(const lom_drawing *drawing, const char *pass, lom_error *error);
+
 LOM_API_END
 
 #endif

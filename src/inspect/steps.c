@@ -1,5 +1,5 @@
-/* Pictures of the stages. In: a renderer, a frame, the name of a pass. Out: a picture of what each stage made of that pass
- * and of what each pass made of the frame. Invariant: every drawing of the frame is the same one: what it leaves for the
+/* Pictures of the stages. In: a renderer and a frame, or a program that draws by a device; the name of a pass. Out: a
+ * picture of what each stage made of that pass and of what each pass made of the frame. Invariant: every drawing of the frame is the same one: what it leaves for the
  * next is forgotten before it, so passes keep their numbers from one to the next; it is left off behind the chosen pass. */
 #include "base/own_float_state.h"
 #include "inspect/forget.h"
@@ -106,7 +106,7 @@ static bool go_on(void *context, const char *pass, double done)
     const struct steps *s = context;
     (void)pass;
     (void)done;
-    return lom_count_watched_passes(s->renderer->device) <= s->last;
+    return lom_count_watched_passes(s->device) <= s->last;
 }
 
 static lom_frame_desc describe_frame(const struct steps *s)
@@ -119,38 +119,61 @@ static lom_frame_desc describe_frame(const struct steps *s)
     return frame;
 }
 
-bool lom_draw_chosen(struct steps *s, const lom_listener *listener)
+/* The frame of a renderer. */
+static bool draw_frame(struct steps *s, bool whole, lom_image **image)
 {
     lom_frame frame = { .image = NULL };
     lom_error error = { .code = LOM_OK };
     lom_frame_desc desc = describe_frame(s);
-    desc.progress = go_on;
-    desc.progress_context = s;
+    if (!whole) {
+        desc.progress = go_on;
+        desc.progress_context = s;
+    }
     lom_forget_frames(s->renderer);
-    if (listener != NULL && !lom_listen(s->renderer->device, listener))
-        return lom_check_device(s->renderer->device, s->error);
-    bool done = lom_render_frame(s->renderer, &desc, &frame, &error) || error.code == LOM_ERROR_ABANDONED;
-    lom_free_image(frame.image);
+    bool done = lom_render_frame(s->renderer, &desc, &frame, &error) || (!whole && error.code == LOM_ERROR_ABANDONED);
+    *image = frame.image;
+    if (whole)
+        s->out->plan = frame.plan;
     if (!done)
         *s->error = error;
+    return done;
+}
+
+/* What a program draws, all of it each time. */
+static bool draw_program(struct steps *s, bool whole, lom_image **image)
+{
+    (void)whole;
+    *image = s->drawing->draw(s->drawing->context, s->error);
+    return *image != NULL || (s->error->code == LOM_OK && lom_check_device(s->device, s->error) &&
+                              lom_fail(s->error, LOM_ERROR_USAGE, "The drawing gave no picture."));
+}
+
+bool lom_draw_chosen(struct steps *s, const lom_listener *listener)
+{
+    lom_image *image = NULL;
+    if (listener != NULL && !lom_listen(s->device, listener))
+        return lom_check_device(s->device, s->error);
+    bool done = s->draw(s, false, &image);
+    lom_free_image(image);
     return done && lom_tell_steps(s, 1);
 }
 
 bool lom_tell_steps(struct steps *s, int frames)
 {
     s->drawn += frames;
-    if (s->desc->progress == NULL || s->desc->progress(s->desc->progress_context, (double)s->drawn / s->frames))
+    if (s->desc == NULL || s->desc->progress == NULL ||
+        s->desc->progress(s->desc->progress_context, (double)s->drawn / s->frames))
         return true;
     return lom_fail(s->error, LOM_ERROR_ABANDONED, "The pictures of the stages were abandoned.");
 }
 
 bool lom_is_alive(const struct steps *s, const lom_texture *texture)
 {
-    const lom_device *device = s->renderer->device;
+    const lom_device *device = s->device;
+    bool found = s->drawing != NULL;
     for (size_t i = 0; i < device->texture_count; i++)
-        if (device->textures[i] == texture)
-            return true;
-    return false;
+        found |= device->textures[i] == texture;
+    return found;
 }
 
 bool lom_watch_target(struct steps *s, lom_rect at)
@@ -159,7 +182,7 @@ bool lom_watch_target(struct steps *s, lom_rect at)
     if (!lom_is_alive(s, s->target))
         return lom_fail(s->error, LOM_ERROR_USAGE, "The target of pass \"%s\" is another one in each frame.",
                         s->out->pass);
-    return lom_watch(s->renderer->device, &watch, 1) || lom_check_device(s->renderer->device, s->error);
+    return lom_watch(s->device, &watch, 1) || lom_check_device(s->device, s->error);
 }
 
 bool lom_is_seen(const struct steps *s, const lom_triangle_record *t)
@@ -241,7 +264,7 @@ static void list_labels(const struct steps *s, char names[400])
 
 static bool choose_pass(struct steps *s)
 {
-    const char *name = s->desc->pass;
+    const char *name = s->pass;
     const struct listed_pass *pass = find_pass(s, name != NULL ? name : "scene");
     for (size_t i = 0; i < s->pass_count && name == NULL && pass == NULL; i++)
         if (s->passes[i].draws > 0)
@@ -269,26 +292,25 @@ static bool choose_pass(struct steps *s)
     return lom_tell_steps(s, 1);
 }
 
-static bool draw_whole(struct steps *s, lom_frame *frame)
+static bool draw_whole(struct steps *s, lom_image **picture)
 {
     const lom_listener listener = { .context = s, .ended = list_pass };
-    lom_frame_desc desc = describe_frame(s);
-    lom_forget_frames(s->renderer);
-    return (lom_listen(s->renderer->device, &listener) || lom_check_device(s->renderer->device, s->error)) &&
-           lom_render_frame(s->renderer, &desc, frame, s->error) && !s->failed;
+    return (lom_listen(s->device, &listener) || lom_check_device(s->device, s->error)) && s->draw(s, true, picture) &&
+           !s->failed;
 }
 
-static void make_pictures(struct steps *s, lom_frame *frame)
+/* Takes the picture. */
+static void make_pictures(struct steps *s, lom_image *picture)
 {
     static void (*const parts[])(struct steps * s) = { lom_picture_triangles, lom_record_planes, lom_picture_coverage,
                                                        lom_picture_planes, lom_picture_passes };
     for (size_t i = 0; i < sizeof parts / sizeof parts[0] && !s->failed; i++)
         parts[i](s);
     if (s->failed)
-        return;
-    lom_add_picture(s, "Frame", "final", "The picture", "src/render/output.c", frame->image,
-                    "What `lom render` writes, byte for byte.");
-    frame->image = NULL;
+        lom_free_image(picture);
+    else
+        lom_add_picture(s, "Frame", "final", "The picture", s->renderer != NULL ? "src/render/output.c" : NULL, picture,
+                        s->renderer != NULL ? "What `lom render` writes, byte for byte." : "What the program draws.");
 }
 
 static void clear(struct steps *s)
@@ -305,33 +327,50 @@ static void clear(struct steps *s)
     lom_release(s->planes);
     lom_release(s->levels);
     lom_release(s->owner);
-    lom_watch(s->renderer->device, NULL, 0);
-    lom_forget_frames(s->renderer);
+    lom_watch(s->device, NULL, 0);
+    if (s->renderer != NULL)
+        lom_forget_frames(s->renderer);
+}
+
+/* Of what the steps say draws; *error is theirs where there is any. */
+static lom_stage_pictures *picture_steps(struct steps *s, lom_error *error)
+{
+    lom_error own = { .code = LOM_OK };
+    lom_image *picture = NULL;
+    s->error = &own; /* until clear() */
+    s->out = lom_allocate(1, sizeof *s->out, &own);
+    if (s->out != NULL && draw_whole(s, &picture) && choose_pass(s)) {
+        s->out->width = picture->width;
+        s->out->height = picture->height;
+        make_pictures(s, picture);
+        picture = NULL;
+    }
+    lom_free_image(picture);
+    clear(s);
+    if (own.code == LOM_OK)
+        return s->out;
+    lom_free_stage_pictures(s->out);
+    if (error != NULL)
+        *error = own;
+    return NULL;
 }
 
 lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_desc *desc, lom_error *error)
 {
     LOM_OWN_FLOAT_STATE;
-    lom_error own = { .code = LOM_OK };
-    struct steps s = { .renderer = renderer, .desc = desc, .error = &own };
-    lom_frame frame = { .image = NULL };
-    s.out = lom_allocate(1, sizeof *s.out, &own);
-    if (s.out != NULL && renderer->reference != NULL)
-        lom_fail(&own, LOM_ERROR_USAGE,
-                 "This scene's picture is traced by the reference, which has no stages: take "
-                 "another model, like --set quality.water=planar and --set quality.clouds=lit.");
-    if (own.code == LOM_OK && draw_whole(&s, &frame) && choose_pass(&s)) {
-        s.out->plan = frame.plan;
-        s.out->width = frame.image->width;
-        s.out->height = frame.image->height;
-        make_pictures(&s, &frame);
-    }
-    lom_free_image(frame.image);
-    clear(&s);
-    if (own.code == LOM_OK)
-        return s.out;
-    lom_free_stage_pictures(s.out);
-    if (error != NULL)
-        *error = own;
+    struct steps s = {
+        .device = renderer->device, .draw = draw_frame, .pass = desc->pass, .renderer = renderer, .desc = desc
+    };
+    if (renderer->reference == NULL)
+        return picture_steps(&s, error);
+    lom_fail(error, LOM_ERROR_USAGE,
+             "This scene's picture is traced by the reference, which has no stages: take "
+             "another model, like --set quality.water=planar and --set quality.clouds=lit.");
     return NULL;
+}
+
+lom_stage_pictures *lom_picture_drawing(const lom_drawing *drawing, const char *pass, lom_error *error)
+{
+    struct steps s = { .device = drawing->device, .draw = draw_program, .pass = pass, .drawing = drawing };
+    return picture_steps(&s, error);
 }

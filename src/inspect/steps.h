@@ -40,8 +40,13 @@ struct read_level {
 };
 
 struct steps {
-    lom_renderer *renderer;
+    lom_device *device;
+    const char *pass; /* that is asked for; NULL: none */
+    /* Draws all of it, or, not whole, what goes up to the pass `last`; whole: *image is its picture. */
+    bool (*draw)(struct steps *s, bool whole, lom_image **image);
+    lom_renderer *renderer; /* of a frame, with its description; NULL: of a drawing */
     const lom_stages_desc *desc;
+    const lom_drawing *drawing;
     lom_stage_pictures *out;
     lom_error *error;
     bool failed; /* the error says why */
@@ -71,7 +76,7 @@ void lom_add_legend(lom_stage_picture *picture, const struct ink *ink, const cha
     __attribute__((format(printf, 3, 4)));
 void lom_add_scale(lom_stage_picture *picture, const uint8_t ramp[LOM_RAMP_COLORS][3], double low, double high,
                    bool is_logarithmic);
-/* Draws the frame up to the pass s->last, to a listener or, NULL, as it is watched. */
+/* Draws what goes up to the pass s->last once more, to a listener or, NULL, as it is watched. */
 bool lom_draw_chosen(struct steps *s, const lom_listener *listener);
 /* So many frames more have been drawn: tells whoever waits; false: it is abandoned. */
 bool lom_tell_steps(struct steps *s, int frames);

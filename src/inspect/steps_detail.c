@@ -119,7 +119,7 @@ static void draw_edges(struct detail *d, const lom_triangle_record *t)
 
 static void draw_detail(struct detail *d)
 {
-    lom_device *device = d->steps->renderer->device;
+    lom_device *device = d->steps->device;
     for (int edges = 0; edges < 2; edges++)
         for (int i = 0; i < d->width * d->height; i++) {
             int x = d->place[0] + i % d->width, y = d->place[1] + i / d->width;

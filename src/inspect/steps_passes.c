@@ -10,7 +10,7 @@ static const char *plan_text(const struct steps *s, const char *label)
     for (int i = 0; i < plan->count; i++)
         if (strcmp(plan->step[i].name, label) == 0)
             return plan->step[i].text;
-    return "a part of another step of the plan";
+    return plan->count > 0 ? "a part of another step of the plan" : "drawn by the program";
 }
 
 /* Frees it. */

@@ -231,8 +231,7 @@ void lom_record_planes(struct steps *s)
         s->failed = !lom_watch_target(s, band) || !lom_draw_chosen(s, NULL);
         for (int i = 0; i < band.width * band.height && !s->failed; i++) {
             int x = i % band.width, row = y + i / band.width;
-            take_pixel(s, lom_watched_pixel(s->renderer->device, 0, x, row),
-                       (size_t)row * (size_t)s->width + (size_t)x);
+            take_pixel(s, lom_watched_pixel(s->device, 0, x, row), (size_t)row * (size_t)s->width + (size_t)x);
         }
     }
 }
