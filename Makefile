@@ -132,8 +132,8 @@ lessons        := $(lesson_sources:%.c=$(BUILD)/%) $(BUILD)/docs/lessons/mistake
 lesson_objects := $(lesson_sources:%.c=$(BUILD)/%.contained.o) $(BUILD)/docs/lessons/grade/judge.o
 # What a lesson's page asks of it (src/web/lesson_page.c): another main, the lesson's own calls led past it.
 page_programs  := $(lesson_sources:%.c=$(BUILD)/%.page)
-page_objects   := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/web/*.c) src/cli/explain_text.c src/cli/explain_names.c src/cli/json.c)
-PAGE_CALLS     = make_texture begin_pass draw end_pass read_texture create_image convert_image write_image
+page_objects   := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/web/*.c) src/cli/explain_text.c src/cli/explain_names.c src/cli/json.c src/cli/page.c src/cli/steps_page.c)
+PAGE_CALLS     = open_device close_device make_texture texture_of_image free_texture begin_pass draw end_pass read_texture create_image convert_image write_image
 
 # How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
 # speed"; what runs briefly or seldom for size, the rest in between. (The program stays under 5 MB: tests/cli/test_limits.sh.)

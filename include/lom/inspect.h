@@ -47,6 +47,20 @@ typedef struct lom_explanation {
 lom_explanation *lom_explain(lom_renderer *renderer, const lom_explain_desc *desc, lom_error *error);
 void lom_free_explanation(lom_renderer *renderer, lom_explanation *explanation); /* NULL is allowed */
 
+/* What draws by a device without a renderer, as a function that is called again and again. Each time it draws the same
+ * passes into the same textures, and looks up the same ones, which stay; each of its passes has a label of its own. */
+typedef struct lom_drawing {
+    lom_device *device;
+    void *context;
+    lom_image *(*draw)(void *context, lom_error *error); /* its picture, for the caller to free; NULL on failure */
+} lom_drawing;
+
+/* Explains a pixel of a texture that the drawing draws into, which is its picture, as lom_explain does. NULL on failure; used
+ * and freed before the device draws again. */
+lom_explanation *lom_explain_drawing(const lom_drawing *drawing, const lom_texture *picture, int x, int y, int depth,
+                                     lom_error *error);
+void lom_free_drawing_explanation(const lom_drawing *drawing, lom_explanation *explanation); /* NULL is allowed */
+
 /* The lookup's texel that was followed, NULL: none. pass: the one that the lookup was made in. */
 const lom_explained *lom_followed(const lom_explanation *explanation, uint64_t pass, const lom_note_record *lookup);
 /* The heaviest texel of a lookup, within level 0; NULL: it read none. */
@@ -161,14 +175,6 @@ typedef struct lom_stage_pictures {
  * them), a scene that is traced. Freed with lom_free_stage_pictures; it outlives the renderer. */
 lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_desc *desc, lom_error *error);
 void lom_free_stage_pictures(lom_stage_pictures *pictures); /* NULL is allowed */
-
-/* What draws by a device without a renderer, as a function that is called again and again. Each time it draws the same
- * passes into the same textures, and looks up the same ones, which stay; each of its passes has a label of its own. */
-typedef struct lom_drawing {
-    lom_device *device;
-    void *context;
-    lom_image *(*draw)(void *context, lom_error *error); /* its picture, for the caller to free; NULL on failure */
-} lom_drawing;
 
 /* The same pictures of a drawing, with an empty plan. pass: by its label; NULL: "scene", or the first one that draws. The
  * device watches nothing afterwards. NULL on failure. */

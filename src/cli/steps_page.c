@@ -3,7 +3,6 @@
  * in; nothing is fetched but the pictures beside the page. */
 #include "steps_page.h"
 
-#include "json.h"
 #include "page.h"
 
 static const char *const head_lines[] = {
@@ -89,10 +88,8 @@ static void write_scale(lom_json *json, const lom_stage_picture *p)
     lom_json_unnest(json, '}');
 }
 
-static void write_step(lom_json *json, size_t number, const lom_stage_picture *p)
+void lom_write_step(lom_json *json, const char *file, const lom_stage_picture *p)
 {
-    char file[80];
-    snprintf(file, sizeof file, "%02zu-%s.png", number, p->name);
     lom_json_nest(json, NULL, '{');
     lom_json_text(json, "file", file);
     lom_json_text(json, "title", p->title);
@@ -122,8 +119,11 @@ static void write_data(FILE *out, const struct lom_steps_page *page)
     lom_json_integer(&json, "height", page->pictures->height);
     lom_json_text(&json, "pass", page->pictures->pass);
     lom_json_nest(&json, "steps", '[');
-    for (size_t i = 0; i < page->pictures->count; i++)
-        write_step(&json, i + 1, &page->pictures->picture[i]);
+    for (size_t i = 0; i < page->pictures->count; i++) {
+        char file[80];
+        snprintf(file, sizeof file, "%02zu-%s.png", i + 1, page->pictures->picture[i].name);
+        lom_write_step(&json, file, &page->pictures->picture[i]);
+    }
     lom_json_unnest(&json, ']');
     lom_json_end(&json);
 }

@@ -1,4 +1,4 @@
-/* Explaining a pixel of a frame. In: a renderer, a pixel. Out: what was recorded of it, and of the texels of the frame's
+/* Explaining a pixel of a frame. In: a renderer or a program that draws by a device, a pixel. Out: what was recorded of it, and of the texels of the frame's
  * own pictures that its shaders read, as deep as asked. Invariant: every drawing of the frame is the same one: what it
  * leaves for the next is forgotten before it, so passes keep their numbers from one to the next. */
 #include "base/own_float_state.h"
@@ -107,54 +107,100 @@ void lom_forget_frames(lom_renderer *r)
     r->clouds.impostors.width = r->clouds.impostors.height = 0;
 }
 
-static bool draw(lom_renderer *r, lom_explanation *explanation, const lom_explain_desc *desc, lom_error *error)
+struct explaining {
+    lom_device *device;
+    lom_explanation *explanation;
+    lom_rect watched; /* of the picture's texture */
+    int follow;
+    bool (*draw)(struct explaining *e, lom_error *error); /* gives the explanation its frame */
+    lom_renderer *renderer;                               /* of a frame, with its description */
+    const lom_frame_desc *frame;
+    const lom_drawing *drawing;
+};
+
+static bool draw_frame(struct explaining *e, lom_error *error)
 {
+    lom_forget_frames(e->renderer);
+    return lom_render_frame(e->renderer, e->frame, &e->explanation->frame, error);
+}
+
+/* Of the picture the explained pixel is left. */
+static bool draw_program(struct explaining *e, lom_error *error)
+{
+    const lom_rect *at = &e->watched;
+    lom_explanation *x = e->explanation;
+    lom_image *whole = e->drawing->draw(e->drawing->context, error);
+    if (whole != NULL && (at->x >= whole->width || at->y >= whole->height))
+        lom_fail(error, LOM_ERROR_USAGE, "The pixel %d,%d does not lie in the picture of %dx%d pixels.", at->x, at->y,
+                 whole->width, whole->height);
+    else if (whole != NULL && (x->frame.image = lom_create_image(1, 1, 1, whole->format, error)) != NULL) {
+        x->width = whole->width;
+        x->height = whole->height;
+        memcpy(x->frame.image->pixels, lom_image_pixel(whole, at->x, at->y, 0), lom_format_size(whole->format));
+    }
+    lom_free_image(whole);
+    return x->frame.image != NULL;
+}
+
+static bool draw(struct explaining *x, lom_error *error)
+{
+    lom_explanation *explanation = x->explanation;
     lom_watch_desc watches[LOM_MAX_WATCHES];
     for (size_t i = 0; i < explanation->count; i++) {
         const lom_explained *e = &explanation->item[i];
         watches[i] = (lom_watch_desc){ .target = e->texture, .x = e->x, .y = e->y, .before = e->before };
     }
-    watches[0].x = watches[0].y = 0;
-    watches[0].width = desc->frame.crop.width;
-    watches[0].height = desc->frame.crop.height;
+    watches[0].x = x->watched.x;
+    watches[0].y = x->watched.y;
+    watches[0].width = x->watched.width;
+    watches[0].height = x->watched.height;
     lom_free_image(explanation->frame.image);
-    lom_forget_frames(r);
-    if (!lom_watch(r->device, watches, explanation->count))
-        return lom_check_device(r->device, error);
-    if (!lom_render_frame(r, &desc->frame, &explanation->frame, error))
+    explanation->frame.image = NULL;
+    if (!lom_watch(x->device, watches, explanation->count))
+        return lom_check_device(x->device, error);
+    if (!x->draw(x, error))
         return false;
     for (size_t i = 0; i < explanation->count; i++) {
         lom_explained *e = &explanation->item[i];
-        e->record = lom_watched_pixel(r->device, i, watches[i].x, watches[i].y);
+        e->record = lom_watched_pixel(x->device, i, watches[i].x, watches[i].y);
     }
     return true;
 }
 
 /* The pixel, then what it looked up, until nothing is new or it is deep enough. */
-static bool draw_all(lom_renderer *r, lom_explanation *explanation, const lom_explain_desc *desc, lom_error *error)
+static bool draw_all(struct explaining *x, lom_error *error)
 {
+    lom_explanation *explanation = x->explanation;
     size_t followed = 0;
     for (int depth = 0;; depth++) {
-        if (!draw(r, explanation, desc, error))
+        if (!draw(x, error))
             return false;
         size_t known = explanation->count;
-        for (; followed < known && depth < desc->follow && desc->width * desc->height <= 1; followed++)
-            follow(r->device, explanation, &explanation->item[followed]);
+        for (; followed < known && depth < x->follow && x->watched.width * x->watched.height <= 1; followed++)
+            follow(x->device, explanation, &explanation->item[followed]);
         if (explanation->count == known)
             return true;
     }
 }
 
-static void describe(lom_renderer *r, lom_explanation *explanation)
+/* Where the eye of a picture's passes is. */
+static lom_vec3 find_eye(const lom_renderer *r, const lom_explained *e)
+{
+    lom_vec3 eye = r->moment.camera.position;
+    for (const lom_pass_record *p = e->record->passes; p != NULL; p = p->next)
+        if (p->label != NULL && strcmp(p->label, "reflection") == 0)
+            eye.y = 2 * r->scene->water.level - r->moment.camera.position.y;
+    return eye;
+}
+
+static void describe(const lom_renderer *r, lom_explanation *explanation)
 {
     for (size_t i = 0; i < explanation->count; i++) {
         lom_explained *e = &explanation->item[i];
         const char *label = lom_texture_label(e->texture);
         e->name = i == 0 ? "picture" : label != NULL ? label : "texture";
-        e->eye = r->moment.camera.position;
-        for (const lom_pass_record *p = e->record->passes; p != NULL; p = p->next)
-            if (p->label != NULL && strcmp(p->label, "reflection") == 0)
-                e->eye.y = 2 * r->scene->water.level - r->moment.camera.position.y;
+        if (r != NULL)
+            e->eye = find_eye(r, e);
         lom_find_verdict(e);
     }
 }
@@ -194,12 +240,53 @@ lom_explanation *lom_explain(lom_renderer *renderer, const lom_explain_desc *ask
     lom_explanation *explanation = lom_allocate(1, sizeof *explanation, error);
     if (explanation == NULL)
         return NULL;
-    if (prepare(renderer, explanation, &desc, error) && draw_all(renderer, explanation, &desc, error)) {
-        describe(renderer, explanation);
-        return explanation;
+    if (prepare(renderer, explanation, &desc, error)) {
+        struct explaining x = { .device = renderer->device,
+                                .explanation = explanation,
+                                .watched = { 0, 0, desc.width, desc.height },
+                                .follow = desc.follow,
+                                .draw = draw_frame,
+                                .renderer = renderer,
+                                .frame = &desc.frame };
+        if (draw_all(&x, error)) {
+            describe(renderer, explanation);
+            return explanation;
+        }
     }
     lom_free_explanation(renderer, explanation);
     return NULL;
+}
+
+lom_explanation *lom_explain_drawing(const lom_drawing *drawing, const lom_texture *picture, int x, int y, int depth,
+                                     lom_error *error)
+{
+    LOM_OWN_FLOAT_STATE;
+    lom_explanation *explanation = lom_allocate(1, sizeof *explanation, error);
+    if (explanation == NULL)
+        return NULL;
+    struct explaining e = { .device = drawing->device,
+                            .explanation = explanation,
+                            .watched = { x, y, 1, 1 },
+                            .follow = depth,
+                            .draw = draw_program,
+                            .drawing = drawing };
+    explanation->count = 1;
+    explanation->item[0] = (lom_explained){ .texture = picture, .x = x, .y = y };
+    if (draw_all(&e, error)) {
+        describe(NULL, explanation);
+        return explanation;
+    }
+    lom_free_drawing_explanation(drawing, explanation);
+    return NULL;
+}
+
+void lom_free_drawing_explanation(const lom_drawing *drawing, lom_explanation *explanation)
+{
+    if (explanation == NULL)
+        return;
+    lom_watch(drawing->device, NULL, 0);
+    lom_free_image(explanation->frame.image);
+    lom_release(explanation);
 }
 
 void lom_free_explanation(lom_renderer *renderer, lom_explanation *explanation)

@@ -332,13 +332,11 @@ static void clear(struct steps *s)
         lom_forget_frames(s->renderer);
 }
 
-/* Of what the steps say draws; *error is theirs where there is any. */
+/* Of what the steps say draws; what fails is in *s->error, and then in *error. */
 static lom_stage_pictures *picture_steps(struct steps *s, lom_error *error)
 {
-    lom_error own = { .code = LOM_OK };
     lom_image *picture = NULL;
-    s->error = &own; /* until clear() */
-    s->out = lom_allocate(1, sizeof *s->out, &own);
+    s->out = lom_allocate(1, sizeof *s->out, s->error);
     if (s->out != NULL && draw_whole(s, &picture) && choose_pass(s)) {
         s->out->width = picture->width;
         s->out->height = picture->height;
@@ -347,20 +345,24 @@ static lom_stage_pictures *picture_steps(struct steps *s, lom_error *error)
     }
     lom_free_image(picture);
     clear(s);
-    if (own.code == LOM_OK)
+    if (s->error->code == LOM_OK)
         return s->out;
     lom_free_stage_pictures(s->out);
     if (error != NULL)
-        *error = own;
+        *error = *s->error;
     return NULL;
 }
 
 lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_desc *desc, lom_error *error)
 {
     LOM_OWN_FLOAT_STATE;
-    struct steps s = {
-        .device = renderer->device, .draw = draw_frame, .pass = desc->pass, .renderer = renderer, .desc = desc
-    };
+    lom_error own = { .code = LOM_OK };
+    struct steps s = { .device = renderer->device,
+                       .draw = draw_frame,
+                       .pass = desc->pass,
+                       .renderer = renderer,
+                       .desc = desc,
+                       .error = &own };
     if (renderer->reference == NULL)
         return picture_steps(&s, error);
     lom_fail(error, LOM_ERROR_USAGE,
@@ -371,6 +373,10 @@ lom_stage_pictures *lom_picture_stages(lom_renderer *renderer, const lom_stages_
 
 lom_stage_pictures *lom_picture_drawing(const lom_drawing *drawing, const char *pass, lom_error *error)
 {
-    struct steps s = { .device = drawing->device, .draw = draw_program, .pass = pass, .drawing = drawing };
+    LOM_OWN_FLOAT_STATE;
+    lom_error own = { .code = LOM_OK };
+    struct steps s = {
+        .device = drawing->device, .draw = draw_program, .pass = pass, .drawing = drawing, .error = &own
+    };
     return picture_steps(&s, error);
 }

@@ -1,9 +1,13 @@
 /* A lesson's calls of the library, noted and handed on. In: the calls (-Wl,--wrap). Out: the same calls; at the moment
- * that is asked for, the picture so far. Invariant: until then the library is told what the lesson tells it, and
- * besides a label for each pass. */
+ * that is asked for, the picture so far. Invariant: until then the library draws what the lesson tells it. Passes
+ * are named, and a lesson that is run again draws by the device and into the textures of the run before. */
 #include "web/lesson_page.h"
 
+lom_device *__wrap_lom_open_device(const lom_device_desc *desc);
+void __wrap_lom_close_device(lom_device *device);
 lom_texture *__wrap_lom_make_texture(lom_device *device, const lom_texture_desc *desc);
+lom_texture *__wrap_lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error);
+void __wrap_lom_free_texture(lom_texture *texture);
 void __wrap_lom_begin_pass(lom_device *device, const lom_pass_desc *desc);
 void __wrap_lom_draw(lom_device *device, const lom_draw_desc *desc);
 bool __wrap_lom_end_pass(lom_device *device);
@@ -12,21 +16,56 @@ lom_image *__wrap_lom_create_image(int width, int height, int depth, lom_format 
 lom_image *__wrap_lom_convert_image(const lom_image *image, lom_format format, lom_error *error);
 bool __wrap_lom_write_image(const char *path, const char *kind, const lom_image *image, lom_error *error);
 
-/* The texture that is watched is so from its making on. */
-lom_texture *__wrap_lom_make_texture(lom_device *device, const lom_texture_desc *desc)
+/* ---- what stays from run to run: the device and its textures, so that they can be watched ---- */
+
+lom_device *__wrap_lom_open_device(const lom_device_desc *desc)
 {
-    lom_texture *texture = __real_lom_make_texture(device, desc);
     lom_lesson_run *run = lom_current_lesson();
-    if (run == NULL || run->textures == LOM_LESSON_TEXTURES)
-        return texture;
-    run->device = device;
-    const lom_rect *r = &run->watch;
-    if (run->textures == run->watched)
-        lom_watch(device, &(lom_watch_desc){ texture, r->x, r->y, r->width, r->height, 0 }, 1);
-    run->texture[run->textures++] = texture;
-    return texture;
+    lom_device *device = run != NULL && run->device != NULL ? run->device : __real_lom_open_device(desc);
+    if (run != NULL)
+        run->device = device;
+    return device;
 }
 
+void __wrap_lom_close_device(lom_device *device)
+{
+    if (lom_current_lesson() == NULL)
+        __real_lom_close_device(device);
+}
+
+/* The n-th texture of a run: that of the run before; NULL: it has to be made. */
+static lom_texture **next_texture(lom_lesson_run *run)
+{
+    static lom_texture *none;
+    none = NULL;
+    return run == NULL || run->textures == LOM_LESSON_TEXTURES ? &none : &run->texture[run->textures++];
+}
+
+lom_texture *__wrap_lom_make_texture(lom_device *device, const lom_texture_desc *desc)
+{
+    lom_texture **kept = next_texture(lom_current_lesson());
+    if (*kept == NULL)
+        *kept = __real_lom_make_texture(device, desc);
+    return *kept;
+}
+
+lom_texture *__wrap_lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error)
+{
+    lom_texture **kept = next_texture(lom_current_lesson());
+    if (*kept == NULL)
+        *kept = __real_lom_texture_of_image(image, srgb, mips, error);
+    return *kept;
+}
+
+void __wrap_lom_free_texture(lom_texture *texture)
+{
+    if (lom_current_lesson() == NULL)
+        __real_lom_free_texture(texture);
+}
+
+/* ---- passes and draws ---- */
+
+/* Passes get names, in the order in which they are drawn. */
 void __wrap_lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
 {
     lom_lesson_run *run = lom_current_lesson();
@@ -34,11 +73,15 @@ void __wrap_lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
     if (run != NULL) {
         run->target = desc->color[0];
         run->pass_draws = 0;
-        char *label = run->label[run->passes % LOM_LESSON_PASSES];
-        snprintf(label, sizeof run->label[0], "the lesson's pass %d", run->passes + 1);
-        pass.label = desc->label != NULL ? desc->label : label;
+        pass.label = lom_lesson_pass(run->passes);
     }
     __real_lom_begin_pass(device, &pass);
+}
+
+const char *lom_lesson_pass(int number)
+{
+    static const char *const names[] = { "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth" };
+    return number < (int)(sizeof names / sizeof names[0]) ? names[number] : "later";
 }
 
 static size_t count_triangles(const lom_draw_desc *desc)
@@ -97,16 +140,13 @@ lom_image *__wrap_lom_read_texture(const lom_texture *texture, int level, int la
     if (run == NULL || image == NULL)
         return image;
     run->read_image = image;
-    run->width = image->width;
-    run->height = image->height;
-    run->read = -1;
+    run->read = NULL;
     for (int i = 0; i < run->textures; i++)
-        if (run->texture[i] == texture)
-            run->read = i;
-    if (run->look != NULL && run->read == run->watched)
-        run->look(run, image);
+        run->read = run->texture[i] == texture ? run->texture[i] : run->read;
     return image;
 }
+
+/* ---- images ---- */
 
 /* The library's own images are counted, too. */
 lom_image *__wrap_lom_create_image(int width, int height, int depth, lom_format format, lom_error *error)

@@ -3,19 +3,20 @@
  *   draw OUT                    OUT.png, the lesson's picture, and OUT.json: its hash, its size, PICTURE
  *   steps OUT PICTURE           OUT.json: the steps, each with its text, the arguments and the file of its picture
  *   moment OUT N PICTURE        OUT.png: the picture after N triangles, or stores
- *   views OUT PICTURE           OUT-STAGE.png: what the stages made of it
+ *   stages OUT PICTURE          OUT-NAME.png: what each stage made of the last pass; OUT.json: what they show
  *   explain OUT X Y PICTURE     OUT.txt: what happened to a pixel
  * Invariant: each of them runs the lesson from its beginning, so that what is shown is what it did. */
 #include "web/lesson_page.h"
 #include "cli/explain_output.h"
 #include "cli/json.h"
-#include "inspect/verdict.h"
+#include "cli/page.h"
+#include "cli/steps_page.h"
 
 #include <stdlib.h>
 
 int lom_lesson_main(int argc, char **argv);
 
-enum { MOMENTS = 32, PICTURE_NUMBERS = 5, LONGEST_PATH = 256 };
+enum { MOMENTS = 32, PICTURE_NUMBERS = 5, LONGEST_PATH = 256, FOLLOWED = 3 };
 
 /* Calls and stores have no place for it: it is the one variable of this program. */
 static lom_lesson_run *current;
@@ -64,27 +65,14 @@ void lom_end_lesson_with(const lom_lesson_run *run, const lom_image *picture)
     exit(picture != NULL && lom_write_lesson_picture(path_of(run, ".png", path), picture) ? 0 : 2);
 }
 
-/* A file of text, written as a whole when it is complete. */
-struct text {
-    FILE *out;
-    char *bytes;
-    size_t size;
-};
-
-static bool begin_text(struct text *text)
-{
-    text->out = open_memstream(&text->bytes, &text->size);
-    if (text->out == NULL)
-        fputs("The system gave no memory for the text.\n", stderr);
-    return text->out != NULL;
-}
-
-static bool end_text(const lom_lesson_run *run, const char *ending, struct text *text)
+/* A file of text, when it is complete. */
+static bool write_text(const lom_lesson_run *run, const char *ending, struct lom_page *text)
 {
     char path[LONGEST_PATH];
     lom_error error = { .code = LOM_OK };
-    bool done = fclose(text->out) == 0 && lom_write_file(path_of(run, ending, path), text->bytes, text->size, &error);
-    free(text->bytes);
+    lom_bytes bytes = lom_end_page(text, &error);
+    bool done = bytes.data != NULL && lom_write_file(path_of(run, ending, path), bytes.data, bytes.size, &error);
+    lom_release(bytes.data);
     if (!done)
         fprintf(stderr, "%s\n", error.text);
     return done;
@@ -95,11 +83,12 @@ static bool end_text(const lom_lesson_run *run, const char *ending, struct text 
 static int draw(lom_lesson_run *run)
 {
     char path[LONGEST_PATH];
+    struct lom_page text = { .out = NULL };
     int status = lom_run_lesson(run, path_of(run, ".png", path));
     lom_image *picture = status == 0 ? lom_read_image(path, NULL) : NULL;
-    struct text text;
-    bool done = picture != NULL && begin_text(&text);
-    if (done) {
+    if (picture != NULL)
+        lom_begin_page(&text);
+    if (text.out != NULL) {
         const struct lom_lesson_picture *s = &run->source;
         const int64_t numbers[] = { s->created, s->created > 0 ? 0 : (int64_t)s->address, s->width, s->height,
                                     (int64_t)s->format };
@@ -109,28 +98,21 @@ static int draw(lom_lesson_run *run)
         lom_json_integer(&json, "height", picture->height);
         lom_json_integers(&json, "picture", numbers, PICTURE_NUMBERS);
         lom_json_end(&json);
-        done = end_text(run, ".json", &text);
     }
     lom_free_image(picture);
-    return done ? 0 : 2;
+    return text.out != NULL && write_text(run, ".json", &text) ? 0 : 2;
 }
 
-static void add_step(lom_json *json, const char *command, const char *file, const char *text, uint64_t moment)
-{
-    lom_json_nest(json, NULL, '{');
-    lom_json_text(json, "text", text);
-    lom_json_text(json, "command", command);
-    if (strcmp(command, "moment") == 0)
-        lom_json_integer(json, "moment", (int64_t)moment);
-    lom_json_text(json, "file", file);
-    lom_json_unnest(json, '}');
-}
-
-static void add_moment(lom_json *json, uint64_t moment, const char *text)
+static void add_moment(lom_json *json, uint64_t moment, const char *title, const char *text)
 {
     char file[64];
-    snprintf(file, sizeof file, "-%llu", (unsigned long long)moment);
-    add_step(json, "moment", file, text, moment);
+    snprintf(file, sizeof file, "-%llu.png", (unsigned long long)moment);
+    lom_json_nest(json, NULL, '{');
+    lom_json_text(json, "file", file);
+    lom_json_text(json, "title", title);
+    lom_json_text(json, "text", text);
+    lom_json_integer(json, "moment", (int64_t)moment);
+    lom_json_unnest(json, '}');
 }
 
 static void list_stores(lom_json *json, const lom_lesson_run *run)
@@ -138,9 +120,9 @@ static void list_stores(lom_json *json, const lom_lesson_run *run)
     for (uint64_t i = 0; i < MOMENTS && run->stores >= MOMENTS; i++) {
         char text[128];
         uint64_t moment = run->stores * i / MOMENTS;
-        snprintf(text, sizeof text, "after %llu of %llu stores into the picture", (unsigned long long)moment,
+        snprintf(text, sizeof text, "After %llu of %llu stores into the picture.", (unsigned long long)moment,
                  (unsigned long long)run->stores);
-        add_moment(json, moment, text);
+        add_moment(json, moment, "The program computes its pixels", text);
     }
 }
 
@@ -151,39 +133,31 @@ static void list_triangles(lom_json *json, const lom_lesson_run *run)
     for (int i = 0; i < run->draws; i++) {
         const struct lom_lesson_draw *d = &run->draw[i];
         for (uint64_t within = 0; within < d->triangles;) {
-            char text[256];
+            char title[64], text[256];
             within = within + share < d->triangles ? within + share : d->triangles;
-            snprintf(text, sizeof text, "pass %d of %d, draw %d by the shader %.100s: %llu of %llu triangles",
-                     d->pass + 1, run->passes, d->number, d->shader, (unsigned long long)within,
-                     (unsigned long long)d->triangles);
-            add_moment(json, before + within, text);
+            snprintf(title, sizeof title, "Triangles of the %s pass", lom_lesson_pass(d->pass));
+            snprintf(text, sizeof text, "Draw %d by the shader %.100s: after %llu of %llu triangles. %d passes in all.",
+                     d->number, d->shader, (unsigned long long)within, (unsigned long long)d->triangles, run->passes);
+            add_moment(json, before + within, title, text);
         }
         before += d->triangles;
-    }
-    const char *text, *name;
-    for (int i = 0; (name = lom_lesson_view(i, &text)) != NULL; i++) {
-        char file[64];
-        snprintf(file, sizeof file, "-%s", name);
-        add_step(json, "views", file, text, 0);
     }
 }
 
 static int list_steps(lom_lesson_run *run)
 {
     char path[LONGEST_PATH];
-    struct text text;
-    if (lom_run_lesson(run, path_of(run, ".png", path)) != 0 || !begin_text(&text))
+    struct lom_page text = { .out = NULL };
+    if (lom_run_lesson(run, path_of(run, ".png", path)) == 0)
+        lom_begin_page(&text);
+    if (text.out == NULL)
         return 2;
     lom_json json = lom_json_begin(text.out);
     lom_json_nest(&json, "steps", '[');
-    if (run->picture.width > 0)
-        list_stores(&json, run);
-    else
-        list_triangles(&json, run);
-    add_step(&json, "draw", "", "the picture that is written", 0);
+    (run->picture.width > 0 ? list_stores : list_triangles)(&json, run);
     lom_json_unnest(&json, ']');
     lom_json_end(&json);
-    return end_text(run, ".json", &text) ? 0 : 2;
+    return write_text(run, ".json", &text) ? 0 : 2;
 }
 
 /* The lesson runs to the moment, which ends the program; behind all of them it is the whole picture. */
@@ -193,44 +167,85 @@ static int draw_moment(lom_lesson_run *run)
     return lom_run_lesson(run, path_of(run, ".png", path));
 }
 
-/* Which texture the picture is, the n-th that is made, is known behind a first run. */
-static bool find_picture(lom_lesson_run *run)
+/* ---- what a device draws: a drawing that is run again ---- */
+
+static lom_image *draw_again(void *context, lom_error *error)
 {
+    lom_lesson_run *run = context;
     char path[LONGEST_PATH];
-    bool done = lom_run_lesson(run, path_of(run, ".png", path)) == 0 && run->read >= 0;
-    run->watched = run->read;
-    if (!done)
-        fprintf(stderr, "%s: its picture was not read from a texture.\n", run->name);
-    return done;
+    if (lom_run_lesson(run, path_of(run, ".png", path)) == 0 && run->read != NULL)
+        return __real_lom_read_texture(run->read, 0, 0, error);
+    lom_fail(error, LOM_ERROR_USAGE, "The lesson %s drew nothing that was read from a texture.", run->name);
+    return NULL;
 }
 
-static int draw_views(lom_lesson_run *run)
+/* Draws once, so that the device and its textures are there. */
+static bool begin_drawing(lom_lesson_run *run, lom_drawing *drawing, lom_error *error)
 {
-    return find_picture(run) && lom_write_lesson_views(run, run->out) ? 0 : 2;
+    lom_image *image = draw_again(run, error);
+    lom_free_image(image);
+    *drawing = (lom_drawing){ run->device, run, draw_again };
+    return image != NULL;
 }
 
-static void explain_texel(lom_lesson_run *run, const lom_image *picture)
+static int end_drawing(lom_lesson_run *run, bool done, const lom_error *error)
+{
+    if (error->code != LOM_OK)
+        fprintf(stderr, "%s: %s\n", run->name, error->text);
+    lom_close_device(run->device);
+    return done && error->code == LOM_OK ? 0 : 2;
+}
+
+static bool write_stages(const lom_lesson_run *run, const lom_stage_pictures *pictures)
+{
+    struct lom_page text;
+    bool done = true;
+    lom_begin_page(&text);
+    if (text.out == NULL)
+        return false;
+    lom_json json = lom_json_begin(text.out);
+    lom_json_nest(&json, "steps", '[');
+    for (size_t i = 0; i < pictures->count && done; i++) {
+        char file[64], path[LONGEST_PATH];
+        snprintf(file, sizeof file, "-%s.png", pictures->picture[i].name);
+        lom_write_step(&json, file, &pictures->picture[i]);
+        done = lom_write_lesson_picture(path_of(run, file, path), pictures->picture[i].image);
+    }
+    lom_json_unnest(&json, ']');
+    lom_json_end(&json);
+    return write_text(run, ".json", &text) && done;
+}
+
+/* Of the pass that ends the picture. */
+static int picture_stages(lom_lesson_run *run)
 {
     lom_error error = { .code = LOM_OK };
-    lom_explanation *explanation = lom_allocate(1, sizeof *explanation, &error);
-    struct text text;
-    if (explanation != NULL && begin_text(&text)) {
-        lom_image pixel = { 1, 1, 1, picture->format, lom_image_pixel(picture, run->x, run->y, 0) };
-        explanation->frame.image = &pixel;
-        explanation->width = picture->width;
-        explanation->height = picture->height;
-        explanation->count = 1;
-        explanation->item[0] = (lom_explained){ .texture = run->texture[run->watched],
-                                                .name = "picture",
-                                                .x = run->x,
-                                                .y = run->y,
-                                                .record = lom_watched_pixel(run->device, 0, run->x, run->y) };
-        lom_find_verdict(&explanation->item[0]);
-        lom_print_explanation(text.out, &(struct lom_explain_head){ run->name, 0, explanation });
-        end_text(run, ".txt", &text);
-    }
-    lom_release(explanation);
+    lom_drawing drawing;
+    lom_stage_pictures *pictures = NULL;
+    if (begin_drawing(run, &drawing, &error))
+        pictures = lom_picture_drawing(&drawing, lom_lesson_pass(run->passes - 1), &error);
+    bool done = pictures != NULL && write_stages(run, pictures);
+    lom_free_stage_pictures(pictures);
+    return end_drawing(run, done, &error);
 }
+
+static int explain_texel(lom_lesson_run *run)
+{
+    lom_error error = { .code = LOM_OK };
+    lom_drawing drawing;
+    struct lom_page text = { .out = NULL };
+    lom_explanation *explanation = NULL;
+    if (begin_drawing(run, &drawing, &error))
+        explanation = lom_explain_drawing(&drawing, run->read, run->x, run->y, FOLLOWED, &error);
+    if (explanation != NULL)
+        lom_begin_page(&text);
+    if (text.out != NULL)
+        lom_print_explanation(text.out, &(struct lom_explain_head){ run->name, 0, explanation });
+    lom_free_drawing_explanation(&drawing, explanation);
+    return end_drawing(run, text.out != NULL && write_text(run, ".txt", &text), &error);
+}
+
+/* ---- what the lesson stores ---- */
 
 /* What the file holds where the lesson stored. */
 static void print_codes(FILE *out, const char *path, int x, int y)
@@ -242,34 +257,25 @@ static void print_codes(FILE *out, const char *path, int x, int y)
 }
 
 /* The file is written behind the run, so that its memory is where it is in every other. */
-static int explain_stores(lom_lesson_run *run)
+static int explain(lom_lesson_run *run)
 {
     char path[LONGEST_PATH];
+    struct lom_page text = { .out = NULL };
+    if (run->picture.width == 0)
+        return explain_texel(run);
     if (run->x >= run->picture.width || run->y >= run->picture.height) {
         fprintf(stderr, "%s: no pixel %d,%d.\n", run->name, run->x, run->y);
         return 2;
     }
-    int status = lom_run_lesson(run, path_of(run, ".png", path));
-    struct text text;
-    if (status != 0 || !begin_text(&text))
+    if (lom_run_lesson(run, path_of(run, ".png", path)) == 0)
+        lom_begin_page(&text);
+    if (text.out == NULL)
         return 2;
     fprintf(text.out, "pixel %d,%d of %s, %dx%d:", run->x, run->y, run->name, run->picture.width, run->picture.height);
     print_codes(text.out, path, run->x, run->y);
     fputs("\n", text.out);
     lom_tell_stores(run, text.out);
-    return end_text(run, ".txt", &text) ? 0 : 2;
-}
-
-static int explain(lom_lesson_run *run)
-{
-    char path[LONGEST_PATH];
-    if (run->picture.width > 0)
-        return explain_stores(run);
-    if (!find_picture(run))
-        return 2;
-    run->watch = (lom_rect){ run->x, run->y, 1, 1 };
-    run->look = explain_texel;
-    return lom_run_lesson(run, path_of(run, ".png", path));
+    return write_text(run, ".txt", &text) ? 0 : 2;
 }
 
 static const struct command {
@@ -280,7 +286,7 @@ static const struct command {
 } commands[] = { { "draw", 0, false, draw },
                  { "steps", 0, true, list_steps },
                  { "moment", 1, true, draw_moment },
-                 { "views", 0, true, draw_views },
+                 { "stages", 0, true, picture_stages },
                  { "explain", 2, true, explain } };
 
 static bool read_numbers(const char *const *texts, int count, uint64_t *numbers)
@@ -305,7 +311,7 @@ int main(int argc, char **argv)
             !read_numbers((const char *const *)argv + 3, count, n))
             continue;
         const uint64_t *p = n + c->numbers;
-        lom_lesson_run run = { .name = name, .out = argv[2], .watched = -1, .read = -1 };
+        lom_lesson_run run = { .name = name, .out = argv[2] };
         if (c->has_picture)
             run.picture = (struct lom_lesson_picture){ (int)p[0], p[1], (int)p[2], (int)p[3], (lom_format)p[4] };
         run.moment = c->run == draw_moment ? n[0] : UINT64_MAX;
@@ -316,7 +322,7 @@ int main(int argc, char **argv)
         return c->run(&run);
     }
     fprintf(stderr,
-            "usage: %s draw OUT | steps OUT PICTURE | moment OUT N PICTURE | views OUT PICTURE | "
+            "usage: %s draw OUT | steps OUT PICTURE | moment OUT N PICTURE | stages OUT PICTURE | "
             "explain OUT X Y PICTURE; PICTURE: five numbers\n",
             name);
     return 2;

@@ -8,13 +8,7 @@
 
 #include <stdio.h>
 
-enum {
-    LOM_LESSON_TEXTURES = 32,
-    LOM_LESSON_PASSES = 16,
-    LOM_LESSON_DRAWS = 256,
-    LOM_LESSON_IMAGES = 64,
-    LOM_LESSON_VISITS = 64
-};
+enum { LOM_LESSON_TEXTURES = 32, LOM_LESSON_DRAWS = 256, LOM_LESSON_IMAGES = 64, LOM_LESSON_VISITS = 64 };
 
 /* What a lesson stores its picture into by itself; width 0: it draws by a device. */
 struct lom_lesson_picture {
@@ -40,21 +34,15 @@ typedef struct lom_lesson_run {
     /* what is asked */
     const char *name, *out;
     uint64_t moment; /* triangles, or stores into the picture, after which it is written and the program ends */
-    int watched;     /* the texture to watch, the n-th that is made; -1: none */
-    lom_rect watch;
-    void (*look)(struct lom_lesson_run *run, const lom_image *picture); /* called with the records; NULL: not */
-    void *seen;                                                         /* what `look` puts them into */
     struct lom_lesson_picture picture;
     /* what is noted */
-    lom_device *device;
+    lom_device *device; /* it and the textures: of the first run, and of all that follow */
     lom_texture *texture[LOM_LESSON_TEXTURES];
     int textures, passes, draws, pass_draws;
-    const lom_texture *target;         /* of the pass: its first colour */
-    char label[LOM_LESSON_PASSES][40]; /* of the passes, for those that have none */
+    const lom_texture *target; /* of the pass: its first colour */
     struct lom_lesson_draw draw[LOM_LESSON_DRAWS];
     uint64_t triangles, stores;
-    int read;                                         /* the texture that was read last; -1: none */
-    int width, height;                                /* of what that gave */
+    lom_texture *read;                                /* the texture that was read last */
     const lom_image *read_image, *converted;          /* that; what was converted last */
     struct lom_lesson_picture source;                 /* of that conversion */
     uintptr_t image[LOM_LESSON_IMAGES];               /* where the pixels of the last images that were created are */
@@ -77,13 +65,15 @@ bool lom_write_lesson_picture(const char *path, const lom_image *picture);
 void lom_end_stores(lom_lesson_run *run);
 /* What was stored into the pixel. */
 void lom_tell_stores(const lom_lesson_run *run, FILE *out);
-/* PREFIX-NAME.png of each stage's view of the picture that a device drew. */
-bool lom_write_lesson_views(lom_lesson_run *run, const char *prefix);
-/* The views there are: their names and what they show; NULL behind the last. */
-const char *lom_lesson_view(int index, const char **text);
+/* What a pass is called: "first" of number 0. */
+const char *lom_lesson_pass(int number);
 
 /* The library's own, past the linker's wraps. */
+lom_device *__real_lom_open_device(const lom_device_desc *desc);
+void __real_lom_close_device(lom_device *device);
 lom_texture *__real_lom_make_texture(lom_device *device, const lom_texture_desc *desc);
+lom_texture *__real_lom_texture_of_image(const lom_image *image, bool srgb, lom_mips mips, lom_error *error);
+void __real_lom_free_texture(lom_texture *texture);
 void __real_lom_begin_pass(lom_device *device, const lom_pass_desc *desc);
 void __real_lom_draw(lom_device *device, const lom_draw_desc *desc);
 bool __real_lom_end_pass(lom_device *device);

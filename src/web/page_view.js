@@ -1,12 +1,12 @@
 // The page of a lesson. In: its elements, the name of the lesson and the hash of its picture. Out: the picture as the
 // program draws it in its worker; as it was at each step; what happened to a pixel that is clicked. The address may say
-// #step=12&pixel=160,90. The title ends with the hash when all of that is shown.
+// #step=12&pixel=160,90. The title ends with the hash once the picture is drawn; the body says when all of it is there.
 const element = name => document.getElementById(name);
 const { name, hash: native } = JSON.parse(element('known').textContent);
 const canvas = element('picture'), slider = element('step'), pen = canvas.getContext('2d');
 const worker = new Worker(URL.createObjectURL(new Blob([element('worker').textContent], { type: 'text/javascript' })));
 const waiting = new Map(), pictures = new Map();
-let number = 0, picture, steps = [], shown, marked = null, wanted = null, busy = false;
+let number = 0, facts, picture, steps = [], shown, marked = null, wanted = null, busy = false;
 
 worker.onmessage = ({ data }) => {
     waiting.get(data.number)(data);
@@ -30,22 +30,45 @@ function paint() {
     canvas.width = shown.width;
     canvas.height = shown.height;
     pen.drawImage(shown, 0, 0);
-    if (marked === null) return;
+    const zoom = shown.width / facts.width;
+    if (marked === null || zoom * facts.height !== shown.height) return; // else it is no picture of pixels
+    pen.lineWidth = zoom;
     for (const [color, far] of [['#000', 2.5], ['#fff', 1.5]]) {
         pen.strokeStyle = color;
-        pen.strokeRect(marked[0] - far + 0.5, marked[1] - far + 0.5, 2 * far, 2 * far);
+        pen.strokeRect((marked[0] - far + 0.5) * zoom, (marked[1] - far + 0.5) * zoom, 2 * far * zoom, 2 * far * zoom);
     }
 }
 
-/** The PNG of a step, drawn when it is looked at for the first time. */
-async function draw_step({ command, moment, file }) {
-    const out = { moment: `/moment${file}`, views: '/view', draw: '/picture' }[command];
-    const path = (command === 'views' ? out + file : out) + '.png';
-    if (!pictures.has(path)) {
-        const words = command === 'draw' ? [] : [...(command === 'moment' ? [moment] : []), ...picture];
-        for (const [made, bytes] of (await ask(command, out, ...words)).files) pictures.set(made, bytes);
+/** The PNG of a step; of a moment, drawn when it is looked at for the first time. */
+async function draw_step({ moment, file }) {
+    if (!pictures.has(file)) keep(await ask('moment', file.slice(0, -4), moment, ...picture));
+    return createImageBitmap(new Blob([pictures.get(file)], { type: 'image/png' }));
+}
+
+function keep({ files }) {
+    for (const [file, bytes] of files) pictures.set(file, bytes);
+    return files;
+}
+
+/** What the picture of a step shows: its text, the colours that it has. */
+function tell(at) {
+    const { title, text, source, scale, legend = [] } = steps[at], color = numbers => `rgb(${numbers.join(',')})`;
+    const make = (tag, words) => Object.assign(document.createElement(tag), { textContent: words });
+    const parts = legend.map(row => {
+        const part = make('span', row.text), swatch = make('i', '');
+        swatch.style.background = color(row.color);
+        part.prepend(swatch);
+        return part;
+    });
+    if (scale) {
+        const bar = make('b', '');
+        bar.style.background = `linear-gradient(90deg,${scale.colors.map(color).join()})`;
+        parts.push(make('span', String(+scale.low.toPrecision(4))), bar,
+            make('span', +scale.high.toPrecision(4) + (scale.logarithmic ? ' (logarithmic)' : '')));
     }
-    return createImageBitmap(new Blob([pictures.get(path)], { type: 'image/png' }));
+    element('label').replaceChildren(make('strong', `${at + 1} of ${steps.length}: ${title}. `), text,
+        ...(source ? [make('code', ` ${source}`)] : []));
+    element('legend').replaceChildren(...parts);
 }
 
 /** The step at which the slider stands; of several that it passed meanwhile the last. */
@@ -57,15 +80,24 @@ async function show_step(index) {
         while (wanted !== null) {
             const at = wanted;
             wanted = null;
-            element('label').textContent = `${at + 1} of ${steps.length}: ${steps[at].text} …`;
             shown = await draw_step(steps[at]);
             paint();
-            element('label').textContent = `${at + 1} of ${steps.length}: ${steps[at].text}`;
+            tell(at);
         }
     } catch (error) {
         element('label').textContent = error.message;
     }
     busy = false;
+}
+
+/** The slider's steps; at the last one it stays at the last one. */
+function offer(list) {
+    const at = slider.disabled || Number(slider.value) === steps.length - 1 ? list.length - 1 : Number(slider.value);
+    steps = list;
+    slider.max = list.length - 1;
+    slider.value = at;
+    slider.disabled = false;
+    tell(at);
 }
 
 function go(index) {
@@ -87,24 +119,26 @@ async function explain(x, y) {
 async function begin() {
     const begun = performance.now();
     const drawn = await ask('draw', '/picture');
-    const facts = JSON.parse(text_of(drawn.files.get('/picture.json')));
+    facts = JSON.parse(text_of(keep(drawn).get('/picture.json')));
     picture = facts.picture;
-    pictures.set('/picture.png', drawn.files.get('/picture.png'));
-    shown = await draw_step({ command: 'draw', file: '' });
+    shown = await draw_step({ file: '/picture.png' });
     paint();
     const same = facts.hash === native ? 'the native program draws the same' : `the native program draws ${native}`;
     element('status').textContent =
         `${facts.hash}: ${same}. Drawn here in ${Math.round(performance.now() - begun)} ms, ${facts.width} × ${facts.height}.`;
     element('output').textContent = drawn.text;
-    steps = JSON.parse(text_of((await ask('steps', '/steps', ...picture)).files.get('/steps.json'))).steps;
-    slider.max = steps.length - 1;
-    slider.value = steps.length - 1;
-    slider.disabled = false;
-    element('label').textContent = `${steps.length} of ${steps.length}: ${steps.at(-1).text}`;
+    document.title += ` ${facts.hash}`;
+    const list = async name => JSON.parse(text_of(keep(await ask(name, `/${name}`, ...picture)).get(`/${name}.json`))).steps
+        .map(step => ({ ...step, file: `/${name}${step.file}` }));
+    offer([...await list('steps'), { title: 'The picture', text: 'What the program writes.', file: '/picture.png' }]);
+    if (facts.picture[2] === 0) { // by a device, whose stages record what they do: the last of them is the picture
+        const stages = await list('stages');
+        offer([...steps.slice(0, -1), ...stages]);
+    }
     const asked = new URLSearchParams(location.hash.slice(1));
     if (asked.has('step')) await go(Number(asked.get('step')) - 1);
     if (asked.has('pixel')) await explain(...asked.get('pixel').split(',').map(Number));
-    document.title += ` ${facts.hash}`;
+    document.body.dataset.done = 'yes';
 }
 
 slider.oninput = () => show_step(Number(slider.value));
@@ -112,7 +146,7 @@ element('back').onclick = () => go(Number(slider.value) - 1);
 element('next').onclick = () => go(Number(slider.value) + 1);
 canvas.onclick = event => {
     const box = canvas.getBoundingClientRect();
-    if (steps.length > 0) explain(Math.floor((event.clientX - box.left) / box.width * canvas.width),
-        Math.floor((event.clientY - box.top) / box.height * canvas.height));
+    if (steps.length > 0) explain(Math.floor((event.clientX - box.left) / box.width * facts.width),
+        Math.floor((event.clientY - box.top) / box.height * facts.height));
 };
 begin().catch(error => { element('status').textContent = `The lesson did not draw: ${error.message}`; });

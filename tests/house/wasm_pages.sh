@@ -36,10 +36,10 @@ calls=$(sed -n 's/^PAGE_CALLS *= //p' Makefile | sed 's/[a-z_]*/-Wl,--wrap=lom_&
 for name in targets water; do
     $compiler $flags -c -DLOM_LANES=4 -DLOM_VARIANT=4_recorded -DLOM_RECORD -Dmain=lom_lesson_main -o "$folder/$name.o" \
         "docs/lessons/$name/$name.c" &&
-        $compiler $flags $calls -o "$folder/lom" src/web/*.c src/cli/explain_text.c src/cli/explain_names.c src/cli/json.c \
+        $compiler $flags $calls -o "$folder/lom" src/web/*.c src/cli/explain_text.c src/cli/explain_names.c src/cli/json.c src/cli/page.c src/cli/steps_page.c \
             "$folder/$name.o" "$BUILD/liblom.a" -lm -lpthread || { check "$name is built" no "$compiler fails"; continue; }
     different=
-    for asked in "explain 160 90" "explain 150 140" "explain 5 5" "moment 9300" "moment 18434" views; do
+    for asked in "explain 160 90" "explain 150 140" "explain 5 5" "moment 9300" "moment 18434" stages; do
         set -- $asked
         mkdir "$folder/native" "$folder/wasm"
         "$folder/lom" "$1" "$folder/native/a" "${@:2}" 0 0 0 0 0 >"$folder/log" 2>&1
@@ -76,8 +76,8 @@ fi
         echo "/^lom: $name [0-9a-f]{16}\$/.test(document.title) && document.title.slice(-16)"
     done
     echo "go file://$(realpath "$pages")/targets.html"
-    echo '/[0-9a-f]{16}$/.test(document.title)'
-    echo 'slider.value = steps.findIndex(step => step.moment >= 9300), steps[slider.value].moment = 9300, slider.oninput(), 1'
+    echo 'document.body?.dataset.done === "yes" && name === "targets" && steps.some(step => step.title === "Coverage")'
+    echo 'slider.value = steps.findIndex(step => step.moment >= 9300), Object.assign(steps[slider.value], { moment: 9300, file: "/steps-9300.png" }), slider.oninput(), 1'
     echo '!busy && canvas.toDataURL("image/png").slice(22)'
     echo 'click element("picture").getBoundingClientRect().left+160.5*canvas.clientWidth/320 element("picture").getBoundingClientRect().top+90.5*canvas.clientHeight/180'
     echo '/wrote this/.test(element("story").textContent) && element("story").textContent'

@@ -291,82 +291,9 @@ static void pictures_are_the_same_with_any_workers(void)
     CHECK(hash[0] == hash[1] && hash[0] != 0);
 }
 
-/* ---- a program without a renderer ---- */
-
-static void place_corner(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->position = (lom_float4){ in->attribute[0].x, in->attribute[0].y, lom_splat(0.5f), lom_splat(1) };
-}
-
-static void paint_red(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)in, (void)uniforms;
-    out->color[0] = (lom_float4){ lom_splat(1), lom_splat(0), lom_splat(0), lom_splat(1) };
-}
-
-LOM_SHADER(red_shader, place_corner, paint_red, .attributes = 1, .colors = 1)
-
-struct program {
-    lom_device *device;
-    lom_texture *first, *second;
-    int drawn;
-};
-
-/* A pass that draws nothing, and one with a triangle over half the window: x < y of 64 x 64 pixels. */
-static lom_image *draw_program(void *context, lom_error *error)
-{
-    static const float corner[3][2] = { { -1, 1 }, { -1, -1 }, { 1, -1 } };
-    struct program *p = context;
-    p->drawn++;
-    lom_begin_pass(p->device, &(lom_pass_desc){ .color = { p->first }, .label = "empty" });
-    lom_end_pass(p->device);
-    lom_begin_pass(p->device, &(lom_pass_desc){ .color = { p->second }, .label = "half" });
-    lom_draw(p->device, &(lom_draw_desc){ .shader = &red_shader,
-                                          .attribute[0] = { corner, sizeof corner, 8, LOM_ATTRIBUTE_FLOAT2 },
-                                          .count = 3 });
-    lom_end_pass(p->device);
-    return p->drawn < 1000 ? lom_read_texture(p->second, 0, 0, error) : NULL;
-}
-
-static void what_a_program_draws_has_pictures(void)
-{
-    lom_error error = { .code = LOM_OK };
-    struct program p = { .device = lom_open_device(&(lom_device_desc){ .threads = 1 }) };
-    lom_texture_desc size = { .width = 64, .height = 64, .format = LOM_FORMAT_RGBA8_SRGB };
-    p.first = lom_make_texture(p.device, &size);
-    p.second = lom_make_texture(p.device, &size);
-    const lom_drawing drawing = { p.device, &p, draw_program };
-    lom_stage_pictures *pictures = lom_picture_drawing(&drawing, NULL, &error);
-    CHECK(pictures != NULL, "%s", error.text);
-    if (pictures != NULL) {
-        const lom_stage_picture *coverage = find(pictures, "coverage"), *last = find(pictures, "final");
-        lom_image *whole = draw_program(&p, NULL);
-        CHECK(strcmp(pictures->pass, "half") == 0 && pictures->plan.count == 0);
-        CHECK(whole != NULL && memcmp(whole->pixels, last->image->pixels, lom_image_size(whole)) == 0);
-        int zoom = coverage->image->width / 64;
-        for (int i = 0; i < 64 * 64; i++) {
-            const uint8_t *c = lom_image_pixel(coverage->image, i % 64 * zoom, i / 64 * zoom, 0);
-            const uint8_t *none = lom_image_pixel(coverage->image, 63 * zoom, 0, 0);
-            if (i % 64 != i / 64) /* on the diagonal centres lie upon the edge */
-                CHECK((memcmp(c, none, 3) != 0) == (i % 64 < i / 64), "%d,%d", i % 64, i / 64);
-        }
-        find(pictures, "pass-empty");
-        lom_free_image(whole);
-    }
-    lom_free_stage_pictures(pictures);
-    CHECK(lom_picture_drawing(&drawing, "mirror", &error) == NULL && strstr(error.text, "empty, half") != NULL, "%s",
-          error.text);
-    p.drawn = 1000;
-    error.text[0] = 0;
-    CHECK(lom_picture_drawing(&drawing, NULL, &error) == NULL && error.text[0] != 0);
-    lom_close_device(p.device);
-}
-
 int main(int argc, char **argv)
 {
     RUN(the_pictures_of_three_triangles);
     RUN(pictures_are_the_same_with_any_workers);
-    RUN(what_a_program_draws_has_pictures);
     return check_result();
 }
