@@ -1,6 +1,7 @@
 /* The legend of an overlay. In: what is shown, its scale, its numbers. Out: text, a bar with ticks or squares with words,
  * and the least, mean and greatest number, in the lowest rows of a picture. Lengths are in pixels of the letters. */
 #include "inspect/overlay.h"
+#include "inspect/short_number.h"
 
 #include "image/color_map.h"
 #include "image/glyphs.h"
@@ -8,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MARGIN = 4, BAR = 7, TICK = 3, SQUARE = 7, WIDE = 1280, LONGEST_NUMBER = 48, LONGEST_TEXT = 400 };
+enum { MARGIN = 4, BAR = 7, TICK = 3, SQUARE = 7, WIDE = 1280, LONGEST_TEXT = 400 };
 
 static const uint8_t ink[3] = { 240, 240, 240 }, edge[3] = { 0, 0, 0 };
 
@@ -26,42 +27,6 @@ struct page {
 };
 
 /* ---- words ---- */
-
-/* Three digits: 0.00123, 12.5, 1230, 45.6k, 7.89M, 1.2e-7. */
-static void print_short(char text[LONGEST_NUMBER], double value)
-{
-    double size = value < 0 ? -value : value;
-    int exponent = 0;
-    if (!(size > 1e-30 && size < 1e30)) {
-        snprintf(text, LONGEST_NUMBER, "%s", size <= 1e-30 ? "0" : "far");
-        return;
-    }
-    for (; size >= 999.5; exponent++)
-        size /= 10;
-    for (; size < 99.95; exponent--)
-        size *= 10;
-    int digits = lom_int_of(size + 0.5); /* 100..999: the value is digits * 10^exponent */
-    int thousands = exponent + 2 >= 6 ? 6 : exponent + 2 >= 4 ? 3 : 0;
-    bool is_plain = exponent + 2 >= -4 && exponent + 2 < 9;
-    int after = is_plain ? thousands - exponent : 2; /* digits behind the point */
-    for (; after > 0 && digits % 10 == 0; after--)
-        digits /= 10;
-    int power = 1;
-    for (int i = 0; i < after; i++)
-        power *= 10;
-    char tail[12] = "";
-    if (!is_plain)
-        snprintf(tail, sizeof tail, "e%d", exponent + 2);
-    else if (thousands != 0)
-        snprintf(tail, sizeof tail, "%s", thousands == 6 ? "M" : "k");
-    for (; after < 0; after++)
-        digits *= 10;
-    if (power > 1)
-        snprintf(text, LONGEST_NUMBER, "%s%d.%0*d%s", value < 0 ? "-" : "", digits / power, after, digits % power,
-                 tail);
-    else
-        snprintf(text, LONGEST_NUMBER, "%s%d%s", value < 0 ? "-" : "", digits, tail);
-}
 
 /* Lines of at most so many letters, broken at spaces; how many they are. */
 static int wrap(char *text, int letters)
@@ -115,14 +80,14 @@ static struct summary summarize(const struct overlay_scale *scale, const lom_ima
 static void write_summary(const struct overlay_row *row, const struct overlay_scale *scale, const lom_image *numbers,
                           char text[LONGEST_TEXT])
 {
-    char least[LONGEST_NUMBER], mean[LONGEST_NUMBER], greatest[LONGEST_NUMBER];
+    char least[LOM_SHORT_NUMBER], mean[LOM_SHORT_NUMBER], greatest[LOM_SHORT_NUMBER];
     text[0] = '\0';
     if (numbers->format != LOM_FORMAT_R32F || row->look == OVERLAY_LINES)
         return;
     struct summary s = summarize(scale, numbers);
-    print_short(least, s.least);
-    print_short(mean, s.mean);
-    print_short(greatest, s.greatest);
+    lom_print_short(least, s.least);
+    lom_print_short(mean, s.mean);
+    lom_print_short(greatest, s.greatest);
     if (s.count == 0)
         snprintf(text, LONGEST_TEXT, "here: nothing");
     else
@@ -173,8 +138,8 @@ static void write_line(struct page *p, const char *text, int lines)
 /* A tick with its number, unless it would touch the one before, which ends at *taken. */
 static void draw_tick(const struct page *p, const struct overlay_scale *scale, double value, int *taken)
 {
-    char text[LONGEST_NUMBER];
-    print_short(text, value);
+    char text[LOM_SHORT_NUMBER];
+    lom_print_short(text, value);
     int width = lom_text_width(text, p->scale), length = p->right - p->left - 1;
     int x = p->left + lom_int_of(lom_overlay_part(scale, value) * length + 0.5), from = x - width / 2;
     from = from > p->right - width ? p->right - width : from < p->left ? p->left : from;

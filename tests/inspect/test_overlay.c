@@ -3,6 +3,8 @@
  * pixel (lom/record.h); the legend lies where it was asked for. */
 #include "check.h"
 
+#include "image/color_map.h"
+
 #include <lom/lom.h>
 
 enum { WIDTH = 160, HEIGHT = 90 };
@@ -236,6 +238,32 @@ static void work_of_a_tile_is_the_sum_of_its_pixels(void)
     close_scene(&o);
 }
 
+/* Below the bar, from the lowest colour to the highest, a tick for each whole number of 0 to 8. */
+static void the_scale_has_its_ticks(void)
+{
+    enum { MARGIN = 4, LENGTH = WIDTH - 2 * MARGIN };
+    struct open o = open_scene("lake");
+    lom_overlay below = overlay_of(&o, "overdraw", 0, NULL, LOM_LEGEND_BELOW);
+    uint8_t map[256][3];
+    lom_make_color_map(map);
+    int bar = HEIGHT;
+    while (bar < below.shown->height && memcmp(lom_image_pixel(below.shown, MARGIN, bar, 0), map[0], 3) != 0)
+        bar++;
+    CHECK(bar < below.shown->height);
+    CHECK(memcmp(lom_image_pixel(below.shown, WIDTH - MARGIN - 1, bar, 0), map[255], 3) == 0);
+    int ticks = bar;
+    while (ticks < below.shown->height && memcmp(lom_image_pixel(below.shown, MARGIN, ticks, 0), map[0], 3) == 0)
+        ticks++;
+    for (int x = 0; x < WIDTH; x++) {
+        bool is_tick = false;
+        for (int i = 0; i <= 8; i++)
+            is_tick |= x == MARGIN + lom_int_of(i / 8.0 * (LENGTH - 1) + 0.5);
+        CHECK((*(uint8_t *)lom_image_pixel(below.shown, x, ticks, 0) > 200) == is_tick, "column %d", x);
+    }
+    lom_free_overlay(&below);
+    close_scene(&o);
+}
+
 static void legends_lie_where_they_are_asked_for(void)
 {
     struct open o = open_scene("lake");
@@ -271,6 +299,7 @@ int main(int argc, char **argv)
     RUN(what_is_seen_is_that_of_records);
     RUN(counts_are_those_of_records);
     RUN(work_of_a_tile_is_the_sum_of_its_pixels);
+    RUN(the_scale_has_its_ticks);
     RUN(legends_lie_where_they_are_asked_for);
     return check_result();
 }
