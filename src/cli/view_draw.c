@@ -38,12 +38,24 @@ lom_frame_desc lom_view_frame(const struct lom_view *view, int divisor, lom_came
     return desc;
 }
 
-static void add(FILE *out, const char *option, const char *value)
+/* A word as a shell takes it. */
+static void print_word(FILE *out, const char *word)
 {
-    fprintf(out, " %s '", option);
-    for (; *value != '\0'; value++)
-        fputs(*value == '\'' ? "'\\''" : (char[2]){ *value, '\0' }, out);
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:=@%";
+    if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
+        fprintf(out, " %s", word);
+        return;
+    }
+    fputs(" '", out);
+    for (; *word != '\0'; word++)
+        fputs(*word == '\'' ? "'\\''" : (char[2]){ *word, '\0' }, out);
     fputs("'", out);
+}
+
+static void add_setting(FILE *out, const char *setting)
+{
+    fputs(" --set", out);
+    print_word(out, setting);
 }
 
 char *lom_view_command(const struct lom_view *view, lom_error *error)
@@ -55,19 +67,21 @@ char *lom_view_command(const struct lom_view *view, lom_error *error)
         lom_fail(error, LOM_ERROR_MEMORY, "There is no memory for a command.");
         return NULL;
     }
-    fprintf(out, "lom render %s --size %dx%d", view->path, view->width, view->height);
+    fputs("lom render", out);
+    print_word(out, view->path);
+    fprintf(out, " --size %dx%d", view->width, view->height);
     lom_option_list set = view->options.set;
     lom_list_settings(&view->settings, &set);
     for (int i = 0; i < set.count; i++)
         if (strncmp(set.items[i], "camera=", 7) != 0 || view->eye.kind == LOM_EYE_SCENE)
-            add(out, "--set", set.items[i]);
+            add_setting(out, set.items[i]);
     if (view->eye.kind != LOM_EYE_SCENE) {
         char eye[LOM_MAX_SETTING], value[LOM_MAX_SETTING + 8];
         const size_t followed = view->eye.followed;
         lom_print_eye(eye, sizeof eye, &view->eye, followed != 0 ? view->scene->entities[followed - 1].name : NULL,
                       view->scene->camera.near_plane);
         snprintf(value, sizeof value, "camera=%s", eye);
-        add(out, "--set", value);
+        add_setting(out, value);
     }
     if (whole_time(view) != 0)
         fprintf(out, " --frame %d --fps %d", whole_time(view), lom_int_of(scale));
@@ -260,7 +274,9 @@ static void save(struct lom_view *view)
     char *command = name != NULL ? lom_view_command(view, &error) : NULL;
     view->saves = false;
     if (command != NULL && lom_write_image(name, NULL, image, &error)) {
-        printf("%s -o %s\n", command, name);
+        printf("%s -o", command);
+        print_word(stdout, name);
+        printf("\n");
         fflush(stdout);
         lom_tell_view(view, false, "written: %s", name);
     } else {

@@ -18,6 +18,7 @@ struct lom_view_load {
     bool is_done;
     lom_error error;
     struct lom_background *background;
+    bool is_told; /* in the line at the bottom, when it is not done at once */
 };
 
 static void work(void *context)
@@ -94,6 +95,7 @@ static void finish(struct lom_view *view)
 {
     struct lom_view_load *load = view->load;
     view->load = NULL;
+    view->is_unpainted = true;
     lom_join_background(load->background);
     if (load->is_done) {
         show_loaded(view, load);
@@ -115,8 +117,14 @@ void lom_reload_view(struct lom_view *view)
         if (view->load == NULL)
             lom_tell_view(view, true, "%s", error.text);
     }
-    if (view->load != NULL && lom_wait_background(view->load->background, view->host.is_patient ? 1e6 : 0.02))
+    if (view->load == NULL)
+        return;
+    if (lom_wait_background(view->load->background, view->host.is_patient ? 1e6 : 0.02)) {
         finish(view);
+    } else if (!view->load->is_told) {
+        view->load->is_told = true;
+        view->is_unpainted = true;
+    }
 }
 
 void lom_stop_load(struct lom_view *view)

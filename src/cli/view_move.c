@@ -4,6 +4,8 @@
 
 #include "view_menu.h"
 
+#include <string.h>
+
 static const double seconds_between_looks = 0.25; /* at the scene's files */
 
 /* The entity that a camera hides: 1 + its index, 0: none. */
@@ -55,13 +57,14 @@ void lom_use_eye(struct lom_view *view)
     lom_choose_eye(view, followed != 0 ? person : LOM_EYE_FREE, followed);
 }
 
-/* The first entity from index `from` on, around to it again, that has a name and, with `moving`, key frames. 1 + its
- * index; 0: none. */
+/* The first entity from index `from` on, around to it again, that has a name, which a setting can hold as it is, and,
+ * with `moving`, key frames. 1 + its index; 0: none. */
 static size_t find_entity(const lom_scene *scene, size_t from, bool moving)
 {
     for (size_t i = 0; i < scene->entity_count; i++) {
         size_t at = (from + i) % scene->entity_count;
-        if (scene->entities[at].name != NULL && (!moving || scene->entities[at].key_count != 0))
+        const char *name = scene->entities[at].name;
+        if (name != NULL && strpbrk(name, "\"\\") == NULL && (!moving || scene->entities[at].key_count != 0))
             return at + 1;
     }
     return 0;

@@ -42,7 +42,8 @@ answers_are_drawn() { # FILE
 
 without_a_window() {
     exits 0 "$lom" view scene.toml --script "$folder/moves" --no-window && cp "$folder/out" "$folder/headless" &&
-        answers_are_drawn "$folder/headless"
+        answers_are_drawn "$folder/headless" && cp scene.toml "it's a scene.toml" &&
+        exits 0 "$lom" view "it's a scene.toml" --script "$folder/moves" --no-window && answers_are_drawn "$folder/out"
 }
 
 in_a_dummy_window() {
