@@ -208,49 +208,78 @@ static void hint_at_frames(const struct run *run)
 
 /* ---- drawing ---- */
 
-static bool render_once(struct run *run, const char *path, lom_error *error)
-{
-    const struct values *v = run->values;
-    lom_device_desc device = lom_device_of_options(&v->scene);
-    run->scene = lom_open_scene(path, &v->scene, error);
-    if (run->scene == NULL)
-        return false;
-    if (run->watched != NULL)
-        lom_watch_scene(run->watched, run->scene);
-    run->output = (struct lom_frame_output){ v->output, v->format, run->scene->output.fps, NULL };
-    if (!check_run(run, error))
-        return false;
-    run->renderer = lom_create_renderer(run->scene, &device, error);
-    if (run->renderer == NULL)
-        return false;
-    if (!v->quiet)
-        lom_tell_warnings(lom_renderer_warning(run->renderer), lom_renderer_warning_count(run->renderer));
-    hint_at_frames(run);
-    bool done = open_stats(run, error) && draw_frames(run, error);
-    return close_stats(run, done, error) && done;
-}
-
-static void close_run(struct run *run)
+/* What is open of a scene, whose renderer looks at it. */
+static void drop_scene(struct run *run)
 {
     lom_free_renderer(run->renderer);
     lom_free_scene(run->scene);
-    *run = (struct run){ .values = run->values, .watched = run->watched };
+    run->renderer = NULL;
+    run->scene = NULL;
 }
 
-/* After an error in the scene the files of the last good one are watched, since the new ones are not known. */
+/* Gives the run's scene a renderer: another one, or that of the scene before, which is freed. */
+static bool provide_renderer(struct run *run, lom_scene *before, lom_error *error)
+{
+    static const char *const loaded[] = { [LOM_CHANGE_NONE] = "no key is another",
+                                          [LOM_CHANGE_FRAME] = "nothing has to be loaded again",
+                                          [LOM_CHANGE_PART] = "loaded again: ",
+                                          [LOM_CHANGE_ALL] = "everything is loaded again" };
+    const struct values *v = run->values;
+    lom_device_desc device = lom_device_of_options(&v->scene);
+    lom_change change = LOM_CHANGE_ALL;
+    bool is_kept = run->renderer != NULL, done = check_run(run, error);
+    if (done && !is_kept)
+        run->renderer = lom_create_renderer(run->scene, &device, error);
+    done = done && run->renderer != NULL && (!is_kept || lom_change_scene(run->renderer, run->scene, &change, error));
+    if (!done) { /* it still looks at the scene before */
+        lom_free_renderer(run->renderer);
+        run->renderer = NULL;
+    }
+    lom_free_scene(before);
+    if (done && !v->quiet && change >= LOM_CHANGE_PART)
+        lom_tell_warnings(lom_renderer_warning(run->renderer), lom_renderer_warning_count(run->renderer));
+    if (done && is_kept)
+        fprintf(stderr, "lom: %s%s\n", loaded[change],
+                change == LOM_CHANGE_PART ? lom_renderer_loaded(run->renderer) : "");
+    return done;
+}
+
+/* After a failure the run has no scene, unless none could be read. */
+static bool render_once(struct run *run, const char *path, lom_error *error)
+{
+    const struct values *v = run->values;
+    lom_scene *before = run->scene, *scene = lom_open_scene(path, &v->scene, error);
+    if (scene == NULL)
+        return false;
+    if (run->watched != NULL)
+        lom_watch_scene(run->watched, scene);
+    run->scene = scene;
+    run->output = (struct lom_frame_output){ v->output, v->format, scene->output.fps, NULL };
+    bool done = provide_renderer(run, before, error);
+    if (done)
+        hint_at_frames(run);
+    done = done && open_stats(run, error) && draw_frames(run, error);
+    done = close_stats(run, done, error) && done;
+    if (!done)
+        drop_scene(run);
+    return done;
+}
+
+/* After an error in the scene the files of the last good one are watched, since the new ones are not known. A renderer is
+ * kept while the scene file alone is written. */
 static void render_again_and_again(struct run *run, const char *path)
 {
     struct lom_watched *watched = run->watched;
     lom_watch_file(watched, path);
     for (;;) {
         lom_error error = { .code = LOM_OK };
-        lom_look_at_watched(watched);
+        if (lom_look_at_watched(watched))
+            drop_scene(run);
         if (!render_once(run, path, &error))
             lom_complain_error(&error);
         else
             fprintf(stderr, "lom: drawn; waiting for a change (ctrl-C ends)\n");
         fflush(stdout);
-        close_run(run);
         while (!lom_has_changed(watched))
             nanosleep(&(struct timespec){ .tv_nsec = 50000000 }, NULL);
     }
@@ -290,9 +319,8 @@ int lom_command_render(int argc, char **argv)
         render_again_and_again(&run, arguments.items[0]);
     lom_error error = { .code = LOM_OK };
     bool done = render_once(&run, arguments.items[0], &error);
-    bool rejected = run.rejected;
-    close_run(&run);
+    drop_scene(&run);
     if (!done)
         return lom_complain_error(&error);
-    return rejected ? LOM_EXIT_DIFFERS : LOM_EXIT_DONE;
+    return run.rejected ? LOM_EXIT_DIFFERS : LOM_EXIT_DONE;
 }

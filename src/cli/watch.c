@@ -19,10 +19,15 @@ static uint64_t facts_of(const char *path)
     return lom_hash_bytes(LOM_HASH_START, facts, sizeof facts);
 }
 
-void lom_look_at_watched(struct lom_watched *w)
+bool lom_look_at_watched(struct lom_watched *w)
 {
-    for (size_t i = 0; i < w->count; i++)
-        w->facts[i] = facts_of(w->path[i]);
+    bool named = false;
+    for (size_t i = 0; i < w->count; i++) {
+        uint64_t facts = facts_of(w->path[i]);
+        named |= i > 0 && facts != w->facts[i];
+        w->facts[i] = facts;
+    }
+    return named;
 }
 
 static bool has_changed_from(const struct lom_watched *w, size_t i)
@@ -76,16 +81,32 @@ void lom_forget_watched(struct lom_watched *w)
     w->count = 0;
 }
 
+/* Those of the files that both name are as they were before. */
+static void keep_facts(struct lom_watched *w, const struct lom_watched *before)
+{
+    for (size_t i = 0; i < w->count; i++)
+        for (size_t k = 0; k < before->count; k++)
+            if (strcmp(w->path[i], before->path[k]) == 0) {
+                w->facts[i] = before->facts[k];
+                break;
+            }
+}
+
 void lom_watch_scene(struct lom_watched *w, const lom_scene *scene)
 {
     size_t count = 0;
     const char *const *files = lom_scene_files(scene, &count);
-    uint64_t facts = w->facts[0];
-    lom_forget_watched(w);
+    struct lom_watched *before = lom_allocate(1, sizeof *before, NULL);
+    if (before == NULL)
+        return; /* what was watched still is */
+    *before = *w;
+    w->count = 0;
     for (size_t i = 0; i < count; i++) {
         lom_watch_file(w, files[i]);
         if (is_mesh(scene, files[i]))
             watch_mesh(w, files[i]);
     }
-    w->facts[0] = facts;
+    keep_facts(w, before);
+    lom_forget_watched(before);
+    lom_release(before);
 }

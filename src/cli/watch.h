@@ -15,11 +15,11 @@ struct lom_watched {
 
 /* One more, with its facts of now. What lies beyond LOM_MAX_WATCHED is not looked at. */
 void lom_watch_file(struct lom_watched *watched, const char *path);
-/* Of a scene that has been read and whose files have not: their facts are taken now and the scene's own, the first, have
- * been before, so that a change while they are read or drawn is seen. */
+/* Of a scene that has been read: those that were watched before keep their facts, of the others, which have not been
+ * read, they are taken now. So a change while files are read or drawn is seen. */
 void lom_watch_scene(struct lom_watched *watched, const lom_scene *scene);
-/* Takes the facts of now. */
-void lom_look_at_watched(struct lom_watched *watched);
+/* Takes the facts of now; whether those of a file that the scene names, and not only of the scene file, are others. */
+bool lom_look_at_watched(struct lom_watched *watched);
 bool lom_has_changed(const struct lom_watched *watched);
 /* Whether one that the scene names has, and not only the scene file. */
 bool lom_has_named_file_changed(const struct lom_watched *watched);

@@ -50,6 +50,24 @@ first_picture() {
     waits 'lom: drawn' 1 && [ -s out.ppm ]
 }
 
+# TEXT COMMAND...: after the command changes a file TEXT says what was loaded, and the picture is that of a new renderer.
+loads_after() {
+    text=$1
+    shift
+    before=$(grep -c "lom: $text" "$folder/err")
+    draws_after "$@" && [ "$(grep -c "lom: $text" "$folder/err")" -gt "$before" ] || return 1
+    "$lom" render scene.toml -o "$folder/right.ppm" --quiet && cmp out.ppm "$folder/right.ppm"
+}
+
+# A key that frames look up, one of a part, one that everything depends on; then a file, for which all is loaded anew.
+loads_what_it_must() {
+    cp scene.toml good
+    loads_after 'nothing has to be loaded again' change scene.toml 's/0, 2, 5/1, 3, 5/' &&
+        loads_after 'loaded again: entities' change scene.toml 's/^mesh = .*/&\nscale = 1.5/' &&
+        loads_after 'everything is loaded again' put scene.toml "$(cat scene.toml)\n[quality]\nwater = \"reference\"\n" &&
+        draws_after cp good scene.toml
+}
+
 # FILE, a sed command that changes the picture, and what makes the file a bad one.
 changes_and_mistakes() {
     cp "$1" good
@@ -102,6 +120,7 @@ check the_scene_and_its_mistakes changes_and_mistakes scene.toml 's/0, 2, 5/1, 2
 check the_mesh_and_its_mistakes changes_and_mistakes box.obj 's/v 0 2 0/v 0 3 0/' 'mtllib box.mtl\nf 1 2 3\n'
 check the_materials_and_their_mistakes changes_and_mistakes box.mtl 's/Kd 1 1 1/Kd 0.2 1 0.2/' 'newmtl skin\nKd x\n'
 check a_picture_that_cannot_be_read_is_left_out changes_and_is_left_out skin.ppm 's/^P6 2 2/P6 1 4/' 'P6 1 1\n'
+check loads_what_it_must loads_what_it_must
 check changes_while_it_draws changes_while_it_draws
 check waits_for_a_scene_that_is_not_there waits_for_the_scene
 exit $failures
