@@ -413,6 +413,14 @@ $(BUILD)/bench/particles: bench/particles.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) $(CPPFLAGS) -Isrc $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
+# A changed key of flight and lake (bench/results/change.md).
+bench-change: $(BUILD)/bench/change
+	BUILD='$(BUILD)' bench/change.sh
+
+$(BUILD)/bench/change: bench/change.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
 # Steps of shallow water (bench/results/shallow.md).
 bench-shallow: $(BUILD)/bench/shallow
 	BUILD='$(BUILD)' bench/shallow.sh

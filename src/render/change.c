@@ -89,7 +89,6 @@ static void go_back(struct change *c)
     lom_set_device_filtering(r->device, c->scene_before->quality.filtering);
     if (!has_new_world(c))
         lom_follow_scene(r->world, c->scene_before);
-    r->moment.scene = *c->scene_before;
 }
 
 /* The names of the rooms that were loaded. */

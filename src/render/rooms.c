@@ -7,6 +7,11 @@ static bool has_sky(const lom_scene *scene)
     return scene->sky.present;
 }
 
+static bool has_sun(const lom_scene *scene)
+{
+    return scene->sky.sun;
+}
+
 static bool has_terrain(const lom_scene *scene)
 {
     return scene->terrain.present;
@@ -39,7 +44,8 @@ static bool has_drops(const lom_scene *scene)
 
 /* The bed of the water is the ground's, and waves may carry the water's maps. */
 const struct lom_room lom_rooms[LOM_ROOMS] = {
-    { LOM_PART_SKY, "sky", MEMBERS(sky, sky), has_sky, lom_load_sky, lom_free_sky },
+    { LOM_PART_SKY, "sky", MEMBERS(sky.box, sky.box), has_sky, lom_load_sky, lom_free_sky },
+    { LOM_PART_SUN, "sun", MEMBERS(sky.sun, sky.sun), has_sun, lom_load_sun, lom_free_sun },
     { LOM_PART_GROUND, "ground", MEMBERS(ground, ground), has_terrain, lom_load_ground, lom_free_ground },
     { LOM_PART_GROUND_MAPS, "maps of the ground", MEMBERS(ground_maps, ground_maps), has_terrain, lom_load_ground_maps,
       lom_free_ground_maps },

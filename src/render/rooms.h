@@ -9,24 +9,25 @@ enum {
     LOM_PART_HEIGHTS = 1 << 0,  /* of the terrain, in the world */
     LOM_PART_TEXTURES = 1 << 1, /* of pictures, wherever they are used */
     LOM_PART_SKY = 1 << 2,
-    LOM_PART_GROUND = 1 << 3,
-    LOM_PART_GROUND_MAPS = 1 << 4,
-    LOM_PART_ENTITIES = 1 << 5, /* in the world and as they are drawn */
-    LOM_PART_WATER_MAPS = 1 << 6,
-    LOM_PART_FOAM = 1 << 7,
-    LOM_PART_BED = 1 << 8,
-    LOM_PART_WAVES = 1 << 9,
-    LOM_PART_CLOUDS = 1 << 10,
-    LOM_PART_SPRAY = 1 << 11,
-    LOM_PART_FOLLOWED = 1 << 12, /* the waves of bodies that go with an entity */
-    LOM_PARTS_LOADED = (1 << 13) - 1,
+    LOM_PART_SUN = 1 << 3, /* its picture */
+    LOM_PART_GROUND = 1 << 4,
+    LOM_PART_GROUND_MAPS = 1 << 5,
+    LOM_PART_ENTITIES = 1 << 6, /* in the world and as they are drawn */
+    LOM_PART_WATER_MAPS = 1 << 7,
+    LOM_PART_FOAM = 1 << 8,
+    LOM_PART_BED = 1 << 9,
+    LOM_PART_WAVES = 1 << 10,
+    LOM_PART_CLOUDS = 1 << 11,
+    LOM_PART_SPRAY = 1 << 12,
+    LOM_PART_FOLLOWED = 1 << 13, /* the waves of bodies that go with an entity */
+    LOM_PARTS_LOADED = (1 << 14) - 1,
     /* What frames make for the frames after them. */
-    LOM_PART_GROUND_SHADOW = 1 << 13,
-    LOM_PART_ENTITY_SHADOWS = 1 << 14,
-    LOM_PART_CAUSTICS = 1 << 15,
-    LOM_PART_CLOUD_LIGHT = 1 << 16,
-    LOM_PART_TARGETS = 1 << 17,
-    LOM_PARTS_ALL = (1 << 18) - 1
+    LOM_PART_GROUND_SHADOW = 1 << 14,
+    LOM_PART_ENTITY_SHADOWS = 1 << 15,
+    LOM_PART_CAUSTICS = 1 << 16,
+    LOM_PART_CLOUD_LIGHT = 1 << 17,
+    LOM_PART_TARGETS = 1 << 18,
+    LOM_PARTS_ALL = (1 << 19) - 1
 };
 
 /* A part that is loaded: the members of a renderer that are its own, from which load makes it when they are zeros. */
@@ -39,7 +40,7 @@ struct lom_room {
     void (*free)(lom_renderer *renderer); /* also after a load that failed; the members are of no use then */
 };
 
-enum { LOM_ROOMS = 10 };
+enum { LOM_ROOMS = 11 };
 extern const struct lom_room lom_rooms[LOM_ROOMS]; /* in the order in which they are loaded */
 
 /* Loads these parts of the renderer's world. */

@@ -4,7 +4,7 @@
 #include "render/renderer.h"
 #include "sky/sky_draw.h"
 
-static bool load_sun(lom_renderer *renderer, lom_error *error)
+bool lom_load_sun(lom_renderer *renderer, lom_error *error)
 {
     enum { SIZE = 256 };
     if (!renderer->scene->sky.sun)
@@ -22,7 +22,7 @@ static bool load_sun(lom_renderer *renderer, lom_error *error)
     return renderer->sky.sun != NULL;
 }
 
-static bool load_box(lom_renderer *renderer, lom_error *error)
+bool lom_load_sky(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     if (!scene->sky.present || scene->sky.faces[0] == NULL)
@@ -34,14 +34,13 @@ static bool load_box(lom_renderer *renderer, lom_error *error)
     return renderer->sky.box != NULL && lom_check_device(renderer->device, error);
 }
 
-bool lom_load_sky(lom_renderer *renderer, lom_error *error)
-{
-    return load_box(renderer, error) && load_sun(renderer, error);
-}
-
 void lom_free_sky(lom_renderer *renderer)
 {
     lom_release_texture(renderer->device, renderer->sky.box);
+}
+
+void lom_free_sun(lom_renderer *renderer)
+{
     lom_release_texture(renderer->device, renderer->sky.sun);
 }
 

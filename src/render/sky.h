@@ -10,7 +10,9 @@ struct lom_drawn_sky {
 };
 
 bool lom_load_sky(lom_renderer *renderer, lom_error *error);
+bool lom_load_sun(lom_renderer *renderer, lom_error *error);
 void lom_free_sky(lom_renderer *renderer);
+void lom_free_sun(lom_renderer *renderer);
 /* Draws the sky and the sun behind everything that the pass holds. */
 void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_light_uniform *light);
 

@@ -74,6 +74,22 @@ static bool is_hidden(const lom_scene *scene, const lom_entity *entity)
            entity == &scene->entities[camera->followed - 1];
 }
 
+/* Where the same entity of the world before stood, when that was the same place on the same ground: the height map need
+ * not be read again. */
+static bool keep_home(const struct lom_world *world, struct lom_world_entity *entity)
+{
+    const struct lom_world *before = world->before;
+    const size_t number = world->entity_count - 1;
+    if (before == NULL || before->heights != world->heights || number >= before->entity_count)
+        return false;
+    const struct lom_world_entity *other = &before->entities[number];
+    const lom_vec3 a = entity->entity->position, b = other->entity->position;
+    if (!other->entity->on_ground || a.x != b.x || a.y != b.y || a.z != b.z)
+        return false;
+    entity->home = other->home;
+    return true;
+}
+
 /* Where it stands, and the camera's place in it. */
 static bool put(struct lom_world *world, struct lom_world_entity *entity, lom_error *error)
 {
@@ -81,7 +97,7 @@ static bool put(struct lom_world *world, struct lom_world_entity *entity, lom_er
     const lom_terrain *t = &world->scene->terrain;
     struct lom_placement placement;
     entity->home = source->position;
-    if (source->on_ground && t->present) {
+    if (source->on_ground && t->present && !keep_home(world, entity)) {
         const lom_image *map = lom_world_height_map(world, error);
         if (map == NULL)
             return false;
