@@ -78,14 +78,26 @@ script_is() { # TEXT COMPLAINT
     refuses "bad:$2" "$lom" view scene.toml --no-window --script "$folder/bad"
 }
 
+# Without text the window is the picture; what is clicked is explained; a slow picture that moves is smaller.
+what_a_window_shows() {
+    printf '0 key h\n0 window shown.png\n1 wheel 2\n3 key v\n3 window pass.png\n4 key escape\n5 click 24 16\n5 message\n6 cost 100\n6 press a\n8 hash\n8 window moving.png\n' >"$folder/show"
+    exits 0 "$lom" view scene.toml --script "$folder/show" --no-window || return 1
+    says '24,16: ' && says '24x16 moving' && says 'wrote this' || return 1
+    "$lom" render scene.toml -o right.png --quiet && "$lom" compare shown.png right.png && [ -s pass.png ] &&
+        [ -s moving.png ] && ! "$lom" compare shown.png moving.png
+}
+
 bad_scripts() {
     script_is '0 hash\nhash 1\n' '2: a line begins' && script_is '0 jump\n' '1: there is no such command' &&
         script_is '3 hash\n2 hash\n' '2: its frame comes before' && script_is '0 press ctrl\n' '1: there is no such key' &&
         script_is '0 click 3\n' '1: the command takes another' && script_is '0 size 3 x\n' '1: an integer is missing' &&
+        script_is '# nothing\n\n0 hash\n0 hash and\n' '4: the command takes another' &&
         script_is '-1 hash\n' '1: a line begins'
 }
 
 bad_options() {
+    printf '0 hash\n1 size 0 5\n' >"$folder/size_script"
+    exits 2 "$lom" view scene.toml --no-window --script "$folder/size_script" && complains 'from 1x1' &&
     refuses 'wants a --script' "$lom" view scene.toml --no-window && refuses 'no --crop' "$lom" view scene.toml --crop 0,0,8,8 &&
         refuses 'standard input' "$lom" view - --no-window --script "$folder/moves" &&
         refuses 'none.toml' "$lom" view none.toml --no-window --script "$folder/moves"
@@ -147,10 +159,16 @@ real_window() {
 check without_a_window without_a_window
 check a_recorded_flight recorded
 check a_screenshot_is_the_picture_of_its_command screenshot
+check what_a_window_shows what_a_window_shows
 check bad_scripts_are_refused bad_scripts
 check bad_options_are_refused bad_options
 check the_page_has_the_keys page_has_the_keys
+no_display() {
+    refuses 'no window can be opened' env -u DISPLAY SDL_VIDEODRIVER=x11 "$lom" view scene.toml
+}
+
 if has_window; then
+    check no_display_is_said no_display
     check in_a_dummy_window in_a_dummy_window
 else
     check says_that_it_has_no_window says_that_it_has_no_window
@@ -161,18 +179,34 @@ if ! command -v Xvfb >/dev/null || ! command -v xdotool >/dev/null || ! command 
     echo "SKIP view under Xvfb: wants Xvfb, xdotool and ImageMagick's import"
     exit $failures
 fi
-Xvfb -displayfd 3 -screen 0 400x300x24 3>"$folder/display" 2>"$folder/xvfb.log" &
-server=$!
+# Pixels of two bytes are converted.
+shallow_window() {
+    "$lom" view scene.toml --size 200x120 >"$folder/view.out" 2>"$folder/view.err" &
+    viewer=$!
+    picture_other_than "$black" >"$folder/start" && xdotool click 4 && picture_other_than "$(cat "$folder/start")" &&
+        xdotool key Escape && wait $viewer
+}
+
+server=
 viewer=
 trap 'kill $server $viewer 2>/dev/null; rm -rf "$folder"' EXIT
-tries=0
-while [ ! -s "$folder/display" ] && [ $tries -lt 50 ]; do sleep 0.1; tries=$((tries + 1)); done
-if [ -s "$folder/display" ]; then
+
+# on_a_screen BITS CHECK: in a server with so many bits a pixel.
+on_a_screen() {
+    : >"$folder/display"
+    Xvfb -displayfd 3 -screen 0 "400x300x$1" 3>"$folder/display" 2>"$folder/xvfb.log" &
+    server=$!
+    tries=0
+    while [ ! -s "$folder/display" ] && [ $tries -lt 50 ]; do sleep 0.1; tries=$((tries + 1)); done
+    [ -s "$folder/display" ] || { echo "SKIP $2: no X server starts here"; return; }
     DISPLAY=:$(cat "$folder/display")
     export DISPLAY
     black=$(import -window root ppm:- | cksum)
-    check keys_and_mouse_of_a_real_window real_window
-else
-    echo "SKIP view under Xvfb: no server starts here"
-fi
+    check "$2" "$2"
+    kill "$server"
+    wait "$server" 2>/dev/null
+}
+
+on_a_screen 24 real_window
+on_a_screen 16 shallow_window
 exit $failures
