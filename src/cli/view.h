@@ -46,6 +46,9 @@ struct lom_view_event {
     int key, x, y;
 };
 
+/* What a scene that is of another format has besides. */
+#define LOM_VIEW_FORMAT "output.format=\"rgb8\""
+
 /* Who shows it. */
 struct lom_view_host {
     lom_pixel_order order;               /* of the pixels that lom_paint_view writes: RGBX or BGRX */
@@ -95,7 +98,8 @@ struct lom_view {
 
     lom_scene *scene;
     lom_renderer *renderer;
-    lom_camera camera; /* the file's */
+    lom_camera camera;    /* the file's */
+    bool is_other_format; /* than rgb8, in the file: it has LOM_VIEW_FORMAT besides */
     struct lom_watched *watched;
     double since_look;                  /* seconds since the files were looked at */
     struct lom_view_load *load;         /* a scene that is being read; NULL: none */

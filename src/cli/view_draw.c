@@ -83,6 +83,8 @@ char *lom_view_command(const struct lom_view *view, lom_error *error)
         snprintf(value, sizeof value, "camera=%s", eye);
         add_setting(out, value);
     }
+    if (view->is_other_format)
+        add_setting(out, LOM_VIEW_FORMAT);
     if (whole_time(view) != 0)
         fprintf(out, " --frame %d --fps %d", whole_time(view), lom_int_of(scale));
     if (fclose(out) == 0)

@@ -15,7 +15,7 @@ struct lom_view_load {
     struct lom_watched *watched; /* NULL: the scene names the files that it named before */
     lom_scene *scene;
     lom_renderer *renderer; /* the view's, which nobody else uses meanwhile; NULL: another one is to be made */
-    bool is_done;
+    bool is_done, is_other_format;
     lom_error error;
     struct lom_background *background;
     bool is_told; /* in the line at the bottom, when it is not done at once */
@@ -26,6 +26,13 @@ static void work(void *context)
     struct lom_view_load *load = context;
     lom_device_desc device = lom_device_of_options(&load->options);
     load->scene = lom_open_scene(load->path, &load->options, &load->error);
+    load->is_other_format = load->scene != NULL && load->scene->output.format != LOM_OUTPUT_RGB8 &&
+                            load->options.set.count < LOM_OPTION_LIST_MAX;
+    if (load->is_other_format) {
+        load->options.set.items[load->options.set.count++] = LOM_VIEW_FORMAT;
+        lom_free_scene(load->scene);
+        load->scene = lom_open_scene(load->path, &load->options, &load->error);
+    }
     if (load->scene == NULL)
         return;
     if (load->watched != NULL)
@@ -40,15 +47,12 @@ static void work(void *context)
 
 static struct lom_view_load *begin(struct lom_view *view, lom_error *error)
 {
-    static const char format[] = "output.format=\"rgb8\""; /* what a window shows */
     struct lom_view_load *load = lom_allocate(1, sizeof *load, error);
     if (load == NULL)
         return NULL;
     load->path = view->path;
     load->options = view->options;
     load->settings = view->settings;
-    if (load->options.set.count < LOM_OPTION_LIST_MAX)
-        load->options.set.items[load->options.set.count++] = format;
     lom_list_settings(&load->settings, &load->options.set);
     view->is_file_new = view->is_file_new || view->renderer == NULL || lom_has_changed(view->watched);
     view->needs_renderer = view->needs_renderer || lom_has_named_file_changed(view->watched);
@@ -78,6 +82,7 @@ static void show_loaded(struct lom_view *view, struct lom_view_load *load)
     view->is_file_new = view->needs_renderer = false;
     view->renderer = load->renderer;
     view->scene = load->scene;
+    view->is_other_format = load->is_other_format;
     view->good = load->settings;
     if (lom_find_setting(&load->settings, "camera") == NULL)
         view->camera = view->scene->camera;

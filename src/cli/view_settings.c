@@ -17,9 +17,12 @@ bool lom_set_setting(struct lom_settings *settings, const char *key, const char 
     int at = find(settings, key);
     if (at < 0)
         at = settings->count;
-    if (at == LOM_MAX_SETTINGS || strlen(key) + 1 + strlen(value) >= LOM_MAX_SETTING)
+    const size_t length = strlen(key), size = strlen(value) + 1;
+    if (at == LOM_MAX_SETTINGS || length + 1 + size > LOM_MAX_SETTING)
         return false;
-    snprintf(settings->text[at], LOM_MAX_SETTING, "%s=%s", key, value);
+    memcpy(settings->text[at], key, length);
+    settings->text[at][length] = '=';
+    memcpy(settings->text[at] + length + 1, value, size);
     settings->count += at == settings->count;
     return true;
 }

@@ -67,6 +67,15 @@ screenshot() {
     done
 }
 
+# Of a scene with deep pixels 8 bits are shown, and its command says so.
+deep_screenshot() {
+    sed 's/^width = 48/format = "rgb16"\nwidth = 48/' scene.toml >deep.toml
+    printf '1 key p\n1 message\n' | exits 0 "$lom" view deep.toml --script - --no-window && says 'deep-1.png' || return 1
+    cp deep-1.png shot.png
+    command=$(sed -n 's/^lom \(render .*deep-1.png\)$/\1/p' "$folder/out")
+    eval "\"\$lom\" $command --quiet" && cmp shot.png deep-1.png
+}
+
 refuses() { # TEXT COMMAND...: exit 2 with that text and nothing written
     text=$1
     shift
@@ -159,6 +168,7 @@ real_window() {
 check without_a_window without_a_window
 check a_recorded_flight recorded
 check a_screenshot_is_the_picture_of_its_command screenshot
+check a_screenshot_of_deep_pixels deep_screenshot
 check what_a_window_shows what_a_window_shows
 check bad_scripts_are_refused bad_scripts
 check bad_options_are_refused bad_options
