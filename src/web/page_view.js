@@ -6,7 +6,7 @@ const { name, hash: native } = JSON.parse(element('known').textContent);
 const canvas = element('picture'), slider = element('step'), pen = canvas.getContext('2d');
 const worker = new Worker(URL.createObjectURL(new Blob([element('worker').textContent], { type: 'text/javascript' })));
 const waiting = new Map(), pictures = new Map();
-let number = 0, facts, picture, steps = [], shown, marked = null, wanted = null, busy = false;
+let number = 0, facts, picture, steps = [], at = 0, shown, marked = null, wanted = null, busy = false;
 
 worker.onmessage = ({ data }) => {
     waiting.get(data.number)(data);
@@ -25,13 +25,16 @@ function ask(...words) {
 
 const text_of = bytes => new TextDecoder().decode(bytes);
 
+/** Whether a step's picture has the pixels of the lesson's at their places. */
+const has_pixels = step => !/^\/stages-(mesh|vertex|clip|coverage-detail|level-.*|texture-.*)\.png$/.test(step?.file);
+
 /** The picture, and a frame around the pixel that is explained. */
 function paint() {
     canvas.width = shown.width;
     canvas.height = shown.height;
     pen.drawImage(shown, 0, 0);
     const zoom = shown.width / facts.width;
-    if (marked === null || zoom * facts.height !== shown.height) return; // else it is no picture of pixels
+    if (marked === null || !has_pixels(steps[at])) return;
     pen.lineWidth = zoom;
     for (const [color, far] of [['#000', 2.5], ['#fff', 1.5]]) {
         pen.strokeStyle = color;
@@ -51,7 +54,7 @@ function keep({ files }) {
 }
 
 /** What the picture of a step shows: its text, the colours that it has. */
-function tell(at) {
+function tell() {
     const { title, text, source, scale, legend = [] } = steps[at], color = numbers => `rgb(${numbers.join(',')})`;
     const make = (tag, words) => Object.assign(document.createElement(tag), { textContent: words });
     const parts = legend.map(row => {
@@ -78,11 +81,11 @@ async function show_step(index) {
     busy = true;
     try {
         while (wanted !== null) {
-            const at = wanted;
+            at = wanted;
             wanted = null;
             shown = await draw_step(steps[at]);
             paint();
-            tell(at);
+            tell();
         }
     } catch (error) {
         element('label').textContent = error.message;
@@ -92,12 +95,12 @@ async function show_step(index) {
 
 /** The slider's steps; at the last one it stays at the last one. */
 function offer(list) {
-    const at = slider.disabled || Number(slider.value) === steps.length - 1 ? list.length - 1 : Number(slider.value);
+    at = slider.disabled || Number(slider.value) === steps.length - 1 ? list.length - 1 : Number(slider.value);
     steps = list;
     slider.max = list.length - 1;
     slider.value = at;
     slider.disabled = false;
-    tell(at);
+    tell();
 }
 
 function go(index) {
@@ -146,7 +149,7 @@ element('back').onclick = () => go(Number(slider.value) - 1);
 element('next').onclick = () => go(Number(slider.value) + 1);
 canvas.onclick = event => {
     const box = canvas.getBoundingClientRect();
-    if (steps.length > 0) explain(Math.floor((event.clientX - box.left) / box.width * facts.width),
+    if (steps.length > 0 && has_pixels(steps[at])) explain(Math.floor((event.clientX - box.left) / box.width * facts.width),
         Math.floor((event.clientY - box.top) / box.height * facts.height));
 };
 begin().catch(error => { element('status').textContent = `The lesson did not draw: ${error.message}`; });
