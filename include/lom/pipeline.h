@@ -341,6 +341,7 @@ typedef struct lom_pass_desc {
         *color[LOM_MAX_COLORS];    /* 2D textures of one size, made without pixels; NULL from the first unused one on */
     lom_texture *depth;            /* depth format, same size; NULL: no depth test */
     int samples;                   /* of a pixel, lom_sample_position; 0: 1 */
+    bool per_sample;               /* of all its draws */
     int frame_width, frame_height; /* the whole frame; 0: the attachments' size */
     int origin_x, origin_y;        /* the frame's pixel that the attachments' pixel (0, 0) is */
     lom_rect viewport;             /* of the frame; empty: the whole frame; at most 32768 x 32768 */

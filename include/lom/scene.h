@@ -29,6 +29,7 @@ typedef struct lom_output {
     int frames;               /* how many frames the animation has, from 1 */
     double fps;               /* frame n shows the time n / fps, in seconds */
     int samples;              /* a pixel: 1, 2, 4, 8, 16 (lom/pipeline.h); 0: 1 */
+    bool sample_shading;      /* each of them is shaded */
 } lom_output;
 
 /* ---- [camera] ---- */

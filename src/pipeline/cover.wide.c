@@ -1,7 +1,8 @@
 /* Stage 5 of 7 for small triangles, its first half. In: the triangles of a tile that are drawn together. Out: their
  * slots, and a code for each pixel they cover, in order.
  *
- * Invariant: the pixels are those of raster.wide.c, which draws the same triangles one by one. Loops over triangles have
+ * Invariant: the pixels are those of raster.wide.c, which draws the same triangles one by one; with several samples, at least
+ * those of raster_samples.wide.c. Loops over triangles have
  * no branch that depends on a mask: it would be guessed wrong too often. */
 #include "lanes/pair_products.h"
 #include "pipeline/slots.h"
@@ -31,6 +32,15 @@ LOM_INLINE lom_int bias_lanes(lom_int dx, lom_int dy)
     return ~((dx > 0) | ((dx == 0) & (dy > 0)));
 }
 
+/* How far an edge function of these steps, over 256, rises from a pixel's centre to one of its samples. */
+LOM_INLINE lom_int reach_lanes(const struct lom_pass *pass, lom_int dx, lom_int dy)
+{
+    lom_int most = dx * pass->offset[0].x + dy * pass->offset[0].y;
+    for (int s = 1; s < pass->samples; s++)
+        most = lom_max_int(most, dx * pass->offset[s].x + dy * pass->offset[s].y);
+    return most << (SUBPIXEL_BITS - 4);
+}
+
 /* LOM_LANES slots; the records' words are those of lom_triangle. */
 static void fill_packet(struct lom_tile *tile, int first)
 {
@@ -48,6 +58,11 @@ static void fill_packet(struct lom_tile *tile, int first)
     lom_int start1 = lom_as_int(start.y) + (lom_dot_pairs(to_tile, pair1) << SUBPIXEL_BITS);
     lom_int start2 = lom_as_int(start.z) + (lom_dot_pairs(to_tile, pair2) << SUBPIXEL_BITS);
     lom_int bias1 = bias_lanes(dx1, dy1), bias2 = bias_lanes(dx2, dy2), bias0 = bias_lanes(-dx1 - dx2, -dy1 - dy2);
+    if (tile->pass->samples > 1) { /* pixels of which a sample may be inside: pack_samples.wide.c sees which */
+        bias1 += reach_lanes(tile->pass, dx1, dy1);
+        bias2 += reach_lanes(tile->pass, dx2, dy2);
+        bias0 += reach_lanes(tile->pass, -dx1 - dx2, -dy1 - dy2);
+    }
     lom_float z0 = plane.y, z1 = z0 + plane.z, z2 = z0 + plane.w;
     store_slots(slots, SLOT_STEP1, first,
                 (lom_float4){ lom_as_float(pair1), lom_as_float(pair2), lom_as_float(start1), lom_as_float(start2) });
@@ -218,7 +233,7 @@ int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from)
             lom_load_int(tile->offset + part * LOM_LANES) + (lane_x(part) << CODE_X) + (lane_y(part) << CODE_Y);
     int32_t *to = list->code + list->count, *end = list->code + LIST_SIZE;
     int slot = from, triangles = list->triangles;
-    const uint32_t fewest = tile->tests_early ? TESTED_PARTS : UINT32_MAX;
+    const uint32_t fewest = tile->tests_early && tile->pass->samples == 1 ? TESTED_PARTS : UINT32_MAX;
     for (; slot < triangles && to < end; slot++) {
         uint32_t state = (uint32_t)words[slot_word(SLOT_STATE, slot)];
         uint32_t parts = (uint32_t)words[slot_word(SLOT_PARTS, slot)];

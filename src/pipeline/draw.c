@@ -197,6 +197,7 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     for (int i = 0; i < pass->colors; i++)
         draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
     draw->output = output_of(pass, desc);
+    desc->per_sample = (desc->per_sample || pass->desc.per_sample) && pass->samples > 1;
     draw->sampled = pass->samples > 1 || desc->alpha_to_coverage;
     draw->constant = !pass->is_recorded && pass->samples == 1 && shader->fragment[draw->variant] != NULL &&
                      shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&

@@ -149,22 +149,28 @@ static void write_float(struct lom_tile *tile, const struct lom_places *places, 
     }
 }
 
+void LOM_WIDE(lom_write_color)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
+                               const lom_float4 *color, int i)
+{
+    switch (tile->pass->color[i].kind) {
+    case COLOR_UNORM8:
+        write_unorm8(tile, places, *mask, color, i);
+        break;
+    case COLOR_SRGB8:
+        write_srgb8(tile, places, *mask, color, i);
+        break;
+    case COLOR_FLOAT:
+        write_float(tile, places, *mask, color, i);
+        break;
+    }
+}
+
 static __attribute__((noinline)) void write_all(struct lom_tile *tile, const struct lom_places *places,
                                                 const lom_mask *mask, const lom_float4 *color)
 {
     int outputs = tile->draw->desc.shader->colors;
     for (int i = 0; i < tile->pass->colors && i < outputs; i++)
-        switch (tile->pass->color[i].kind) {
-        case COLOR_UNORM8:
-            write_unorm8(tile, places, *mask, &color[i], i);
-            break;
-        case COLOR_SRGB8:
-            write_srgb8(tile, places, *mask, &color[i], i);
-            break;
-        case COLOR_FLOAT:
-            write_float(tile, places, *mask, &color[i], i);
-            break;
-        }
+        LOM_WIDE(lom_write_color)(tile, places, mask, &color[i], i);
 }
 
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,

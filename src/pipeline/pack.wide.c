@@ -3,69 +3,7 @@
  *
  * Invariant: weights and depths are those of early.wide.c and raster.wide.c, which draw the same triangles one by one;
  * fragments at one pixel are tested in their order. */
-#include "lanes/pair_products.h"
-#include "pipeline/slots.h"
-
-LOM_INLINE int slot_of(int32_t code)
-{
-    return (int)((uint32_t)code >> CODE_TRIANGLE);
-}
-
-/* Entries from `at` on, before `end`: as many as there are lanes, or as lie in so many slots. */
-LOM_INLINE struct packed take(const struct lom_list *list, int at, int end)
-{
-    const int32_t *code = list->code + at;
-    struct packed p = { .code = lom_load_int(code), .first = slot_of(code[0]), .count = LOM_LANES };
-    int last = at + LOM_LANES <= end ? slot_of(code[LOM_LANES - 1]) : p.first + LOM_LANES;
-    if (last - p.first >= LOM_LANES) {
-        for (p.count = 1; at + p.count < end && p.count < LOM_LANES && slot_of(code[p.count]) < p.first + LOM_LANES;)
-            p.count++;
-        last = slot_of(code[p.count - 1]);
-        p.code = lom_select_int(lom_lane_index() < p.count, p.code, lom_splat_int(code[p.count - 1]));
-    }
-    p.which = (lom_int)((lom_uint)p.code >> CODE_TRIANGLE) - p.first;
-    p.triangles = last - p.first + 1;
-    return p;
-}
-
-LOM_INLINE lom_int pixel_of(lom_int code)
-{
-    return code & ((1 << CODE_X) - 1);
-}
-
-/* Weights, of which l[0] is found only where somebody reads it. */
-LOM_INLINE void weigh(const struct lom_list *list, const struct packed *p, lom_float l[3])
-{
-    lom_float4 edge = load_slots(list->slots, SLOT_STEP1, p->first, p->which);
-    lom_float4 plane = load_slots(list->slots, SLOT_AREA, p->first, p->which);
-    lom_int at = lom_make_pair(p->code >> CODE_X & 63, p->code >> CODE_Y & 63);
-    lom_int e1 = lom_as_int(edge.z) + (lom_dot_pairs(at, lom_as_int(edge.x)) << SUBPIXEL_BITS);
-    lom_int e2 = lom_as_int(edge.w) + (lom_dot_pairs(at, lom_as_int(edge.y)) << SUBPIXEL_BITS);
-    l[0] = lom_to_float(lom_as_int(plane.x) - e1 - e2) * plane.y;
-    l[1] = lom_to_float(e1) * plane.y;
-    l[2] = lom_to_float(e2) * plane.y;
-}
-
-LOM_INLINE lom_float find_depth_lanes(const struct lom_list *list, const struct packed *p, const lom_float l[3])
-{
-    lom_float4 plane = load_slots(list->slots, SLOT_AREA, p->first, p->which);
-    lom_float4 more = load_slots(list->slots, SLOT_DEPTH1, p->first, p->which);
-    return lom_clamp(plane.z + l[1] * more.x + l[2] * more.y, plane.w, more.z);
-}
-
-/* What the test leaves in tile memory, which is the same whether a fragment passed or not. */
-typedef enum { DEPTH_STAYS, DEPTH_LESSER, DEPTH_GREATER, DEPTH_REPLACED } depth_rule;
-
-static depth_rule rule_of(const struct lom_draw *draw)
-{
-    static const depth_rule rules[] = {
-        [LOM_COMPARE_NEVER] = DEPTH_STAYS,           [LOM_COMPARE_LESS] = DEPTH_LESSER,
-        [LOM_COMPARE_EQUAL] = DEPTH_STAYS,           [LOM_COMPARE_LESS_EQUAL] = DEPTH_LESSER,
-        [LOM_COMPARE_GREATER] = DEPTH_GREATER,       [LOM_COMPARE_NOT_EQUAL] = DEPTH_REPLACED,
-        [LOM_COMPARE_GREATER_EQUAL] = DEPTH_GREATER, [LOM_COMPARE_ALWAYS] = DEPTH_REPLACED
-    };
-    return draw->depth_write && !draw->late_depth ? rules[draw->compare] : DEPTH_STAYS;
-}
+#include "pipeline/packed.h"
 
 /* Leaves depths in memory, one after the other, since two may go to one place; gives what was there before. */
 LOM_INLINE lom_float exchange(float *memory, const int32_t *pixel, lom_float depth, depth_rule rule)
@@ -126,11 +64,16 @@ static void test_entries(struct lom_tile *tile)
     list->count = passed;
 }
 
-static void shade(struct lom_tile *tile, const struct packed *p)
+/* Entries from `at` on. */
+static void shade(struct lom_tile *tile, const struct packed *p, int at)
 {
     const struct lom_list *list = &tile->list;
     struct lom_packet packet;
-    weigh(list, p, packet.l);
+    lom_float depth[LOM_MAX_SAMPLES];
+    if (tile->pass->samples > 1)
+        LOM_WIDE(lom_fill_entry_samples)(tile, p, at, &packet, depth);
+    else
+        weigh(list, p, packet.l);
     packet.depth = (lom_float){ 0 };
     if (tile->draw->queues_depth)
         packet.depth = find_depth_lanes(list, p, packet.l);
@@ -156,11 +99,13 @@ static void shade_entries(struct lom_tile *tile, bool all)
     int at = 0;
     while (list->count - at >= LOM_LANES || (all && at < list->count)) {
         struct packed p = take(list, at, list->count);
-        shade(tile, &p);
+        shade(tile, &p, at);
         at += p.count;
     }
     list->count -= at;
     lom_store_int(list->code, lom_load_int(list->code + at));
+    if (tile->pass->samples > 1)
+        lom_store_int(tile->list_samples, lom_load_int(tile->list_samples + at));
 }
 
 /* Entries that are left keep their triangles, in slots of their own. */
@@ -195,7 +140,9 @@ void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
         int before = list->count;
         list->tested = before;
         slot = LOM_WIDE(lom_cover_slots)(tile, slot);
-        if (tile->tests_early)
+        if (tile->pass->samples > 1)
+            LOM_WIDE(lom_test_entry_samples)(tile, before);
+        else if (tile->tests_early)
             test_entries(tile);
         tile->fragments += (uint64_t)(list->count - before);
         if (tile->rejects_early)

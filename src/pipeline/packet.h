@@ -53,8 +53,7 @@ void LOM_WIDE(lom_run_sampled)(struct lom_tile *tile, const struct lom_packet *p
  * two lanes are the same sample. */
 void LOM_WIDE(lom_write_samples)(struct lom_tile *tile, const struct lom_packet *packet, const lom_mask *mask,
                                  bool apart, const lom_fragment *out);
-/* Draws a list of triangles or sprites there (raster_samples.wide.c, raster_sprites.wide.c). */
-void LOM_WIDE(lom_raster_samples)(struct lom_tile *tile, const uint32_t *list, size_t count);
+/* Draws a list of sprites there (raster_sprites.wide.c). */
 void LOM_WIDE(lom_raster_sprite_samples)(struct lom_tile *tile, const uint32_t *list, size_t count);
 /* The lanes of mask, whose fragments are shaded, through the late depth test and the output stage, in lane order;
  * `apart`: they are different pixels. */
@@ -65,6 +64,10 @@ void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, s
 /* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,
                                 const lom_float4 *color);
+
+/* The same for colour attachment i alone. */
+void LOM_WIDE(lom_write_color)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
+                               const lom_float4 *color, int i);
 
 /* A paint that fills: to `count` windows side by side, of which the first begins at `base` in tile memory; to the lanes
  * of a part of a window; to a tile that is one colour, of which so many pixels are inside the attachments. */

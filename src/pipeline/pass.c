@@ -159,6 +159,7 @@ static bool choose_samples(lom_device *device, struct lom_pass *pass)
     if (is_number && (device->recorder != NULL || counts))
         pass->samples = 1; /* lom/record.h */
     pass->offset = lom_sample_offsets(pass->samples);
+    pass->sample_pitch = pass->samples < 4 ? 4 : pass->samples;
     if (!is_number)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has 1, 2, 4, 8 or 16 samples a pixel, not %d.",
                         pass->samples);

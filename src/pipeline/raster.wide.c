@@ -87,7 +87,7 @@ static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t n
 /* Whether the fragments of the draw's small triangles can be computed together, from their records alone. */
 static bool packs(const struct lom_draw *draw)
 {
-    return !draw->constant && !draw->biased && !draw->desc.shader->quads;
+    return !draw->constant && !draw->biased && !draw->desc.shader->quads && !draw->desc.per_sample;
 }
 
 /* Whether a triangle may be drawn with others: its windows are few, else they are mostly packets by themselves. The parts
@@ -106,11 +106,15 @@ static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *dr
 {
     bool stays = !draw->depth_write || (draw->compare != LOM_COMPARE_NOT_EQUAL && draw->compare != LOM_COMPARE_ALWAYS);
     return tile->depth != NULL && draw->late_depth && !draw->desc.shader->writes_depth && stays &&
-           !tile->pass->one_by_one;
+           !tile->pass->one_by_one && tile->pass->samples == 1;
 }
 
 static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
+    if (tile->pass->samples > 1) {
+        LOM_WIDE(lom_raster_sampled)(tile, t, number);
+        return;
+    }
     switch (lom_kind_of(t)) {
     case TRIANGLE_WINDOW:
         raster_window(tile, t, number);
@@ -130,23 +134,20 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
 {
     const struct lom_draw *draw = chunk->draw;
     struct lom_list *packed = &tile->list;
-    bool together = packs(draw) && !tile->pass->one_by_one, sprites = draw->desc.topology == LOM_SPRITES;
+    bool together = packs(draw) && !tile->pass->one_by_one;
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
     tile->facet.triangle = NULL;
     tile->tests_early =
         tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
-    if (tile->pass->samples > 1) {
-        (sprites ? LOM_WIDE(lom_raster_sprite_samples) : LOM_WIDE(lom_raster_samples))(tile, list, count);
-        return;
-    }
     tile->rejects_early = rejects_early(tile, draw);
     size_t folded = tile->is_whole ? LOM_WIDE(lom_fold)(tile, list, count) : 0;
     if (tile->is_whole && folded < count)
         lom_load_whole_tile(tile);
-    if (sprites) {
-        LOM_WIDE(lom_raster_sprites)(tile, list, count);
+    if (draw->desc.topology == LOM_SPRITES) {
+        (tile->pass->samples > 1 ? LOM_WIDE(lom_raster_sprite_samples) : LOM_WIDE(lom_raster_sprites))(tile, list,
+                                                                                                       count);
         return;
     }
     for (size_t i = folded; i < count; i++) {

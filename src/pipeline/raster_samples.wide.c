@@ -5,6 +5,7 @@
  * Invariant: coverage, weights, clip distances and depth at a sample are those that raster.wide.c finds at the centre of a
  * pixel that lies where the sample lies: edge functions are exact integers there too, since samples lie on sixteenths. */
 #include "pipeline/edges.h"
+#include "pipeline/sample_depth.h"
 #include "pipeline/window.h"
 
 enum { CENTRE = LOM_MAX_SAMPLES, PLACES = LOM_MAX_SAMPLES + 1 }; /* the samples of a pixel, then its centre */
@@ -84,9 +85,15 @@ static bool find_triangle(const struct lom_tile *tile, const lom_triangle *t, in
 
 /* A part of a window at (x, y) of the tile. */
 struct at {
-    int x, y, part, index; /* index: in tile memory */
+    int x, y, part, index; /* index: of the window in tile memory */
     int32_t base[3];       /* what its window adds to the starts of the edge functions */
 };
+
+/* Their places in tile memory. */
+LOM_INLINE lom_int pixels_of(const struct lom_tile *tile, const struct at *at)
+{
+    return lom_load_int(tile->offset + at->part * LOM_LANES) + at->index;
+}
 
 /* The weights at a place of the pixels, as raster.wide.c and raster_large.wide.c find them. */
 LOM_INLINE void weigh(const struct sampled *g, const struct at *at, int place, lom_float l[3])
@@ -164,15 +171,17 @@ static lom_float depth_of(const struct lom_tile *tile, const struct sampled *g, 
 static void test_samples(struct lom_tile *tile, const struct sampled *g, const struct at *at, struct coverage *c,
                          lom_float depth[LOM_MAX_SAMPLES])
 {
-    c->any = (lom_mask){ 0 };
     for (int s = 0; s < g->samples; s++) {
         lom_float l[3];
         weigh(g, at, s, l);
         depth[s] = depth_of(tile, g, l);
-        if (tile->tests_early && lom_any(c->lanes[s]))
-            c->lanes[s] = lom_test_depth(tile, at->index + s * tile->edge * tile->edge, c->lanes[s], depth[s]);
-        c->any |= c->lanes[s];
     }
+    if (!tile->tests_early)
+        return;
+    lom_test_sample_depths(tile, pixels_of(tile, at), c->lanes, depth);
+    c->any = (lom_mask){ 0 };
+    for (int s = 0; s < g->samples; s++)
+        c->any |= c->lanes[s];
 }
 
 /* Where fragments are shaded: at the centre where that is covered (in whole quads everywhere), else at the first sample that
@@ -245,7 +254,7 @@ static void raster_part(struct lom_tile *tile, const struct sampled *g, const st
     if (!shades || !lom_any(c.any))
         return;
     f.triangle = lom_splat_int(g->number);
-    f.pixel = lom_load_int(tile->offset + at->part * LOM_LANES) + (at->index - tile->offset[at->part * LOM_LANES]);
+    f.pixel = pixels_of(tile, at);
     f.sample_depth = depth;
     if (each)
         deliver_each(tile, g, at, &c, depth, &f);
@@ -271,7 +280,7 @@ static int classify(const struct sampled *g, int x, int y)
     return kind;
 }
 
-static void raster_triangle(struct lom_tile *tile, const lom_triangle *t, int32_t number)
+void LOM_WIDE(lom_raster_sampled)(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
     struct sampled g;
     if (!find_triangle(tile, t, number, &g))
@@ -285,15 +294,8 @@ static void raster_triangle(struct lom_tile *tile, const lom_triangle *t, int32_
             struct at at = { .x = x, .y = y };
             for (int i = 0; i < 3; i++)
                 at.base[i] = g.dx[i] * x + g.dy[i] * y;
-            for (; kind != NONE && at.part < PARTS; at.part++) {
-                at.index = memory_index(tile, x, y) + tile->offset[at.part * LOM_LANES];
+            at.index = memory_index(tile, x, y);
+            for (; kind != NONE && at.part < PARTS; at.part++)
                 raster_part(tile, &g, &at, kind == ALL);
-            }
         }
-}
-
-void LOM_WIDE(lom_raster_samples)(struct lom_tile *tile, const uint32_t *list, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        raster_triangle(tile, &tile->chunk->triangles[list[i]], (int32_t)list[i]);
 }

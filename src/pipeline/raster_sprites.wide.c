@@ -4,6 +4,7 @@
  * Invariant: s and t at a pixel are fl(fl(dx ds/dx) + fl(dy ds/dy)) of its exact distance to the middle, whatever tile
  * or part of a window it lies in. */
 #include "pipeline/record.h"
+#include "pipeline/sample_depth.h"
 #include "pipeline/window.h"
 
 enum { AHEAD = 4 };
@@ -16,6 +17,7 @@ struct sprite {
     lom_float x_away[PARTS];  /* of the lanes of the strip's first window */
     lom_float down[PARTS][2]; /* along a strip of windows: what its rows add to s and t */
     struct lom_varyings in;
+    lom_int place; /* of shading, where pixels have several samples */
 };
 
 /* The guard band keeps the difference below 2^24 units. */
@@ -173,34 +175,47 @@ static void shade_samples(struct lom_tile *tile, struct sprite *sprite, int x, i
     LOM_WIDE(lom_run_sampled)(tile, packet, in);
 }
 
+/* The samples of a part that are covered and pass the early depth test; s and t of each. */
+static void cover_samples(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part, lom_int pixel,
+                          lom_mask covered[LOM_MAX_SAMPLES], lom_float st[LOM_MAX_SAMPLES][2])
+{
+    const bool round = tile->draw->desc.shader->round, cut = sprite->record->state >> TRIANGLE_CUT & 1;
+    lom_mask allowed = cut ? inside_bounds(tile, &sprite->bounds, x, y, part) : lom_splat_int(-1), placed;
+    lom_float depth[LOM_MAX_SAMPLES];
+    placed = cover_place(sprite, x, y, part, (struct lom_sample_offset){ 0, 0 }, round, sprite->in.st) & allowed;
+    sprite->place = (lom_int){ 0 };
+    for (int s = 0; s < tile->pass->samples; s++) {
+        covered[s] = cover_place(sprite, x, y, part, tile->pass->offset[s], round, st[s]) & allowed;
+        lom_mask here = covered[s] & ~placed;
+        for (int k = 0; k < 2; k++)
+            sprite->in.st[k] = lom_select(here, st[s][k], sprite->in.st[k]);
+        sprite->place = lom_select_int(here, lom_splat_int(s + 1), sprite->place);
+        placed |= covered[s];
+        depth[s] = sprite->in.z;
+    }
+    if (tile->tests_early)
+        lom_test_sample_depths(tile, pixel, covered, depth);
+}
+
 static void raster_sampled_part(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part)
 {
-    static const struct lom_sample_offset centre = { 0, 0 };
-    const bool round = tile->draw->desc.shader->round, cut = sprite->record->state >> TRIANGLE_CUT & 1;
-    const bool each = tile->draw->desc.per_sample;
-    const struct lom_sample_offset *offset = tile->pass->offset;
-    lom_mask allowed = cut ? inside_bounds(tile, &sprite->bounds, x, y, part) : lom_splat_int(-1);
-    lom_float st[2], *at = sprite->in.st;
-    int index = memory_index(tile, x, y) + tile->offset[part * LOM_LANES];
-    struct lom_packet packet = { .samples = { 0 }, .place = { 0 } };
-    lom_store_int(packet.places.pixel,
-                  lom_load_int(tile->offset + part * LOM_LANES) + (index - tile->offset[part * LOM_LANES]));
-    lom_mask placed = cover_place(sprite, x, y, part, centre, round, at) & allowed;
+    const lom_int pixel = lom_load_int(tile->offset + part * LOM_LANES) + memory_index(tile, x, y);
+    lom_mask covered[LOM_MAX_SAMPLES];
+    lom_float st[LOM_MAX_SAMPLES][2];
+    struct lom_packet packet = { .samples = { 0 } };
+    lom_store_int(packet.places.pixel, pixel);
+    cover_samples(tile, sprite, x, y, part, pixel, covered, st);
+    packet.place = sprite->place;
     for (int s = 0; s < tile->pass->samples; s++) {
-        lom_mask covered = cover_place(sprite, x, y, part, offset[s], round, st) & allowed;
-        lom_mask here = each ? covered : covered & ~placed;
-        for (int k = 0; k < 2; k++)
-            at[k] = lom_select(here, st[k], at[k]);
-        packet.place = lom_select_int(here, lom_splat_int(s + 1), packet.place);
-        placed |= covered;
-        if (tile->tests_early && lom_any(covered))
-            covered = lom_test_depth(tile, index + s * tile->edge * tile->edge, covered, sprite->in.z);
-        packet.samples = each ? covered & 1 << s : packet.samples | (covered & 1 << s);
-        if (each)
-            shade_samples(tile, sprite, x, y, &packet, part);
-    }
-    if (!each)
+        packet.samples |= covered[s] & 1 << s;
+        if (!tile->draw->desc.per_sample)
+            continue;
+        memcpy(sprite->in.st, st[s], sizeof st[s]);
+        packet.place = lom_splat_int(s + 1);
         shade_samples(tile, sprite, x, y, &packet, part);
+        packet.samples = (lom_int){ 0 };
+    }
+    shade_samples(tile, sprite, x, y, &packet, part);
 }
 
 void LOM_WIDE(lom_raster_sprite_samples)(struct lom_tile *tile, const uint32_t *list, size_t count)

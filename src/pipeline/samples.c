@@ -1,9 +1,10 @@
 /* Passes of several samples a pixel: where samples lie, and the two ends of their memory. In: clear values, texels, or the
  * samples that a texture keeps from the pass before. Out: texels, and the samples for the pass after.
  *
- * A depth attachment has a plane for each sample; a colour attachment an image for each, then a flag for each block of 2x2
- * pixels: where it is not set, the block's samples are all those of image 0. A texture that keeps samples has this memory for
- * each tile of the grid, and a pass works in it; what the pass has elsewhere lasts as long as its tile.
+ * The samples of a depth attachment lie side by side, those of a pixel in rows of four. A colour attachment has an image, its
+ * samples (8-bit codes likewise; floats in an image for each sample), and a flag for each block of 2x2 pixels: where it is not
+ * set, the block's samples are all those of the image. A texture that keeps samples has this memory for each tile of the grid,
+ * and a pass works in it; what the pass has elsewhere lasts as long as its tile.
  *
  * Invariant: a tile's samples are those that were left, whichever passes, of whatever draws, lie between. */
 #include "pipeline/device.h"
@@ -41,17 +42,24 @@ static size_t tile_pixels(const struct lom_pass *pass)
 
 static size_t depth_bytes(const struct lom_pass *pass)
 {
-    return tile_pixels(pass) * 4 * (size_t)pass->samples;
+    return tile_pixels(pass) * 4 * (size_t)pass->sample_pitch;
+}
+
+/* Of the samples of colour attachment i. */
+static size_t sample_bytes(const struct lom_pass *pass, int i)
+{
+    return pass->color[i].kind == COLOR_FLOAT ? lom_image_bytes(pass, i) * (size_t)pass->samples : depth_bytes(pass);
 }
 
 static size_t color_bytes(const struct lom_pass *pass, int i)
 {
-    return lom_image_bytes(pass, i) * (size_t)pass->samples + tile_pixels(pass) / 4;
+    return lom_image_bytes(pass, i) + sample_bytes(pass, i) + tile_pixels(pass) / 4;
 }
 
 size_t lom_scratch_bytes(const struct lom_pass *pass)
 {
-    size_t most = 0;
+    size_t most = tile_pixels(pass) * 4;
+
     for (int i = 0; i < pass->colors; i++)
         most = lom_image_bytes(pass, i) > most ? lom_image_bytes(pass, i) : most;
     return most;
@@ -131,9 +139,10 @@ void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *me
         tile->depth = pass->uses_depth ? (float *)(void *)depth : NULL;
     }
     for (int i = 0; i < pass->colors; i++) {
-        uint8_t *images = place(pass, pass->color[i].texture, tile->number, color_bytes(pass, i), &memory);
-        tile->color[i] = images;
-        tile->several[i] = images + lom_image_bytes(pass, i) * (size_t)pass->samples;
+        uint8_t *image = place(pass, pass->color[i].texture, tile->number, color_bytes(pass, i), &memory);
+        tile->color[i] = image;
+        tile->sample_color[i] = image + lom_image_bytes(pass, i);
+        tile->several[i] = image + lom_image_bytes(pass, i) + sample_bytes(pass, i);
     }
 }
 
@@ -143,19 +152,40 @@ static bool holds(const struct lom_pass *pass, const lom_texture *texture, int n
     return keeps(pass, texture) && texture->kept.held[number];
 }
 
+/* A depth for each pixel to all its samples. */
+static void spread_depth(const struct lom_pass *pass, const float *from, float *to)
+{
+    const size_t pitch = (size_t)pass->sample_pitch;
+    for (size_t i = 0; i < tile_pixels(pass); i++)
+        for (size_t s = 0; s < pitch; s++)
+            to[i * pitch + s] = from[i];
+}
+
+static void begin_depth(const struct lom_pass *pass, struct lom_tile *tile)
+{
+    float *plane = (float *)(void *)tile->scratch;
+    bool keeps_texels = pass->desc.depth_load == LOM_LOAD_KEEP;
+    if (keeps_texels && holds(pass, pass->depth, tile->number))
+        return;
+    if (!keeps_texels) {
+        uint32_t bits;
+        memcpy(&bits, &pass->clear_depth, sizeof bits);
+        lom_stages_of(pass->device->variant)->fill_words((uint32_t *)(void *)tile->depth, bits, depth_bytes(pass) / 4);
+        return;
+    }
+    lom_load_depth(pass, tile->number, plane);
+    spread_depth(pass, plane, tile->depth);
+}
+
 void lom_begin_samples(struct lom_pass *pass, struct lom_tile *tile)
 {
-    size_t pixels = tile_pixels(pass);
-    if (tile->depth != NULL && (pass->desc.depth_load != LOM_LOAD_KEEP || !holds(pass, pass->depth, tile->number))) {
-        lom_load_depth(pass, tile->number, tile->depth);
-        for (int s = 1; s < pass->samples; s++)
-            memcpy(tile->depth + (size_t)s * pixels, tile->depth, pixels * sizeof *tile->depth);
-    }
+    if (tile->depth != NULL)
+        begin_depth(pass, tile);
     for (int i = 0; i < pass->colors; i++) {
         if (pass->color[i].keep && holds(pass, pass->color[i].texture, tile->number))
             continue;
         lom_load_color(pass, i, tile->number, tile->color[i]);
-        memset(tile->several[i], 0, pixels / 4);
+        memset(tile->several[i], 0, tile_pixels(pass) / 4);
     }
 }
 
@@ -168,25 +198,23 @@ static void note(const struct lom_pass *pass, lom_texture *texture, int number, 
 
 static void end_depth(struct lom_pass *pass, struct lom_tile *tile)
 {
-    lom_resolve_depth(pass, tile->number, pass->writes_depth ? tile->depth : NULL);
+    float *plane = (float *)(void *)tile->scratch;
+    for (size_t i = 0; pass->writes_depth && i < tile_pixels(pass); i++)
+        plane[i] = tile->depth[i * (size_t)pass->sample_pitch];
+    lom_resolve_depth(pass, tile->number, pass->writes_depth ? plane : NULL);
     if (pass->writes_depth)
         note(pass, pass->depth, tile->number, true);
     else if (pass->desc.depth_load != LOM_LOAD_KEEP)
         note(pass, pass->depth, tile->number, false);
 }
 
+/* Images of divided blocks are of no use to the samples, so the means may go there. */
 static void end_color(struct lom_pass *pass, struct lom_tile *tile, int i)
 {
-    const struct lom_stages *stages = lom_stages_of(pass->device->variant);
-    lom_texture *texture = pass->color[i].texture;
-    size_t blocks = tile_pixels(pass) / 4;
-    void *image = tile->color[i];
-    if (memchr(tile->several[i], 1, blocks) != NULL) {
-        image = keeps(pass, texture) ? (void *)tile->scratch : tile->color[i];
-        stages->find_means(pass, i, tile->color[i], tile->several[i], image);
-    }
-    lom_resolve_color(pass, i, tile->number, image);
-    note(pass, texture, tile->number, true);
+    if (memchr(tile->several[i], 1, tile_pixels(pass) / 4) != NULL)
+        lom_stages_of(pass->device->variant)->find_means(pass, tile, i);
+    lom_resolve_color(pass, i, tile->number, tile->color[i]);
+    note(pass, pass->color[i].texture, tile->number, true);
 }
 
 /* A tile that nothing came near: its texels are cleared or left, and so are its samples. */

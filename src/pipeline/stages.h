@@ -243,6 +243,7 @@ struct lom_sample_queue {
 };
 
 struct lom_pass;
+struct lom_tile;
 
 /* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
 struct lom_tile {
@@ -266,11 +267,15 @@ struct lom_tile {
     struct lom_facet facet;
     uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
                                  write often lies far apart */
-    /* Where pixels have several samples: depth is a plane for each, and color an image for each. A block of 2x2 pixels has
-     * one colour for all samples, which is in image 0 alone, unless its flag is set. */
+    /* Where pixels have several samples (samples.c): depth is of samples, side by side. A block of 2x2 pixels has one colour for
+     * all samples, in the image color, unless its flag is set: then they are in sample_color, codes side by side, floats in
+     * an image for each sample. */
     uint8_t *several[LOM_MAX_COLORS];
+    void *sample_color[LOM_MAX_COLORS];
     uint8_t *scratch; /* an image */
+
     struct lom_sample_queue sample_queue;
+    int32_t list_samples[LIST_ROOM]; /* with the list's codes (packed.h) */
 };
 
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
@@ -299,9 +304,10 @@ struct lom_pass {
     int colors;
     struct lom_color_target color[LOM_MAX_COLORS];
     lom_texture *depth;
-    double depth_scale;                     /* 65535, 16777215, or 0 for float depth */
-    float clear_depth;                      /* in tile units */
-    int samples;                            /* of a pixel */
+    double depth_scale; /* 65535, 16777215, or 0 for float depth */
+    float clear_depth;  /* in tile units */
+    int samples;        /* of a pixel */
+    int sample_pitch;   /* words from the samples of a pixel to the next one's, where they lie side by side */
     const struct lom_sample_offset *offset; /* of each */
     int reach_low, reach_high;     /* how far they lie from centres along x and y, in 1/SUBPIXELS; <= 0, >= 0 */
     bool uses_depth, writes_depth; /* a draw tests, reads or writes depth; one writes it */
@@ -358,8 +364,8 @@ struct lom_stages {
     void (*fill_words)(uint32_t *to, uint32_t value, size_t count);
     /* Two rows of pixels as blocks of tile memory. */
     void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
-    /* The means of the samples of colour attachment i, from a tile's images and flags; `to` may be image 0. */
-    void (*find_means)(const struct lom_pass *pass, int i, const void *images, const uint8_t *several, void *to);
+    /* The means of the samples of colour attachment i of a tile, into its image, where flags are set. */
+    void (*find_means)(const struct lom_pass *pass, const struct lom_tile *tile, int i);
 };
 
 /* NULL where the variant is not built. */
@@ -379,8 +385,7 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
     void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
-    void lom_find_means_##variant(const struct lom_pass *pass, int i, const void *images, const uint8_t *several,      \
-                                  void *to);
+    void lom_find_means_##variant(const struct lom_pass *pass, const struct lom_tile *tile, int i);
 LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
 LOM_DECLARE_STAGES(, 4_recorded)
 
@@ -432,7 +437,7 @@ void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
 const struct lom_sample_offset *lom_sample_offsets(int samples);
 /* Room in the pass's textures that keep samples, for a grid as the pass's; the bytes that its tiles need besides. */
 bool lom_lay_samples(lom_device *device, struct lom_pass *pass);
-/* Bytes of the largest image of a colour attachment: of a worker's scratch. */
+/* Bytes of the largest image of an attachment: of a worker's scratch. */
 size_t lom_scratch_bytes(const struct lom_pass *pass);
 /* Where the tile's images are; its first samples; and, when the pass ends, its texels, from the samples if it was `touched`. */
 void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *memory);

@@ -88,6 +88,8 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
 void LOM_WIDE(lom_test_distances)(const struct lom_tile *tile, const lom_triangle *t, const lom_float l[3],
                                   lom_mask *inside);
 void LOM_WIDE(lom_offset_depth)(const struct lom_tile *tile, const lom_triangle *t, lom_float *z);
+/* A triangle in a pass of several samples (raster_samples.wide.c). */
+void LOM_WIDE(lom_raster_sampled)(struct lom_tile *tile, const lom_triangle *t, int32_t number);
 /* Large triangles (raster_large.wide.c). */
 void LOM_WIDE(lom_raster_large)(struct lom_tile *tile, const lom_triangle *t, int32_t number);
 /* Draws the first triangles of a list into a tile that is one colour, as long as it stays one; returns how many. */

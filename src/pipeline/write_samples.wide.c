@@ -1,9 +1,12 @@
 /* Stages 6 and 7 of 7 where pixels have several samples, as far as they differ. In: a packet whose varyings are found. Out:
  * its colours in the samples that it covers, and the means of samples.
  *
- * Invariant: each sample ends as if the packets were drawn into it alone. A block of 2x2 pixels keeps one image as long as
- * every fragment that comes to it covers all samples of its pixel; what is written then is the same in all. */
+ * Invariant: each sample ends as if the packets were drawn into it alone. A block of 2x2 pixels has one colour a
+ * pixel as long as every fragment that comes to it covers all samples of its pixel: what is written then is the same in all. */
 #include "pipeline/packet.h"
+
+/* Four samples side by side. */
+typedef int32_t row __attribute__((vector_size(16), aligned(4), may_alias));
 
 LOM_INLINE int count_samples(const struct lom_tile *tile)
 {
@@ -46,7 +49,7 @@ void LOM_WIDE(lom_run_sampled)(struct lom_tile *tile, const struct lom_packet *p
         move_position(tile, packet->place, in);
     if (shader->reads_depth) {
         lom_int sample = count_samples(tile) > 1 ? lom_max_int(packet->place - 1, (lom_int){ 0 }) : (lom_int){ 0 };
-        lom_int at = lom_load_int(packet->places.pixel) + sample * count_pixels(tile);
+        lom_int at = lom_load_int(packet->places.pixel) * tile->pass->sample_pitch + sample;
         in->target_depth = lom_depth_of_units(tile->pass, lom_gather(tile->depth, at));
     }
     in->covered = packet->covered;
@@ -65,14 +68,22 @@ void LOM_WIDE(lom_run_sampled)(struct lom_tile *tile, const struct lom_packet *p
 
 /* ---- samples ---- */
 
+/* Where sample 0 of each lane lies among samples that are side by side. */
+static struct lom_places find_apart(const struct lom_tile *tile, const struct lom_packet *packet)
+{
+    struct lom_places places = { .block = false };
+    lom_store_int(places.pixel, lom_load_int(packet->places.pixel) * tile->pass->sample_pitch);
+    return places;
+}
+
 /* The depth test after the shader: the samples that pass. */
 static lom_int test_late(struct lom_tile *tile, const struct lom_packet *packet, lom_int samples, lom_float depth)
 {
     const struct lom_draw *draw = tile->draw;
-    struct lom_places places = packet->places;
+    const struct lom_places places = find_apart(tile, packet);
     int32_t *memory = (int32_t *)(void *)tile->depth;
     lom_int passed = { 0 };
-    for (int s = 0; s < count_samples(tile); s++, memory += count_pixels(tile)) {
+    for (int s = 0; s < count_samples(tile); s++, memory++) {
         lom_mask mask = (samples & 1 << s) != 0;
         if (!lom_any(mask))
             continue;
@@ -89,18 +100,26 @@ static lom_int test_late(struct lom_tile *tile, const struct lom_packet *packet,
     return passed;
 }
 
-/* A block's colour goes to all its images. */
+/* A block's colour goes to all its samples. */
 static void divide_block(struct lom_tile *tile, int i, int32_t block)
 {
-    const size_t pixels = (size_t)count_pixels(tile), planes = tile->pass->color[i].kind == COLOR_FLOAT ? 4 : 1;
-    uint32_t *first = (uint32_t *)tile->color[i] + 4 * (size_t)block;
+    const size_t pixels = (size_t)count_pixels(tile), pitch = (size_t)tile->pass->sample_pitch,
+                 first = 4 * (size_t)block;
+    const uint32_t *image = (const uint32_t *)tile->color[i] + first;
+    uint32_t *samples = tile->sample_color[i];
     tile->several[i][block] = 1;
-    for (size_t s = 1; s < (size_t)count_samples(tile); s++)
-        for (size_t c = 0; c < planes; c++)
-            memcpy(first + (s * planes + c) * pixels, first + c * pixels, 4 * sizeof *first);
+    if (tile->pass->color[i].kind == COLOR_FLOAT) {
+        for (size_t s = 0; s < 4 * (size_t)count_samples(tile); s++)
+            memcpy(samples + s * pixels + first, image + (s & 3) * pixels, 4 * sizeof *image);
+        return;
+    }
+    row *to = (row *)(void *)(samples + first * pitch);
+    for (size_t k = 0; k < 4; k++)
+        for (size_t s = 0; s < pitch; s += 4)
+            *to++ = (int32_t)image[k] - (row){ 0 };
 }
 
-/* The blocks of these lanes keep several images from now on, in every attachment. */
+/* The blocks of these lanes are divided from now on, in every attachment. */
 static void divide_blocks(struct lom_tile *tile, const int32_t *pixel, uint32_t lanes)
 {
     for (; lanes != 0; lanes &= lanes - 1) {
@@ -111,7 +130,7 @@ static void divide_blocks(struct lom_tile *tile, const int32_t *pixel, uint32_t 
     }
 }
 
-/* Which lanes lie in blocks that keep one image in all attachments, after those that a lane covers in part are divided. */
+/* Which lanes lie in blocks that are undivided in all attachments, after those that a lane covers in part are divided. */
 static lom_mask find_whole(struct lom_tile *tile, const struct lom_packet *packet, lom_mask mask, lom_int samples)
 {
     const int32_t *pixel = packet->places.pixel;
@@ -127,25 +146,89 @@ static lom_mask find_whole(struct lom_tile *tile, const struct lom_packet *packe
     return lom_mask_of_bits(whole);
 }
 
+/* Whether the draw stores 8-bit codes as they are, in the only colour attachment: then they are found once. */
+LOM_INLINE bool stores_codes(const struct lom_tile *tile)
+{
+    const struct lom_draw *draw = tile->draw;
+    return tile->pass->colors == 1 && tile->pass->color[0].kind != COLOR_FLOAT && !draw->blends &&
+           draw->desc.shader->colors >= 1;
+}
+
+/* What the output stage stores for the lanes, one after the other. */
+LOM_INLINE void find_codes(struct lom_tile *tile, const lom_float4 *color, int32_t code[LOM_LANES])
+{
+    struct lom_places places = { .block = LOM_LANES < 16 }; /* those of 16 lanes are two runs */
+    lom_mask all = lom_splat_int(-1);
+    void *images = tile->color[0];
+    lom_store_int(places.pixel, lom_lane_index());
+    tile->color[0] = code;
+    LOM_WIDE(lom_write_packet)(tile, &places, &all, color);
+    tile->color[0] = images;
+}
+
+/* Which of four samples have a bit. */
+static const row row_masks[16] = { { 0, 0, 0, 0 },   { -1, 0, 0, 0 },   { 0, -1, 0, 0 },   { -1, -1, 0, 0 },
+                                   { 0, 0, -1, 0 },  { -1, 0, -1, 0 },  { 0, -1, -1, 0 },  { -1, -1, -1, 0 },
+                                   { 0, 0, 0, -1 },  { -1, 0, 0, -1 },  { 0, -1, 0, -1 },  { -1, -1, 0, -1 },
+                                   { 0, 0, -1, -1 }, { -1, 0, -1, -1 }, { 0, -1, -1, -1 }, { -1, -1, -1, -1 } };
+
+static void store_codes(struct lom_tile *tile, const struct lom_packet *packet, lom_int samples,
+                        const lom_float4 *color)
+{
+    const int pitch = tile->pass->sample_pitch;
+    const uint32_t every = (1u << count_samples(tile)) - 1;
+    int32_t code[LOM_LANES], covered[LOM_LANES], *image = tile->color[0], *divided = tile->sample_color[0];
+    const uint8_t *several = tile->several[0];
+    find_codes(tile, color, code);
+    lom_store_int(covered, samples);
+    for (int i = 0; i < LOM_LANES; i++) {
+        uint32_t left = (uint32_t)covered[i];
+        const int32_t pixel = packet->places.pixel[i];
+        if (left == 0)
+            continue;
+        if (!several[pixel >> 2]) {
+            if (left == every) {
+                image[pixel] = code[i];
+                continue;
+            }
+            divide_block(tile, 0, pixel >> 2);
+        }
+        row *to = (row *)(void *)(divided + (size_t)pixel * (size_t)pitch), word = code[i] - (row){ 0 };
+        for (; left != 0; left >>= 4, to++)
+            *to = (word & row_masks[left & 15]) | (*to & ~row_masks[left & 15]);
+    }
+}
+
+/* Colours of an attachment to the samples of divided blocks. */
+static void write_divided(struct lom_tile *tile, const struct lom_packet *packet, lom_int samples,
+                          const lom_float4 *color, int i)
+{
+    void *image = tile->color[i];
+    const bool floats = tile->pass->color[i].kind == COLOR_FLOAT;
+    const struct lom_places places = floats ? packet->places : find_apart(tile, packet);
+    const size_t step = floats ? lom_image_bytes(tile->pass, i) : sizeof(uint32_t);
+    for (int s = 0; s < count_samples(tile); s++) {
+        lom_mask covered = (samples & 1 << s) != 0;
+        tile->color[i] = (uint8_t *)tile->sample_color[i] + (size_t)s * step;
+        if (lom_any(covered))
+            LOM_WIDE(lom_write_color)(tile, &places, &covered, color, i);
+    }
+    tile->color[i] = image;
+}
+
 /* Colours of lanes to samples: those of whole blocks once. */
 static void write(struct lom_tile *tile, const struct lom_packet *packet, lom_int samples, const lom_float4 *color)
 {
+    if (stores_codes(tile)) {
+        store_codes(tile, packet, samples, color);
+        return;
+    }
     lom_mask mask = samples != 0, whole = find_whole(tile, packet, mask, samples);
-    void *images[LOM_MAX_COLORS];
     if (lom_any(whole))
         LOM_WIDE(lom_write_packet)(tile, &packet->places, &whole, color);
     samples &= ~whole;
-    if (!lom_any(samples != 0))
-        return;
-    memcpy(images, tile->color, sizeof images);
-    for (int s = 0; s < count_samples(tile); s++) {
-        lom_mask covered = (samples & 1 << s) != 0;
-        for (int i = 0; i < tile->pass->colors; i++)
-            tile->color[i] = (uint8_t *)images[i] + lom_image_bytes(tile->pass, i) * (size_t)s;
-        if (lom_any(covered))
-            LOM_WIDE(lom_write_packet)(tile, &packet->places, &covered, color);
-    }
-    memcpy(tile->color, images, sizeof images);
+    for (int i = 0; i < tile->pass->colors && i < tile->draw->desc.shader->colors && lom_any(samples != 0); i++)
+        write_divided(tile, packet, samples, &color[i], i);
 }
 
 void LOM_WIDE(lom_write_samples)(struct lom_tile *tile, const struct lom_packet *packet, const lom_mask *shaded,
@@ -179,20 +262,24 @@ LOM_INLINE lom_float mean(lom_float *x, int count)
     return x[0] * (1.0f / (float)count);
 }
 
+/* Two channels of each word, the whole numbers nearest to their means: sums of 16 bytes fit 16 bits. */
+static lom_int mean_of_pairs(const lom_int *word, int count, int shift)
+{
+    lom_int sum = lom_splat_int((count / 2) * 0x10001);
+    for (int s = 0; s < count; s++)
+        sum += word[s] >> shift & 0xff00ff;
+    return (lom_int)((lom_uint)sum >> __builtin_ctz((unsigned)count)) & 0xff00ff;
+}
+
+/* Of `count` words of four codes. */
 static lom_int mean_of_codes(const lom_int *word, int count, bool srgb)
 {
     lom_float light[LOM_MAX_SAMPLES];
-    lom_int result = { 0 };
-    for (int c = 0; c < 4; c++) {
-        lom_int sum = lom_splat_int(count / 2);
-        for (int s = 0; s < count; s++) {
-            lom_int code = word[s] >> 8 * c & 255;
-            if (srgb && c < 3)
-                light[s] = lom_float_of_srgb8_lanes(code);
-            sum += code;
-        }
-        sum = srgb && c < 3 ? lom_srgb8_of_lanes(mean(light, count)) : sum >> __builtin_ctz((unsigned)count);
-        result |= sum << 8 * c;
+    lom_int result = mean_of_pairs(word, count, 0) | mean_of_pairs(word, count, 8) << 8;
+    for (int c = 0; c < 3 && srgb; c++) {
+        for (int s = 0; s < count; s++)
+            light[s] = lom_float_of_srgb8_lanes(word[s] >> 8 * c & 255);
+        result = (result & ~(255 << 8 * c)) | lom_srgb8_of_lanes(mean(light, count)) << 8 * c;
     }
     return result;
 }
@@ -207,7 +294,7 @@ static lom_float round_to_format(lom_format format, lom_float x)
     return lom_make_finite(x);
 }
 
-/* The lanes, from pixel `at` on, whose blocks keep several images. */
+/* The lanes, from pixel `at` on, whose blocks are divided. */
 LOM_INLINE lom_mask load_flags(const uint8_t *several, int at)
 {
     lom_mask flags = { 0 };
@@ -216,41 +303,47 @@ LOM_INLINE lom_mask load_flags(const uint8_t *several, int at)
     return flags;
 }
 
-static void average_codes(const struct lom_pass *pass, int i, const int32_t *images, const uint8_t *several,
-                          int32_t *to)
+/* The samples of undivided pixels are not there: their image is read in their place. */
+static void find_mean_codes(const struct lom_pass *pass, const struct lom_tile *tile, int i)
 {
-    const int pixels = pass->tile * pass->tile;
+    const int pixels = pass->tile * pass->tile, pitch = pass->sample_pitch;
+    int32_t *image = tile->color[i];
+    const float *samples = tile->sample_color[i];
     for (int at = 0; at < pixels; at += LOM_LANES) {
-        lom_mask flags = load_flags(several, at);
-        lom_int word[LOM_MAX_SAMPLES];
-        word[0] = lom_load_int(images + at);
-        for (int s = 1; s < pass->samples && lom_any(flags); s++)
-            word[s] = lom_select_int(flags, lom_load_int(images + s * pixels + at), word[0]);
-        if (lom_any(flags))
-            word[0] = mean_of_codes(word, pass->samples, pass->color[i].kind == COLOR_SRGB8);
-        lom_store_int(to + at, word[0]);
+        lom_mask flags = load_flags(tile->several[i], at);
+        lom_int word[LOM_MAX_SAMPLES], old = lom_load_int(image + at);
+        if (!lom_any(flags))
+            continue;
+        for (int s = 0; s < pass->samples; s += 4) {
+            lom_float4 rows = lom_gather_rows(samples, (lom_lane_index() + at) * pitch + s);
+            const lom_float column[4] = { rows.x, rows.y, rows.z, rows.w };
+            for (int k = 0; k < 4 && s + k < pass->samples; k++)
+                word[s + k] = lom_select_int(flags, lom_as_int(column[k]), old);
+        }
+        lom_store_int(image + at, mean_of_codes(word, pass->samples, pass->color[i].kind == COLOR_SRGB8));
     }
 }
 
-static void average_floats(const struct lom_pass *pass, int i, const float *images, const uint8_t *several, float *to)
+static void find_mean_floats(const struct lom_pass *pass, const struct lom_tile *tile, int i)
 {
     const int pixels = pass->tile * pass->tile;
+    float *image = tile->color[i];
+    const float *samples = tile->sample_color[i];
     for (int at = 0; at < 4 * pixels; at += LOM_LANES) {
-        lom_mask flags = load_flags(several, at % pixels);
-        lom_float x[LOM_MAX_SAMPLES];
-        x[0] = lom_load(images + at);
-        for (int s = 1; s < pass->samples && lom_any(flags); s++)
-            x[s] = lom_select(flags, lom_load(images + s * 4 * pixels + at), x[0]);
-        if (lom_any(flags))
-            x[0] = round_to_format(pass->color[i].format, mean(x, pass->samples));
-        lom_store(to + at, x[0]);
+        lom_mask flags = load_flags(tile->several[i], at % pixels);
+        lom_float x[LOM_MAX_SAMPLES], old = lom_load(image + at);
+        if (!lom_any(flags))
+            continue;
+        for (int s = 0; s < pass->samples; s++)
+            x[s] = lom_select(flags, lom_load(samples + s * 4 * pixels + at), old);
+        lom_store(image + at, round_to_format(pass->color[i].format, mean(x, pass->samples)));
     }
 }
 
-void LOM_WIDE(lom_find_means)(const struct lom_pass *pass, int i, const void *images, const uint8_t *several, void *to)
+void LOM_WIDE(lom_find_means)(const struct lom_pass *pass, const struct lom_tile *tile, int i)
 {
     if (pass->color[i].kind == COLOR_FLOAT)
-        average_floats(pass, i, images, several, to);
+        find_mean_floats(pass, tile, i);
     else
-        average_codes(pass, i, images, several, to);
+        find_mean_codes(pass, tile, i);
 }

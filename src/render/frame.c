@@ -32,6 +32,7 @@ lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color)
     return (lom_pass_desc){ .color = { color },
                             .depth = f->renderer->targets.of[LOM_TARGET_DEPTH],
                             .samples = f->scene->output.samples,
+                            .per_sample = f->scene->output.sample_shading,
                             .frame_width = f->width,
                             .frame_height = f->height,
                             .origin_x = f->crop.x,

@@ -11,7 +11,8 @@
 enum { each_frame = 0 };
 
 const struct lom_key_row lom_key_rows[] = {
-    { each_frame, "title output output.width output.height output.frames output.fps camera.* light.* haze.*" },
+    { each_frame, "title output output.width output.height output.frames output.fps output.sample_shading camera.* "
+                  "light.* haze.*" },
     { LOM_PART_TARGETS, "output.format output.samples" },
     { LOM_PART_TEXTURES | LOM_PART_TARGETS, "output.transfer" },
 

@@ -32,6 +32,10 @@ static const lom_key output[] = {
       .text =
           "Places of a pixel at which coverage and depth are tested: 1, 2, 4, 8 or 16. With more than one, edges are "
           "smooth: the pixel is the mean of its samples in linear light (docs/samples.md)." },
+    { "sample_shading", LOM_KEY_BOOL, AT(lom_output, sample_shading),
+      .text = "Shade each sample instead of each surface that a pixel shows: textures and glints are smoothed too, at "
+              "so many "
+              "times the work." },
 };
 
 static bool check_output(void *members, const lom_key_check *check)

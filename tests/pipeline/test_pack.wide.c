@@ -1,7 +1,7 @@
 /* Proves that small triangles whose fragments are computed together, and larger ones whose values are found once for all
  * of their packets, end as those drawn one by one and packet by packet, bit for bit: random heaps of them, drawn by both
  * paths, with every comparison of depths, with and without writing them, in every depth
- * format, blended and opaque, shaders that read everything or nothing at all. */
+ * format, with one sample a pixel and with several, blended and opaque, shaders that read everything or nothing at all. */
 #include "pipeline/device.h"
 #include "stage.h"
 
@@ -61,16 +61,16 @@ static void make_heap(void)
     }
 }
 
-static uint64_t draw_heap(stage *s, const lom_draw_desc *draw)
+static uint64_t draw_heap(stage *s, const lom_draw_desc *draw, int samples)
 {
     uint64_t before = lom_device_counters(s->device).fragments;
-    begin(s, (lom_pass_desc){ .clear_color = { { 0.1f, 0.2f, 0.3f, 0.4f } }, .clear_depth = 0.5f });
+    begin(s, (lom_pass_desc){ .samples = samples, .clear_color = { { 0.1f, 0.2f, 0.3f, 0.4f } }, .clear_depth = 0.5f });
     lom_draw(s->device, draw);
     finish(s);
     return lom_device_counters(s->device).fragments - before;
 }
 
-static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth)
+static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth, int samples)
 {
     static const lom_shader *const shaders[] = { &values, &everything, &early, &depth_only, &quads };
     stage alone = open_stage(desc, WIDTH, HEIGHT, color, depth), packed = open_stage(desc, WIDTH, HEIGHT, color, depth);
@@ -85,7 +85,7 @@ static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth)
             draw.cull = (lom_cull)(compare % 3);
             if (kind == 6)
                 draw.scissor = (lom_rect){ 31, 17, 83, 54 };
-            uint64_t fragments[2] = { draw_heap(&alone, &draw), draw_heap(&packed, &draw) };
+            uint64_t fragments[2] = { draw_heap(&alone, &draw, samples), draw_heap(&packed, &draw, samples) };
             CHECK(same_images(alone.image, packed.image), "compare %d, kind %d, tile %d, format %d", compare, kind,
                   desc.tile, (int)color);
             CHECK(depth == LOM_FORMAT_NONE || same_images(alone.depths, packed.depths), "depths: compare %d, kind %d",
@@ -99,14 +99,22 @@ static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth)
 
 static void packed_triangles_end_as_those_drawn_one_by_one(void)
 {
-    heaps_in((lom_device_desc){ .tile = 64, .threads = 2 }, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH32F);
-    heaps_in((lom_device_desc){ .tile = 16, .threads = 1, .chunk = 100 }, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH16);
-    heaps_in((lom_device_desc){ .tile = 32, .threads = 1, .batch = 1 }, LOM_FORMAT_RGBA16F, LOM_FORMAT_DEPTH24);
-    heaps_in((lom_device_desc){ .threads = 1 }, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_NONE);
+    heaps_in((lom_device_desc){ .tile = 64, .threads = 2 }, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH32F, 1);
+    heaps_in((lom_device_desc){ .tile = 16, .threads = 1, .chunk = 100 }, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH16, 1);
+    heaps_in((lom_device_desc){ .tile = 32, .threads = 1, .batch = 1 }, LOM_FORMAT_RGBA16F, LOM_FORMAT_DEPTH24, 1);
+    heaps_in((lom_device_desc){ .threads = 1 }, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_NONE, 1);
+}
+
+static void packed_triangles_of_several_samples_end_likewise(void)
+{
+    heaps_in((lom_device_desc){ .tile = 64, .threads = 2 }, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_DEPTH32F, 4);
+    heaps_in((lom_device_desc){ .tile = 16, .threads = 1, .chunk = 100 }, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH16, 2);
+    heaps_in((lom_device_desc){ .tile = 32, .threads = 1, .batch = 1 }, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH24, 8);
 }
 
 int main(int argc, char **argv)
 {
     RUN(packed_triangles_end_as_those_drawn_one_by_one);
+    RUN(packed_triangles_of_several_samples_end_likewise);
     return check_result();
 }

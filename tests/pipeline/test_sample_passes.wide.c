@@ -54,6 +54,26 @@ static void a_fragment_is_shaded_at_the_centre_or_at_its_first_sample(void)
     }
 }
 
+static void passes_shade_each_sample_of_all_draws(void)
+{
+    make_heap();
+    lom_image *image[2];
+    for (int i = 0; i < 2; i++) {
+        stage s = open_stage((lom_device_desc){ .threads = 1 }, SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+        lom_draw_desc draw = draw_of(&values, heap, 3 * TRIANGLES);
+        draw.per_sample = i == 0;
+        begin(&s, (lom_pass_desc){ .samples = 4, .per_sample = i == 1 });
+        lom_draw(s.device, &draw);
+        finish(&s);
+        image[i] = s.image;
+        s.image = NULL;
+        close_stage(&s);
+    }
+    CHECK(same_images(image[0], image[1]), "it matters who says so");
+    lom_free_image(image[0]);
+    lom_free_image(image[1]);
+}
+
 /* ---- the mean ---- */
 
 static void half_plane(vertex v[3], int64_t x, const float value[4])
@@ -258,6 +278,7 @@ static void other_numbers_are_refused(void)
 int main(int argc, char **argv)
 {
     RUN(a_fragment_is_shaded_at_the_centre_or_at_its_first_sample);
+    RUN(passes_shade_each_sample_of_all_draws);
     RUN(the_mean_is_of_linear_light);
     RUN(alpha_covers_as_many_samples_as_it_is_worth);
     RUN(samples_last_from_pass_to_pass);

@@ -125,7 +125,11 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
 {
     lom_renderer *r = f->renderer;
     const int samples = f->scene->output.samples;
-    lom_pass_desc pass = { .color = { color }, .depth = depth, .samples = samples, .scissor = scissor };
+    lom_pass_desc pass = { .color = { color },
+                           .depth = depth,
+                           .samples = samples,
+                           .per_sample = f->scene->output.sample_shading,
+                           .scissor = scissor };
     pass.label = view->mirrored ? "reflection" : "refraction";
     for (int i = 0; i < 4; i++)
         pass.clear_color[0][i] = clear[i];
