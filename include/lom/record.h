@@ -248,6 +248,8 @@ typedef struct lom_tally {
     bool at_made;       /* the centre lies within 2.5 pixels of one */
     bool is_mipped;     /* its shader looked up a texture with mipmaps, the first of these: */
     float level, asked; /* the level of detail that was chosen; that was asked for, before bias and bounds */
+    bool has_varyings;  /* its shader reads the first three varyings: */
+    float varying[3];
     /* The last value of the name that a fragment stored since then had, blended or not; a NaN counts as none: */
     int named_components; /* 0: none */
     float named[4];

@@ -147,7 +147,7 @@ void lom_record_sprite(struct lom_tile *tile, int place, const lom_mask *covered
 void lom_record_sprite_shaded(struct lom_tile *tile, const lom_fragment *out)
 {
     if (tile->pass->tallier != NULL)
-        lom_tally_shaded(tile, out);
+        lom_tally_shaded(tile, NULL, out);
 }
 
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet)
@@ -203,7 +203,7 @@ static struct record_memory *memory_at(const struct lom_tile *tile, int place, s
 void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out)
 {
     if (tile->pass->tallier != NULL)
-        lom_tally_shaded(tile, out);
+        lom_tally_shaded(tile, in, out);
     if (tile->pass->recorder == NULL)
         return;
     struct record_worker *worker = worker_of(tile);

@@ -22,6 +22,7 @@ struct tally_worker {
     int32_t pixel[4];                /* places in tile memory */
     lom_mask inside, covered;
     lom_float depth;                       /* the shader's */
+    lom_float varying[3];                  /* the first ones, where the shader reads them */
     const struct lom_note *named, *lookup; /* the last of the name; the first in a texture with mipmaps; NULL: none */
 };
 
@@ -51,7 +52,8 @@ void lom_tally_inside(struct lom_tile *tile, const lom_mask *inside);
 void lom_tally_tested(struct lom_tile *tile, int place, const lom_mask *passed);
 void lom_tally_packet(struct lom_tile *tile, const struct lom_packet *packet);
 void lom_tally_sprite(struct lom_tile *tile, int place, const lom_mask *covered);
-void lom_tally_shaded(struct lom_tile *tile, const lom_fragment *out);
+void lom_tally_shaded(struct lom_tile *tile, const lom_varyings *in,
+                      const lom_fragment *out); /* in NULL: of a sprite */
 void lom_tally_written(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask);
 
 #endif

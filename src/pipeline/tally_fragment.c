@@ -121,12 +121,19 @@ static void read_notes(struct tally_worker *worker, const char *named, uint32_t 
     }
 }
 
-void lom_tally_shaded(struct lom_tile *tile, const lom_fragment *out)
+static bool reads_first(const struct lom_tile *tile)
+{
+    return (tile->draw->desc.shader->reads & 7) == 7;
+}
+
+void lom_tally_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out)
 {
     struct tally_worker *worker = worker_of(tile);
     uint32_t lookups[LOM_LANES] = { 0 }, steps[LOM_LANES] = { 0 };
     lom_open_notes(NULL);
     worker->depth = out->depth;
+    if (in != NULL && reads_first(tile))
+        memcpy(worker->varying, in->varying, sizeof worker->varying);
     read_notes(worker, tile->pass->tallier->desc.named, lookups, steps);
     for (uint32_t lanes = lom_bits(worker->covered); lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);
@@ -206,6 +213,9 @@ static void store(const struct lom_tile *tile, lom_tally *tally, int place, int 
     tally->asked = tally->is_mipped ? note_value(worker, worker->lookup, 3, lane) : 0;
     tally->level = tally->is_mipped ? note_value(worker, worker->lookup, 4, lane) : 0;
     tally->named_components = 0;
+    tally->has_varyings = reads_first(tile);
+    for (int k = 0; k < 3; k++)
+        tally->varying[k] = tally->has_varyings ? worker->varying[k][lane] : 0;
 }
 
 static void store_named(const struct tally_worker *worker, lom_tally *tally, int lane)

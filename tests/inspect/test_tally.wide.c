@@ -7,6 +7,8 @@
 #include <lom/record.h>
 #include <lom/texture.h>
 
+#include <math.h>
+
 enum { SIZE = 64, TRIANGLES = 40 };
 
 struct look {
@@ -143,6 +145,32 @@ static void overdraw_and_early_kills_follow_the_order(void)
             }
             close_stage(&s);
         }
+}
+
+/* Varyings run from 0 to 8 along the picture; a triangle of no object is blended over it. */
+static void varyings_are_those_of_what_is_stored(void)
+{
+    for (int reads = 0; reads < 2; reads++) {
+        stage s = open(1);
+        vertex v[6];
+        cover(v, 0.25f, 1, 8);
+        cover(v + 3, 0.5f, 1, 1);
+        tally_all(&s);
+        lom_draw_desc draw = draw_of(reads ? &shown : &constant, v, 3), over = draw_of(&shown, v + 3, 3);
+        over.blend[0] = adding();
+        begin(&s, (lom_pass_desc){ .samples = 1 });
+        lom_draw(s.device, &draw);
+        lom_draw(s.device, &over);
+        finish(&s);
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            const lom_tally *t = lom_tallied(s.device, p % SIZE, p / SIZE);
+            double x = reads ? (p % SIZE + 0.5) / SIZE * 8 : 0, y = reads ? (p / SIZE + 0.5) / SIZE * 8 : 0;
+            CHECK(t->has_varyings == (reads != 0) && fabs((double)t->varying[0] - x) <= 8 * 0x1p-21 &&
+                      fabs((double)t->varying[1] - y) <= 8 * 0x1p-21,
+                  "pixel %d: %d, %g %g", p, t->has_varyings, t->varying[0], t->varying[1]);
+        }
+        close_stage(&s);
+    }
 }
 
 static void passes_add_up_until_one_clears(void)
@@ -491,6 +519,7 @@ static void what_cannot_be_tallied_is_an_error(void)
 int main(int argc, char **argv)
 {
     RUN(overdraw_and_early_kills_follow_the_order);
+    RUN(varyings_are_those_of_what_is_stored);
     RUN(passes_add_up_until_one_clears);
     RUN(lanes_in_use_are_those_of_packets);
     RUN(broken_colors_are_those_pixels);
