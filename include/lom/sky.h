@@ -15,6 +15,7 @@ typedef struct lom_sky_params {
     double intensity;     /* factor on the pictures and on color */
     double color[3];      /* linear */
     const char *pattern;  /* as in the file; the reader has resolved it into faces */
+    const char *cube;     /* one file of all six faces, and what faces name then; NULL: a file each */
     bool gradient;        /* instead of color: from horizon to zenith, with haze low down and a glow around the sun */
     double zenith[3], horizon[3], haze[3], glow[3]; /* linear */
     double haze_height;                             /* sine of the elevation where the haze ends */

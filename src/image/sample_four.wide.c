@@ -36,6 +36,7 @@ static four find_four(const lom_texture *texture, const lom_float2 *at, bool nea
     point.t = sample_wrap(at->y, texture->sampler.wrap_t);
     sample_place place = sample_place_of_level(texture, 0);
     four found;
+    SAMPLE_NOTE(texture, LOM_TEXTURE_2D, (&point), (lom_float){ 0 }, (lom_float){ 0 });
     found.print = sample_footprint_of(texture, LOM_TEXTURE_2D, &point, &place);
     lom_int right = step_of(point.s, place.width, texture->sampler.wrap_s);
     lom_int below = step_of(point.t, place.height, texture->sampler.wrap_t) * place.pitch;
@@ -70,5 +71,5 @@ void LOM_WIDE(lom_sample_compare_lanes)(const lom_texture *texture, const lom_fl
     *out = nearest ? share[0]
                    : lom_mix(lom_mix(share[0], share[1], found.print.s), lom_mix(share[2], share[3], found.print.s),
                              found.print.t);
-    LOM_NOTE(LOM_NOTE_RESULT, texture, *out);
+    LOM_NOTE(LOM_NOTE_RESULT, texture, *out, (lom_float){ 0 }, (lom_float){ 0 }, (lom_float){ 0 });
 }

@@ -16,7 +16,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_TARGETS, "output.format output.samples" },
     { LOM_PART_TEXTURES | LOM_PART_TARGETS, "output.transfer" },
 
-    { LOM_PART_SKY, "sky sky.pattern sky.faces" },
+    { LOM_PART_SKY, "sky sky.pattern sky.faces sky.cube" },
     { LOM_PART_SUN, "sky.sun sky.sun_rays" },
     { each_frame, "sky.rotation sky.intensity sky.color sky.gradient sky.zenith sky.horizon sky.haze sky.haze_height "
                   "sky.glow sky.sun_size" },

@@ -17,6 +17,8 @@ static const lom_key keys[] = {
               "(+y), `bottom` (-y), `front` (+z) and `back` (-z) are put in turn." },
     { "faces", LOM_KEY_FILE, AT(faces), 6,
       .text = "The same six pictures, each by its own name, in that order; instead of `pattern`." },
+    { "cube", LOM_KEY_FILE, AT(cube),
+      .text = "One file of all six faces (a cube in DDS or KTX); instead of `pattern` and `faces`." },
     { "rotation", LOM_KEY_ANGLE, AT(rotation), .minimum = -360, .maximum = 360, .unit = "degrees",
       .text = "Turns the box about the y axis, counter-clockwise seen from above." },
     { "intensity", LOM_KEY_NUMBER, AT(intensity), .maximum = 1e6, .initial = { 1 },
@@ -64,6 +66,13 @@ static bool check_sky(void *members, const lom_key_check *check)
     for (int i = 1; i < 6; i++)
         if ((sky->faces[i] != NULL) != has_faces)
             return check->fail(check, "faces", "\"faces\" must name all six pictures, or be left out.");
+    if (sky->cube != NULL) {
+        if (has_faces || sky->pattern != NULL)
+            return check->fail(check, "cube", "the sky has either a cube, a pattern or faces.");
+        for (int i = 0; i < 6; i++)
+            sky->faces[i] = sky->cube;
+        return true;
+    }
     if (sky->pattern == NULL)
         return true;
     if (has_faces)

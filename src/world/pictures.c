@@ -119,8 +119,21 @@ static bool read_face(lom_image **faces, const char *path, int face, lom_error *
     return done;
 }
 
+static lom_image *read_cube(const char *path, lom_error *error)
+{
+    lom_image *file = lom_read_image(path, error), *faces = NULL;
+    if (file != NULL && file->slices != LOM_SLICES_CUBE)
+        lom_fail(error, LOM_ERROR_INPUT, "%s: this file holds no cube of six faces.", path);
+    else if (file != NULL)
+        faces = lom_convert_image(file, LOM_FORMAT_RGBA8, error);
+    lom_free_image(file);
+    return faces;
+}
+
 lom_image *lom_read_sky_faces(const lom_sky_params *sky, lom_error *error)
 {
+    if (sky->cube != NULL)
+        return read_cube(sky->cube, error);
     lom_image *faces = NULL;
     bool done = true;
     for (int face = 0; done && face < 6; face++)

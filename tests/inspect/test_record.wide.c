@@ -32,6 +32,20 @@ LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .re
 LOM_SHADER(textured, texture_vertex, texture_fragment, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
            .discards = true, .colors = 1, .uniforms_size = sizeof(struct look))
 
+/* Three lookups: a comparison, a gather, and a sample by gradients that takes several probes. */
+static void reading_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct look *look = uniforms;
+    lom_float s = in->varying[0], t = in->varying[1], zero = { 0 };
+    lom_float share = lom_sample_compare(look->texture, s, t, lom_splat(0.5f), LOM_COMPARE_GREATER);
+    lom_float4 four = lom_sample_gather(look->texture, s, t, 1);
+    lom_float4 mean = lom_sample_gradient(look->texture, s, t, lom_splat(0.5f), zero, zero, lom_splat(0.125f));
+    out->color[0] = (lom_float4){ share, four.x, four.z, mean.x };
+}
+
+LOM_SHADER(reading, place_values, reading_fragment, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .colors = 1, .uniforms_size = sizeof(struct look))
+
 static void constant_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     (void)in;
@@ -310,6 +324,68 @@ static void taps_add_up_and_values_bear_their_names(void)
     close_stage(&s);
 }
 
+/* The texel of a tap that lies at a corner of its four: k is 0 left, 1 right, plus 2 below. */
+static float corner(const lom_note_record *lookup, int k, int channel)
+{
+    int x = lookup->tap[0].x, y = lookup->tap[0].y;
+    for (int i = 0; i < lookup->taps; i++) {
+        x = lookup->tap[i].x < x ? lookup->tap[i].x : x;
+        y = lookup->tap[i].y < y ? lookup->tap[i].y : y;
+    }
+    for (int i = 0; i < lookup->taps; i++)
+        if (lookup->tap[i].x - x == k % 2 && lookup->tap[i].y - y == k / 2)
+            return lookup->tap[i].color[channel];
+    return -1;
+}
+
+static void comparisons_gathers_and_probes_are_lookups(void)
+{
+    enum { EDGE = 8 };
+    static uint8_t texels[EDGE * EDGE * 4];
+    stage s = open_stage((lom_device_desc){ .threads = 1 }, SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_NONE);
+    for (size_t i = 0; i < sizeof texels; i++)
+        texels[i] = (uint8_t)random_whole(0, 255);
+    struct look look = { lom_make_texture(s.device, &(lom_texture_desc){ .width = EDGE,
+                                                                         .height = EDGE,
+                                                                         .pixels = texels,
+                                                                         .mips = LOM_MIPS_ALL,
+                                                                         .sampler = { .anisotropy = 4 } }),
+                         0 };
+    static vertex v[3];
+    for (int round = 0; round < 50; round++) {
+        fill(v, 0.5f, 0);
+        for (int k = 0; k < 3; k++) { /* never at a centre: four taps */
+            v[k].value[0] = v[0].value[0] = k > 0 ? v[0].value[0] : ((float)random_whole(0, 7) + 0.75f) / EDGE;
+            v[k].value[1] = k > 0 ? v[0].value[1] : ((float)random_whole(0, 7) + 0.875f) / EDGE;
+        }
+        CHECK(lom_watch(s.device, &(lom_watch_desc){ .target = s.color, .x = 5, .y = 7 }, 1));
+        begin(&s, (lom_pass_desc){ .samples = 1 });
+        lom_draw_desc draw = draw_of(&reading, v, 3);
+        draw.uniforms = &look;
+        lom_draw(s.device, &draw);
+        finish(&s);
+        const lom_triangle_record *t = first_of(lom_watched_pixel(s.device, 0, 5, 7));
+        const lom_note_record *compared = t->fragment.notes, *gathered = compared->next;
+        CHECK(compared->kind == LOM_NOTE_LOOKUP && compared->taps == 4 && gathered->taps == 4);
+        float share = 0, mean = 0;
+        for (int i = 0; i < 4; i++)
+            share += 0.5f > compared->tap[i].color[0] ? compared->tap[i].weight : 0;
+        CHECK(share - compared->result[0] < 1e-6f && compared->result[0] - share < 1e-6f &&
+                  compared->result[0] == t->fragment.color[0][0],
+              "round %d: %g", round, (double)share);
+        CHECK(gathered->result[0] == corner(gathered, 2, 1) && gathered->result[1] == corner(gathered, 3, 1) &&
+                  gathered->result[2] == corner(gathered, 1, 1) && gathered->result[3] == corner(gathered, 0, 1),
+              "round %d", round);
+        int probes = 0;
+        for (const lom_note_record *probe = gathered->next; probe != NULL; probe = probe->next, probes++)
+            mean += probe->result[0] / 4;
+        mean -= t->fragment.color[0][3];
+        CHECK(probes == 4 && mean < 1e-5f && mean > -1e-5f, "round %d: %d probes, off by %g", round, probes,
+              (double)mean);
+    }
+    close_stage(&s);
+}
+
 /* ---- passes ---- */
 
 static void a_record_begins_with_the_pass_that_cleared(void)
@@ -346,6 +422,7 @@ int main(int argc, char **argv)
     RUN(what_covers_a_few_rows_is_what_the_oracle_says);
     RUN(each_fate_is_told);
     RUN(taps_add_up_and_values_bear_their_names);
+    RUN(comparisons_gathers_and_probes_are_lookups);
     RUN(a_record_begins_with_the_pass_that_cleared);
     return check_result();
 }

@@ -1,6 +1,7 @@
 /* Proves what a world says of a scene: entities stand on the triangles of the ground, move by their keys and are the
  * same at a time whatever was asked before; an entity's material counts before its mesh's and that before the default;
  * a map that cannot be read is a warning, a picture that the scene names an error; and a file is read once. */
+#include "../image/coded_files.h"
 #include "check.h"
 #include "small_scene.h"
 
@@ -363,6 +364,45 @@ static void the_faces_of_a_sky_are_squares_of_one_size(void)
     read_sky(4);
 }
 
+/* The same six pictures in one file, as a cube in DDS. */
+static void a_sky_of_one_file_is_that_of_six(void)
+{
+    lom_error error = read_sky(4);
+    coded_file file = begin_dds(&(dds_fields){
+        .width = 4, .height = 4, .flags = 0x40, .bits = 24, .mask = { 0xff, 0xff00, 0xff0000 }, .caps = 0xfe00 });
+    static const char *const names[6] = { "right", "left", "top", "bottom", "front", "back" };
+    for (int i = 0; i < 6; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "sky_%s.png", names[i]);
+        lom_image *face = lom_read_image(small_path(name), &error);
+        CHECK(face != NULL && face->format == LOM_FORMAT_RGB8 && face->width == 4, "%s", error.text);
+        append_bytes(&file, face->pixels, 48);
+        lom_free_image(face);
+    }
+    CHECK(lom_write_file(small_path("sky.dds"), file.data, file.size, &error), "%s", error.text);
+    free(file.data);
+    uint64_t hash[2] = { 0, 1 };
+    for (int i = 0; i < 2; i++) {
+        if (open_good(i == 0 ? "[sky]\npattern = 'sky_%s.png'\n" : "[sky]\ncube = 'sky.dds'\n")) {
+            lom_image *faces = lom_read_sky_faces(&scene->sky, &error);
+            CHECK(faces != NULL, "%s", error.text);
+            hash[i] = faces != NULL ? lom_hash_image(faces) : 0;
+            lom_free_image(faces);
+        }
+        close_world();
+    }
+    CHECK(hash[0] == hash[1], "another sky");
+    if (open_good("[sky]\ncube = 'color.png'\n"))
+        CHECK(lom_read_sky_faces(&scene->sky, &error) == NULL && strstr(error.text, "no cube of six faces") != NULL,
+              "%s", error.text);
+    close_world();
+    error = (lom_error){ 0 };
+    CHECK(!open_world("[sky]\ncube = 'sky.dds'\npattern = 'sky_%s.png'\n", &error) &&
+              strstr(error.text, "a cube, a pattern or faces") != NULL,
+          "%s", error.text);
+    close_world();
+}
+
 static void what_cannot_be_had_is_an_error(void)
 {
     static const struct {
@@ -398,6 +438,7 @@ int main(int argc, char **argv)
     RUN(deep_pictures_stay_deep);
     RUN(the_flow_map_is_made_from_the_file);
     RUN(the_faces_of_a_sky_are_squares_of_one_size);
+    RUN(a_sky_of_one_file_is_that_of_six);
     RUN(what_cannot_be_had_is_an_error);
     remove_small_scene();
     return check_result();
