@@ -16,8 +16,9 @@ static lom_float4 decoded_texel(const lom_texture *texture, lom_int index)
     case LOM_STORAGE_RGBA32F:
         return sample_finish(LOM_STORAGE_RGBA32F, false, sample_texel(texture, LOM_STORAGE_RGBA32F, false, index));
     default:
-        return sample_finish(LOM_STORAGE_RGBA8, texture->srgb,
-                             sample_texel(texture, LOM_STORAGE_RGBA8, texture->srgb, index));
+        if (texture->srgb)
+            return sample_finish(LOM_STORAGE_RGBA8, true, sample_texel(texture, LOM_STORAGE_RGBA8, true, index));
+        return sample_finish(LOM_STORAGE_RGBA8, false, sample_texel(texture, LOM_STORAGE_RGBA8, false, index));
     }
 }
 
@@ -29,20 +30,19 @@ static lom_int step_of(lom_float c, lom_float size, lom_wrap wrap)
     return wrap == LOM_WRAP_BORDER ? beyond + 1 : lom_splat_int(1); /* a mask is -1 */
 }
 
-static four find_four(const lom_texture *texture, const lom_float2 *at, bool nearest)
+__attribute__((noinline)) static void find_four(const lom_texture *texture, const lom_float2 *at, bool nearest,
+                                                four *found)
 {
     sample_point point = { .some_nearest = nearest, .all_nearest = nearest, .nearest = lom_splat_int(-nearest) };
     point.s = sample_wrap(at->x, texture->sampler.wrap_s);
     point.t = sample_wrap(at->y, texture->sampler.wrap_t);
     sample_place place = sample_place_of_level(texture, 0);
-    four found;
     SAMPLE_NOTE(texture, LOM_TEXTURE_2D, (&point), (lom_float){ 0 }, (lom_float){ 0 });
-    found.print = sample_footprint_of(texture, LOM_TEXTURE_2D, &point, &place);
+    found->print = sample_footprint_of(texture, LOM_TEXTURE_2D, &point, &place);
     lom_int right = step_of(point.s, place.width, texture->sampler.wrap_s);
     lom_int below = step_of(point.t, place.height, texture->sampler.wrap_t) * place.pitch;
     for (int i = 0; i < 4; i++)
-        found.texel[i] = decoded_texel(texture, found.print.index + (i & 1) * right + (i >> 1) * below);
-    return found;
+        found->texel[i] = decoded_texel(texture, found->print.index + (i & 1) * right + (i >> 1) * below);
 }
 
 static lom_float channel_of(const lom_float4 *texel, int channel)
@@ -52,7 +52,8 @@ static lom_float channel_of(const lom_float4 *texel, int channel)
 
 void LOM_WIDE(lom_sample_gather_lanes)(const lom_texture *texture, const lom_float2 *at, int channel, lom_float4 *out)
 {
-    four found = find_four(texture, at, false);
+    four found;
+    find_four(texture, at, false, &found);
     channel = channel > 0 && channel < 4 ? channel : 0;
     *out = (lom_float4){ channel_of(&found.texel[2], channel), channel_of(&found.texel[3], channel),
                          channel_of(&found.texel[1], channel), channel_of(&found.texel[0], channel) };
@@ -63,7 +64,8 @@ void LOM_WIDE(lom_sample_compare_lanes)(const lom_texture *texture, const lom_fl
                                         lom_compare compare, lom_float *out)
 {
     bool nearest = texture->nearest_within[0];
-    four found = find_four(texture, at, nearest);
+    four found;
+    find_four(texture, at, nearest, &found);
     lom_float share[4];
     for (int i = 0; i < 4; i++)
         share[i] =

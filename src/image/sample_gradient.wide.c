@@ -58,14 +58,17 @@ void LOM_WIDE(lom_sample_gradient_lanes)(const lom_texture *texture, const lom_f
         return;
     }
     footprint print = measure(texture, derivative);
-    probe(texture, at, &print, 0, out);
-    for (int k = 1; k < texture->sampler.anisotropy; k++) {
+    *out = (lom_float4){ { 0 }, { 0 }, { 0 }, { 0 } };
+    for (int k = 0; k < texture->sampler.anisotropy; k++) {
         lom_mask more = print.count > (float)k;
         if (!lom_any(more))
             return;
         lom_float4 value;
         probe(texture, at, &print, k, &value);
-        mix_into(out, &value, lom_splat(1.0f / (float)(k + 1)), more);
+        if (k == 0)
+            *out = value;
+        else
+            mix_into(out, &value, lom_splat(1.0f / (float)(k + 1)), more);
     }
 }
 

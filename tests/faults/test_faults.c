@@ -1,4 +1,5 @@
 /* Proves what failing memory, files and threads do to reading, writing and drawing, each at every call (faults.h). */
+#include "../image/coded_files.h"
 #include "faults.h"
 
 /* ---- tasks ---- */
@@ -72,6 +73,12 @@ static void every_failing_allocation_is_an_error(void)
     for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++)
         fail_memory(read_picture, pictures[i], 3, 0, 0);
     fail_memory(make_mip_levels, "color.png", 6, 0, 0);
+    coded_file file = begin_dds(&(dds_fields){ .width = 9, .height = 6, .levels = 4, .code = "DXT1" });
+    append_random(&file, 1, 80);
+    CHECK(lom_write_file(small_path("levels.dds"), file.data, file.size, NULL), "a file with levels");
+    free(file.data);
+    fail_memory(read_picture, "levels.dds", 9, 0, 0); /* the file, four images and their pixels */
+    fail_memory(make_mip_levels, "levels.dds", 12, 0, 0);
     fail_memory(read_mesh, "box.obj", 8, 0, 0);
     fail_memory(read_scene, "scene.toml", 3, 0, 0);
     fail_memory(write_picture, "out.png", 3, 0, 0);

@@ -168,9 +168,11 @@ static int take_side(fuzz_bytes *in)
 
 static lom_texture *take_texture(fuzz_bytes *in, struct heap *heap)
 {
-    lom_texture_desc desc = { .kind = (lom_texture_kind)(take_choice(in, 8) < 6 ? 0 : take_enum(in, 3)),
-                              .format = (lom_format)take_enum(in, LOM_FORMAT_COUNT),
-                              .mips = (lom_mips)take_enum(in, LOM_MIPS_SUPPLIED) };
+    lom_texture_desc desc = {
+        .kind = (lom_texture_kind)(take_choice(in, 8) < 6 ? 0 : take_enum(in, LOM_TEXTURE_KIND_COUNT)),
+        .format = (lom_format)take_enum(in, LOM_FORMAT_COUNT),
+        .mips = (lom_mips)take_enum(in, LOM_MIPS_SUPPLIED)
+    };
     desc.width = take_side(in);
     desc.height = take_bool(in) ? desc.width : take_side(in);
     desc.depth = take_choice(in, 4) == 3 ? take_side(in) : 0;
