@@ -4,6 +4,7 @@
 #include "base/threads.h"
 
 #include "commands.h"
+#include "compare_ignore.h"
 #include "json.h"
 #include "options.h"
 
@@ -15,8 +16,9 @@
 struct values {
     lom_option_integers max_diff_pixels;
     lom_option_number max_delta, min_psnr, min_ssim, max_flip;
-    const char *diff;
-    bool metrics, json, quiet;
+    const char *diff, *mask;
+    lom_option_list ignore;
+    bool metrics, any, json, quiet;
 };
 
 static const lom_option options[] = {
@@ -56,6 +58,20 @@ static const lom_option options[] = {
       .kind = LOM_OPTION_FLAG,
       .field = offsetof(struct values, metrics),
       .help = "find SSIM and FLIP as well, which takes longer" },
+    { .name = "ignore",
+      .kind = LOM_OPTION_LIST,
+      .field = offsetof(struct values, ignore),
+      .value = "X,Y,W,H",
+      .help = "leave out the pixels of a rectangle" },
+    { .name = "mask",
+      .kind = LOM_OPTION_TEXT,
+      .field = offsetof(struct values, mask),
+      .value = "PICTURE",
+      .help = "leave out the pixels where that picture is black" },
+    { .name = "any",
+      .kind = LOM_OPTION_FLAG,
+      .field = offsetof(struct values, any),
+      .help = "A is compared with each of the others, and one of them is enough" },
     { .name = "diff",
       .kind = LOM_OPTION_TEXT,
       .field = offsetof(struct values, diff),
@@ -74,7 +90,7 @@ static const lom_option options[] = {
 
 static const lom_command_line line = {
     .name = "compare",
-    .arguments = "A B",
+    .arguments = "A B...",
     .summary = "Says whether and how much two pictures differ",
     .details =
         "Exit status: 0 when accepted, 1 when not, 2 when the pictures could not be read. Without limits any "
@@ -91,12 +107,15 @@ static const lom_command_line line = {
         "the\n"
         "largest step or 1.0; SSIM follows Wang 2004 on luma without downsampling; FLIP is the mean of LDR FLIP at 67\n"
         "pixels a degree, which takes whole-number samples as sRGB-encoded and floats as linear light.\n\n"
+        "Pixels that are left out are white and opaque in both pictures, so they are equal for every measure. With "
+        "--any\n"
+        "the first picture that is accepted is told of, or else the one with the fewest differing pixels.\n\n"
         "--diff shows a channel as 0 where equal, else 64 + 191 sqrt(difference / range); alpha in all channels. For\n"
         "pictures of different sizes it is as large as both, and 32 in all channels where only one has a pixel.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 2,
-    .maximum_arguments = 2,
+    .maximum_arguments = -1,
 };
 
 /* Everything that is printed and judged. A measure that nobody asked for is NaN. */
@@ -104,8 +123,15 @@ struct measures {
     lom_comparison exact;
     size_t above; /* pixels that differ by more than --max-delta, or at all without it */
     double ssim, flip;
+    char *paths[2];
     lom_image *pictures[2];
 };
+
+static void free_pictures(struct measures *measures)
+{
+    for (int i = 0; i < 2; i++)
+        lom_free_image(measures->pictures[i]);
+}
 
 /* ---- measuring ---- */
 
@@ -127,8 +153,6 @@ static void read_next(void *context, int worker)
 /* Both at the same time; when both fail, the first one's error is told. */
 static bool read_pictures(lom_image *pictures[2], char **paths, lom_error *error)
 {
-    if (strcmp(paths[0], "-") == 0 && strcmp(paths[1], "-") == 0)
-        return lom_fail(error, LOM_ERROR_USAGE, "compare: only one of the pictures can be standard input.");
     struct reading reading = { .paths = paths, .pictures = pictures };
     lom_pool *pool = lom_create_pool(2, error);
     if (pool == NULL)
@@ -143,9 +167,10 @@ static bool read_pictures(lom_image *pictures[2], char **paths, lom_error *error
     return true;
 }
 
-static bool measure(struct measures *measures, char **paths, const struct values *values, lom_error *error)
+static bool measure(struct measures *measures, const struct values *values, lom_error *error)
 {
-    if (!read_pictures(measures->pictures, paths, error))
+    if (!read_pictures(measures->pictures, measures->paths, error) ||
+        !lom_ignore_pixels(measures->pictures, &values->ignore, values->mask, error))
         return false;
     const lom_image *a = measures->pictures[0], *b = measures->pictures[1];
     lom_comparison *exact = &measures->exact;
@@ -182,6 +207,35 @@ static bool accepted(const struct measures *measures, const struct values *value
            (!values->max_flip.given || measures->flip <= values->max_flip.value);
 }
 
+/* Whether fewer pixels differ than in what was best until then. */
+static bool nearer(const lom_comparison *a, const lom_comparison *best)
+{
+    return a->same_size && (!best->same_size || a->pixels < best->pixels);
+}
+
+/* A with each of the others until one is accepted: best is that, or the nearest. */
+static bool measure_any(struct measures *best, const lom_arguments *arguments, const struct values *values,
+                        lom_error *error)
+{
+    for (int i = 1; i < arguments->count; i++) {
+        struct measures measures = { .paths = { arguments->items[0], arguments->items[i] } };
+        if (!measure(&measures, values, error)) {
+            free_pictures(&measures);
+            return false;
+        }
+        bool accept = accepted(&measures, values);
+        if (i == 1 || accept || nearer(&measures.exact, &best->exact)) {
+            free_pictures(best);
+            *best = measures;
+        } else {
+            free_pictures(&measures);
+        }
+        if (accept)
+            break;
+    }
+    return true;
+}
+
 /* ---- telling ---- */
 
 static void print_size(lom_json *json, const char *key, const lom_image *image)
@@ -190,13 +244,13 @@ static void print_size(lom_json *json, const char *key, const lom_image *image)
     lom_json_integers(json, key, size, 3);
 }
 
-static void print_json(const struct measures *measures, char **paths, bool accept)
+static void print_json(const struct measures *measures, bool accept)
 {
     const lom_comparison *exact = &measures->exact;
     bool same = exact->same_size;
     lom_json json = lom_json_begin(stdout);
-    lom_json_text(&json, "a", paths[0]);
-    lom_json_text(&json, "b", paths[1]);
+    lom_json_text(&json, "a", measures->paths[0]);
+    lom_json_text(&json, "b", measures->paths[1]);
     lom_json_bool(&json, "identical", exact->identical);
     lom_json_bool(&json, "accepted", accept);
     lom_json_bool(&json, "same_size", same);
@@ -237,6 +291,8 @@ static void print_table(const struct measures *measures, const struct values *va
 {
     const lom_comparison *exact = &measures->exact;
     const lom_image *a = measures->pictures[0];
+    if (values->any)
+        printf("compared with    %s\n", measures->paths[1]);
     double total = (double)a->width * a->height * a->depth;
     if (exact->identical) {
         printf("identical        %d x %d\n", a->width, a->height);
@@ -266,8 +322,9 @@ static bool write_picture(const char *path, const struct measures *measures, lom
     return done;
 }
 
-static void complain_of_sizes(const struct measures *measures, char **paths)
+static void complain_of_sizes(const struct measures *measures)
 {
+    char *const *paths = measures->paths;
     const lom_image *a = measures->pictures[0], *b = measures->pictures[1];
     if (a->depth == 1 && b->depth == 1)
         lom_complain("%s is %d x %d and %s is %d x %d: pictures of different sizes always differ.", paths[0], a->width,
@@ -277,13 +334,13 @@ static void complain_of_sizes(const struct measures *measures, char **paths)
                      a->width, a->height, a->depth, paths[1], b->width, b->height, b->depth);
 }
 
-static int report(const struct measures *measures, char **paths, const struct values *values)
+static int report(const struct measures *measures, const struct values *values)
 {
     bool accept = accepted(measures, values);
     if (!values->quiet && values->json)
-        print_json(measures, paths, accept);
+        print_json(measures, accept);
     if (!values->quiet && !measures->exact.same_size)
-        complain_of_sizes(measures, paths);
+        complain_of_sizes(measures);
     else if (!values->quiet && !values->json)
         print_table(measures, values);
     lom_error error = { .code = LOM_OK };
@@ -301,13 +358,19 @@ int lom_command_compare(int argc, char **argv)
         return status;
     if (values.diff != NULL && strcmp(values.diff, "-") == 0 && !values.quiet)
         return lom_complain("compare: --diff - writes to standard output, so it needs --quiet");
+    if (arguments.count > 2 && !values.any)
+        return lom_complain("compare: %d pictures are compared by --any alone", arguments.count);
+    int streams = 0;
+    for (int i = 0; i < arguments.count; i++)
+        streams += strcmp(arguments.items[i], "-") == 0;
+    if (streams > (arguments.count > 2 && strcmp(arguments.items[0], "-") == 0 ? 0 : 1))
+        return lom_complain("compare: standard input can be one of the pictures, and be read once");
     struct measures measures = { .pictures = { NULL, NULL } };
     lom_error error = { .code = LOM_OK };
-    if (measure(&measures, arguments.items, &values, &error))
-        status = report(&measures, arguments.items, &values);
+    if (measure_any(&measures, &arguments, &values, &error))
+        status = report(&measures, &values);
     else
         status = lom_complain_error(&error);
-    lom_free_image(measures.pictures[0]);
-    lom_free_image(measures.pictures[1]);
+    free_pictures(&measures);
     return status;
 }

@@ -81,23 +81,29 @@ static bool take_integer(const char **text, int64_t *value)
     return digits > 0 && digits < 16;
 }
 
+int lom_match_integers(const char *pattern, const char *text, int64_t value[4])
+{
+    int count = 0;
+    for (; *pattern != 0 && *pattern != '|'; pattern++) {
+        bool is_integer = *pattern >= 'A' && *pattern <= 'Z' && count < 4;
+        if (is_integer ? !take_integer(&text, &value[count]) : *text++ != *pattern)
+            return 0;
+        count += is_integer;
+    }
+    return *text == 0 ? count : 0;
+}
+
 static bool store_integers(const lom_command_line *line, const lom_option *option, const char *word, void *field)
 {
     lom_option_integers values = { .given = true };
-    const char *text = word, *bar = strchr(option->value, '|');
-    int count = 0;
+    const char *bar = strchr(option->value, '|');
     if (bar != NULL && strcmp(word, bar + 1) == 0) {
         values.is_word = true;
         *(lom_option_integers *)field = values;
         return true;
     }
-    for (const char *pattern = option->value; *pattern != 0 && pattern != bar; pattern++) {
-        bool is_integer = *pattern >= 'A' && *pattern <= 'Z' && count < 4;
-        if (is_integer ? !take_integer(&text, &values.value[count]) : *text++ != *pattern)
-            return refuse(line, "--%s takes %s in whole numbers, not \"%s\"", option->name, option->value, word);
-        count += is_integer;
-    }
-    if (*text != 0)
+    int count = lom_match_integers(option->value, word, values.value);
+    if (count == 0)
         return refuse(line, "--%s takes %s in whole numbers, not \"%s\"", option->name, option->value, word);
     for (int i = 0; i < count && has_limits(option); i++)
         if ((double)values.value[i] < option->minimum || (double)values.value[i] > option->maximum)

@@ -80,6 +80,9 @@ typedef struct lom_arguments {
 bool lom_parse_options(const lom_command_line *line, int argc, char **argv, void *values, lom_arguments *arguments,
                        int *status);
 
+/* Integers in the pattern of an option's `value`, which has at least one: how many were read, 0 when text is not in it. */
+int lom_match_integers(const char *pattern, const char *text, int64_t value[4]);
+
 /* Prints the usage, the options and the details of line. */
 void lom_print_help(const lom_command_line *line, FILE *out);
 

@@ -131,10 +131,47 @@ picture_of_sizes() {
 }
 
 standard_input() {
-    "$lom" compare - a.ppm <a.ppm && "$lom" compare a.ppm - <a.ppm && exits 2 "$lom" compare - - && complains "only one"
+    "$lom" compare - a.ppm <a.ppm && "$lom" compare a.ppm - <a.ppm && exits 2 "$lom" compare - - && complains "be read once" &&
+        exits 2 "$lom" compare - a.ppm b.ppm --any <a.ppm && complains "be read once"
+}
+
+# b differs from a at 2,0 alone, which a rectangle or a mask leaves out; the rest still counts. White is white in every
+# format: 16 bits, alpha, floats of one and three channels.
+left_out() {
+    printf 'P2 4 2 255\n 1 255 0 1  7 7 7 7\n' >mask.pgm
+    printf 'P2 4 2 255\n 1 255 1 0  7 7 7 7\n' >other.pgm
+    "$lom" convert b.ppm wide.pam && "$lom" convert b.ppm float.pfm && printf 'P2 4 2 255\n 9 9 9 9 9 9 9 9\n' >gray.pgm &&
+        "$lom" convert gray.pgm gray.pfm || return 1
+    for options in "--ignore 2,0,1,1" "--ignore 0,0,1,1 --ignore 2,-5,9,6" "--mask mask.pgm" "--ignore 0,0,4,2 --metrics --min-ssim 1"; do
+        # shellcheck disable=SC2086
+        exits 0 "$lom" compare a.ppm b.ppm $options && says identical || return 1
+    done
+    exits 1 "$lom" compare a.ppm b.ppm --ignore 1,0,1,2 && says "1 of 8" && exits 1 "$lom" compare a.ppm b.ppm --mask other.pgm &&
+        exits 0 "$lom" compare float.pfm gray.pfm --ignore 0,0,4,2 && exits 0 "$lom" compare wide.pam gray.pfm --ignore 0,0,9,9 &&
+        exits 1 "$lom" compare float.pfm gray.pfm --ignore 0,0,3,2 && exits 1 "$lom" compare a.ppm c.ppm --ignore 0,0,1,1
+}
+
+left_out_wrongly() {
+    exits 2 "$lom" compare a.ppm b.ppm --ignore 4,0,1,1 && complains "--ignore 4,0,1,1 has no pixel" &&
+        exits 2 "$lom" compare a.ppm b.ppm --ignore 0,0,1 && complains 'not "0,0,1"' &&
+        exits 2 "$lom" compare a.ppm b.ppm --ignore 0,0,0,5 && exits 2 "$lom" compare a.ppm b.ppm --ignore 0,0,1,1x &&
+        exits 2 "$lom" compare a.ppm b.ppm --mask c.ppm && complains "mask c.ppm is 2 x 4 and the pictures are 4 x 2" &&
+        exits 2 "$lom" compare a.ppm b.ppm --mask missing.pgm
+}
+
+# One of several is enough; told of is that, or the nearest.
+any_of_them() {
+    exits 0 "$lom" compare a.ppm c.ppm n.ppm a.ppm b.ppm --any && says "with    a.ppm" && says identical &&
+        exits 1 "$lom" compare a.ppm c.ppm n.ppm b.ppm --any && says "with    b.ppm" && says "1 of 8" &&
+        exits 0 "$lom" compare a.ppm n.ppm b.ppm --any --max-delta 3 && says "with    b.ppm" &&
+        exits 2 "$lom" compare a.ppm b.ppm a.ppm && complains "by --any alone" &&
+        exits 2 "$lom" compare a.ppm missing.ppm a.ppm --any
 }
 
 check compare_exit_statuses statuses
+check compare_leaves_out_rectangles_and_masks left_out
+check compare_refuses_what_leaves_out_nothing left_out_wrongly
+check compare_with_any_of_several any_of_them
 check compare_thresholds thresholds
 check compare_pixels_above_a_delta pixels_above_a_delta
 check compare_metrics_when_asked_for metrics

@@ -59,7 +59,7 @@ needs a value|render a.toml --stats --hash
 given twice|compare a b --max-flip 1 --max-flip 1
 takes no value|compare a b --json=yes
 too few arguments|compare a
-too many arguments|compare a b c
+by --any alone|compare a b c
 too few arguments|compare
 too few arguments|info
 too many arguments|version now
