@@ -398,8 +398,9 @@ LOM_INLINE int64_t lom_hold(int64_t x)
 LOM_INLINE struct lom_indices lom_take_indices(lom_int index)
 {
     __m128i low = _mm256_castsi256_si128((__m256i)index), high = _mm256_extracti128_si256((__m256i)index, 1);
-    return (struct lom_indices){ { lom_hold(_mm_cvtsi128_si64(low)), lom_hold(_mm_extract_epi64(low, 1)),
-                                   lom_hold(_mm_cvtsi128_si64(high)), lom_hold(_mm_extract_epi64(high, 1)) } };
+    struct lom_indices indices = { { lom_hold(_mm_cvtsi128_si64(low)), lom_hold(_mm_extract_epi64(low, 1)),
+                                     lom_hold(_mm_cvtsi128_si64(high)), lom_hold(_mm_extract_epi64(high, 1)) } };
+    return indices;
 }
 
 LOM_INLINE void lom_gather_pairs(const int32_t *from, lom_int index, lom_int *first, lom_int *second)
