@@ -17,7 +17,7 @@
 #
 #   CC=clang O=0 BUILD=dir      another compiler, level and folder
 #   SAN=address                 address, undefined, thread or memory sanitizer
-#   SDL=                        no window for lom view, whose SDL2 pkg-config finds else
+#   SDL=                        no window for lom view, else one where pkg-config finds SDL2's headers
 #   VARIANTS="4 8"              these lane widths alone: quicker to compile, the same pictures
 #   V=1                         whole commands instead of one short line a file
 
@@ -105,11 +105,12 @@ LDLIBS = -Wl,--stack-first -Wl,-z,stack-size=4194304 -Wl,--strip-all
 endif
 
 # The window of lom view, where pkg-config knows SDL2 and the compiler makes programs for this machine; SDL= leaves it out.
+# Its headers alone are wanted: the program opens the library when it opens the window (-ldl: dlopen, before glibc 2.34).
 # What a sanitizer has not compiled may hide its errors, or show those of others.
 ifeq ($(firstword $(subst -, ,$(MACHINE))),$(shell uname -m))
 SDL = $(if $(SAN),,$(shell pkg-config --exists sdl2 2>/dev/null && echo sdl2))
 endif
-SDL_LIBS := $(if $(SDL),$(shell pkg-config --libs $(SDL)))
+DL_LIBS = $(if $(SDL),-ldl)
 elsewhere += src/cli/$(if $(SDL),view_sdl_none,view_sdl).c
 
 sources      := $(filter-out $(elsewhere) src/web/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
@@ -189,14 +190,14 @@ $(BUILD)/measure.a: $(measure_objects)
 	$(call short,AR)$(AR) rcs $@ $^
 
 $(BUILD)/lom: $(cli_objects) $(lesson_objects) $(COUNTING) $(BUILD)/measure.a $(BUILD)/liblom.a $(BUILD)/window
-	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(SDL_LIBS) $(LDLIBS)
+	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(DL_LIBS) $(LDLIBS)
 
 # Linked again when it gets a window or loses it.
 $(BUILD)/window: FORCE
 	@mkdir -p $(@D)
-	@echo "$(SDL_LIBS)" | cmp -s - $@ || echo "$(SDL_LIBS)" > $@
+	@echo "$(SDL)" | cmp -s - $@ || echo "$(SDL)" > $@
 
-$(BUILD)/src/cli/view_sdl.o: private CPPFLAGS += $(shell pkg-config --cflags sdl2)
+$(BUILD)/src/cli/view_sdl.o: private CPPFLAGS += $(shell pkg-config --cflags $(SDL))
 
 # The program's parts, for their tests.
 $(BUILD)/cli.a: $(filter-out $(BUILD)/src/cli/main.o,$(cli_objects))
@@ -325,20 +326,15 @@ NM = nm
 cpu           := $(if $(filter demo,$(MAKECMDGOALS)),$(shell grep -m1 ^flags /proc/cpuinfo 2>/dev/null))
 widest        := $(if $(filter-out $(cpu),avx512f avx512dq avx512bw avx512vl avx512cd),$(if $(filter avx2,$(cpu)),8),16)
 demo_variants := $(filter 4 $(widest),$(VARIANTS))
-demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o) %/view_sdl.o, \
+demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o), \
 	$(cli_objects) $(lesson_objects) $(measure_objects) $(lib_objects))
 
-$(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o $(if $(SDL),$(BUILD)/demo/view_sdl_none.o)
-	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+$(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o
+	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(DL_LIBS) $(LDLIBS)
 
 $(BUILD)/demo/variants.o: src/lanes/variants.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) $(CPPFLAGS) -ULOM_EACH_VARIANT '-DLOM_EACH_VARIANT(X,name)=$(foreach v,$(demo_variants),X(name,$v))' $(CFLAGS) -MMD -MP -c -o $@ $<
-
-# The demo opens no window.
-$(BUILD)/demo/view_sdl_none.o: src/cli/view_sdl_none.c $(BUILD)/flags
-	@mkdir -p $(@D)
-	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/demo/absent.o: $(BUILD)/demo/absent.c
 	$(call short,CC)$(CC) $(CFLAGS) -c -o $@ $<

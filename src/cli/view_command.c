@@ -33,9 +33,8 @@ static const lom_command_line line = {
     .name = "view",
     .arguments = "SCENE",
     .summary = "show a scene in a window, fly through it, change it",
-    .details =
-        "What is shown at rest is the picture of `lom render`; docs/view.md says more. Wants a lom that was built\n"
-        "with SDL2, but for --no-window.",
+    .details = "What is shown at rest is the picture of `lom render`; docs/view.md says more. The window is\n"
+               "SDL2's, which is looked for when it opens; --no-window works without.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,

@@ -1,39 +1,115 @@
 /* The window of `lom view`, by SDL2; no other file names it. In: the window's events. Out: the view's pixels in the
- * window's surface. Invariant: when nothing changes nothing is drawn, painted or shown, and the program sleeps. */
+ * window's surface. Invariants: when nothing changes nothing is drawn, painted or shown, and the program sleeps; SDL2's
+ * library is opened when a window is wanted and not before, so that no other start of the program pays for it. */
 #include "view_window.h"
 
 #include "base/numbers.h"
 
+#define SDL_DISABLE_IMMINTRIN_H /* a header of intrinsics, which takes two thirds of the time that this file compiles in */
 #include <SDL.h>
+#include <dlfcn.h>
+#include <string.h>
 
 static const double turn_time = 1000.0 / 60; /* milliseconds */
 
+/* All that is called of SDL2, by its names without their SDL_. */
+#define EACH_FUNCTION(X)                                                                                               \
+    X(ConvertPixels)                                                                                                   \
+    X(CreateWindow)                                                                                                    \
+    X(Delay)                                                                                                           \
+    X(DestroyWindow)                                                                                                   \
+    X(EnableScreenSaver)                                                                                               \
+    X(GetError)                                                                                                        \
+    X(GetPerformanceCounter)                                                                                           \
+    X(GetPerformanceFrequency)                                                                                         \
+    X(GetWindowSurface)                                                                                                \
+    X(HasEvent)                                                                                                        \
+    X(Init)                                                                                                            \
+    X(PollEvent)                                                                                                       \
+    X(PumpEvents)                                                                                                      \
+    X(Quit)                                                                                                            \
+    X(SetHint)                                                                                                         \
+    X(SetWindowSize)                                                                                                   \
+    X(StopTextInput)                                                                                                   \
+    X(UpdateWindowSurface)                                                                                             \
+    X(WaitEventTimeout)
+#define POINTER(name)        __typeof__(SDL_##name) *name;
+#define NAME_AND_PLACE(name) { "SDL_" #name, offsetof(struct sdl, name) },
+
+struct sdl {
+    EACH_FUNCTION(POINTER)
+};
+
 struct window {
+    struct sdl sdl;
     SDL_Window *window;
     struct lom_view *view;
     double drawing, painting, showing; /* milliseconds in all */
     int shown;
 };
 
-static bool fail(const char *what, lom_error *error)
+/* ---- the library ---- */
+
+/* By the names under which systems have it: the one of its binary interface, and the one that links are made with. */
+static void *open_library(lom_error *error)
 {
-    return lom_fail(error, LOM_ERROR_FILE, "%s: %s.", what, SDL_GetError());
+#ifdef __APPLE__
+    static const char *const names[] = { "libSDL2-2.0.0.dylib", "libSDL2.dylib" };
+#else
+    static const char *const names[] = { "libSDL2-2.0.so.0", "libSDL2.so" };
+#endif
+    lom_error first = { .code = LOM_OK };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
+        if (library != NULL)
+            return library;
+        const char *reason = dlerror();
+        lom_fail(&first, LOM_ERROR_FILE,
+                 "a window is opened by the library SDL2 (Debian: libsdl2-2.0-0), and `lom view SCENE --script FILE "
+                 "--no-window` works without it; the loader says: %s.",
+                 reason != NULL ? reason : names[i]);
+    }
+    lom_fail(error, first.code, "%s", first.text);
+    return NULL;
 }
 
-static double milliseconds(void *context)
+/* The library stays open until the program ends, since threads of its own may run in it: to open it again is to look its
+ * functions up again. POSIX lets a function's address be copied out of a void pointer. */
+static bool load(struct sdl *sdl, lom_error *error)
 {
-    (void)context;
-    return 1e3 * (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
+    static const struct {
+        const char *name;
+        size_t place;
+    } functions[] = { EACH_FUNCTION(NAME_AND_PLACE) };
+    void *library = open_library(error);
+    for (size_t i = 0; library != NULL && i < sizeof functions / sizeof functions[0]; i++) {
+        void *function = dlsym(library, functions[i].name);
+        if (function == NULL)
+            return lom_fail(error, LOM_ERROR_FILE, "the library SDL2 of this system has no %s.", functions[i].name);
+        memcpy((char *)sdl + functions[i].place, &function, sizeof function);
+    }
+    return library != NULL;
+}
+
+static bool fail(const struct window *w, const char *what, lom_error *error)
+{
+    return lom_fail(error, LOM_ERROR_FILE, "%s: %s.", what, w->sdl.GetError());
+}
+
+static double milliseconds(void *window)
+{
+    const struct sdl *sdl = &((const struct window *)window)->sdl;
+    return 1e3 * (double)sdl->GetPerformanceCounter() / (double)sdl->GetPerformanceFrequency();
 }
 
 /* What somebody did who waits for an answer. */
-static bool interrupts(void *context)
+static bool interrupts(void *window)
 {
+    const struct sdl *sdl = &((const struct window *)window)->sdl;
     static const Uint32 kinds[] = { SDL_KEYDOWN, SDL_MOUSEBUTTONDOWN, SDL_MOUSEWHEEL, SDL_QUIT };
-    (void)context;
-    SDL_PumpEvents();
+    sdl->PumpEvents();
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
-        if (SDL_HasEvent(kinds[i]))
+        if (sdl->HasEvent(kinds[i]))
             return true;
     return false;
 }
@@ -131,41 +207,42 @@ static bool is_bgrx(const SDL_Surface *surface)
     return format.BytesPerPixel == 4 && format.Rmask == bgrx[0] && format.Gmask == bgrx[1] && format.Bmask == bgrx[2];
 }
 
-static bool convert(struct lom_view *view, SDL_Surface *surface, lom_error *error)
+static bool convert(const struct window *w, SDL_Surface *surface, lom_error *error)
 {
+    struct lom_view *view = w->view;
     size_t pitch = 4 * (size_t)view->width;
     uint8_t *pixels = lom_allocate((size_t)view->height, pitch, error);
     if (pixels == NULL)
         return false;
     lom_paint_view(view, pixels, pitch);
-    bool done = SDL_ConvertPixels(view->width, view->height, SDL_PIXELFORMAT_BGRA32, pixels, (int)pitch,
-                                  surface->format->format, surface->pixels, surface->pitch) == 0;
+    bool done = w->sdl.ConvertPixels(view->width, view->height, SDL_PIXELFORMAT_BGRA32, pixels, (int)pitch,
+                                     surface->format->format, surface->pixels, surface->pitch) == 0;
     lom_release(pixels);
-    return done || fail("the window's pixels", error);
+    return done || fail(w, "the window's pixels", error);
 }
 
 static bool paint(struct window *w, lom_error *error)
 {
     struct lom_view *view = w->view;
-    SDL_Surface *surface = SDL_GetWindowSurface(w->window);
+    SDL_Surface *surface = w->sdl.GetWindowSurface(w->window);
     if (surface == NULL)
-        return fail("the window's surface", error);
+        return fail(w, "the window's surface", error);
     if (surface->w != view->width || surface->h != view->height) { /* the event of that is on its way */
         view->is_unpainted = true;
         return true;
     }
-    double start = milliseconds(NULL);
+    double start = milliseconds(w);
     if (!is_bgrx(surface) || SDL_MUSTLOCK(surface)) {
-        if (!convert(view, surface, error))
+        if (!convert(w, surface, error))
             return false;
     } else {
         lom_paint_view(view, surface->pixels, (size_t)surface->pitch);
     }
-    double painted = milliseconds(NULL);
-    if (SDL_UpdateWindowSurface(w->window) != 0)
-        return fail("the window's surface", error);
+    double painted = milliseconds(w);
+    if (w->sdl.UpdateWindowSurface(w->window) != 0)
+        return fail(w, "the window's surface", error);
     w->painting += painted - start;
-    w->showing += milliseconds(NULL) - painted;
+    w->showing += milliseconds(w) - painted;
     w->shown++;
     return true;
 }
@@ -174,15 +251,15 @@ static bool open_window(struct window *w, lom_error *error)
 {
     const struct lom_view *view = w->view;
     const char *title = view->scene->title != NULL ? view->scene->title : view->path;
-    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0"); /* else the window is replaced by one with a renderer */
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");       /* signals.c has them */
-    if (SDL_Init(SDL_INIT_VIDEO) != 0)
-        return fail("no window can be opened", error);
-    SDL_EnableScreenSaver();
-    SDL_StopTextInput();
-    w->window = SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, view->width, view->height,
-                                 SDL_WINDOW_RESIZABLE);
-    return w->window != NULL || fail("no window can be opened", error);
+    w->sdl.SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0"); /* else the window is replaced by one with a renderer */
+    w->sdl.SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");       /* signals.c has them */
+    if (w->sdl.Init(SDL_INIT_VIDEO) != 0)
+        return fail(w, "no window can be opened", error);
+    w->sdl.EnableScreenSaver();
+    w->sdl.StopTextInput();
+    w->window = w->sdl.CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, view->width, view->height,
+                                    SDL_WINDOW_RESIZABLE);
+    return w->window != NULL || fail(w, "no window can be opened", error);
 }
 
 /* ---- the loop ---- */
@@ -190,20 +267,20 @@ static bool open_window(struct window *w, lom_error *error)
 static void take_events(struct window *w)
 {
     SDL_Event event;
-    while (SDL_PollEvent(&event))
+    while (w->sdl.PollEvent(&event))
         take_event(w->view, &event);
 }
 
 /* The seconds since the last turn, a quarter at most. At rest that long is waited for an event, since files may change; else
  * a turn takes a sixtieth, unless as many are wanted as there can be. */
-static double wait_for_turn(const struct window *w, double *before, bool rests)
+static double wait_for_turn(struct window *w, double *before, bool rests)
 {
-    double passed = milliseconds(NULL) - *before;
+    double passed = milliseconds(w) - *before;
     if (rests)
-        SDL_WaitEventTimeout(NULL, 250);
+        w->sdl.WaitEventTimeout(NULL, 250);
     else if (!w->view->is_free && passed < turn_time)
-        SDL_Delay((Uint32)lom_count_of(turn_time - passed, 16));
-    double now = milliseconds(NULL);
+        w->sdl.Delay((Uint32)lom_count_of(turn_time - passed, 16));
+    double now = milliseconds(w);
     passed = now - *before;
     *before = now;
     return lom_smaller(passed, 250) / 1000;
@@ -212,10 +289,10 @@ static double wait_for_turn(const struct window *w, double *before, bool rests)
 static void draw(struct window *w)
 {
     const int before = w->view->pictures;
-    double start = milliseconds(NULL);
+    double start = milliseconds(w);
     lom_draw_view(w->view);
     if (w->view->pictures != before)
-        w->drawing += milliseconds(NULL) - start;
+        w->drawing += milliseconds(w) - start;
 }
 
 static bool is_held(const struct lom_view *view)
@@ -244,15 +321,15 @@ static bool turn(struct window *w, double *before, lom_error *error)
 static bool play(struct window *w, struct lom_script *script, lom_error *error)
 {
     SDL_Event event;
-    while (SDL_PollEvent(&event))
+    while (w->sdl.PollEvent(&event))
         w->view->ends = w->view->ends || event.type == SDL_QUIT;
     const int before = w->view->pictures;
-    double start = milliseconds(NULL);
+    double start = milliseconds(w);
     if (!lom_play_script(script, w->view, error))
         return false;
     if (w->view->pictures != before)
-        w->drawing += milliseconds(NULL) - start;
-    SDL_SetWindowSize(w->window, w->view->width, w->view->height);
+        w->drawing += milliseconds(w) - start;
+    w->sdl.SetWindowSize(w->window, w->view->width, w->view->height);
     return !w->view->is_unpainted || paint(w, error);
 }
 
@@ -265,25 +342,36 @@ static void tell_times(const struct window *w)
 
 bool lom_check_window(lom_error *error)
 {
-    (void)error;
-    return true;
+    struct sdl sdl;
+    return load(&sdl, error);
+}
+
+static bool show(struct window *w, struct lom_script *script, lom_error *error)
+{
+    bool done = open_window(w, error);
+    double before = milliseconds(w);
+    while (done && !w->view->ends)
+        done = script != NULL ? play(w, script, error) : turn(w, &before, error);
+    if (w->window != NULL)
+        w->sdl.DestroyWindow(w->window);
+    w->sdl.Quit();
+    return done;
 }
 
 bool lom_show_window(struct lom_view *view, struct lom_script *script, bool times, lom_error *error)
 {
     struct window w = { .view = view };
-    bool done = open_window(&w, error);
-    double before = done ? milliseconds(NULL) : 0;
+    const struct lom_view_host host = view->host;
+    if (!load(&w.sdl, error))
+        return false;
     if (script == NULL) {
         view->host.milliseconds = milliseconds;
         view->host.interrupts = interrupts;
+        view->host.context = &w;
     }
-    while (done && !view->ends)
-        done = script != NULL ? play(&w, script, error) : turn(&w, &before, error);
+    bool done = show(&w, script, error);
+    view->host = host;
     if (times)
         tell_times(&w);
-    if (w.window != NULL)
-        SDL_DestroyWindow(w.window);
-    SDL_Quit();
     return done;
 }

@@ -4,7 +4,8 @@
 
 #include "view_script.h"
 
-/* Whether there can be one; false, with the reason, in a program without SDL2. */
+/* Whether there can be one; false, with the reason, in a program that was built without SDL2,
+ * and where its library is missing. */
 bool lom_check_window(lom_error *error);
 /* Shows a view in a window of its size until it ends; events come from the window, or, of a script, from there. times: how
  * long drawing, painting and showing took is said on standard error at the end. False on failure. */

@@ -1,15 +1,17 @@
 #!/bin/sh
 # Proves `lom view` from outside: a script gives the hash of `lom render` at the start and of the command that it prints
 # after moves, without a window and in one of SDL's dummy driver; what a screenshot writes are the bytes of its command; bad
-# scripts and options are refused; a program without SDL2 says so; docs/view.md has the keys and the script's lines as
-# `--help` has them. Under Xvfb real keys and a real mouse move it. What is not installed is a SKIP.
+# scripts and options are refused; a program without SDL2, or whose library does not open, says so, and no other start looks
+# for that library; docs/view.md has the keys and the script's lines as `--help` has them. Under Xvfb real keys and a real
+# mouse move it. What is not installed is a SKIP.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/cli/cli.sh
 . tests/cli/scene.sh
 page=$PWD/docs/view.md
 cd "$folder/scene" || exit 1
 
-has_window() { ! "$lom" view scene.toml --script none 2>&1 | grep -q 'built without SDL2'; }
+# Why there is no window; empty where there is one.
+reason=$("$lom" view scene.toml --script none 2>&1 | grep -o 'built without SDL2\|opened by the library SDL2.*')
 
 cat >"$folder/moves" <<END
 0 hash
@@ -116,6 +118,16 @@ says_that_it_has_no_window() {
     refuses 'built without SDL2' "$lom" view scene.toml
 }
 
+# A program that is linked with a library does not start where that is an empty file.
+library_is_opened_for_a_window() {
+    mkdir -p "$folder/empty" && touch "$folder/empty/libSDL2-2.0.so.0" "$folder/empty/libSDL2.so" || return 1
+    ! ldd "$lom" 2>&1 | grep -i sdl || return 1
+    (LD_LIBRARY_PATH=$folder/empty
+    export LD_LIBRARY_PATH
+    exits 0 "$lom" version && recorded && refuses 'opened by the library SDL2' "$lom" view scene.toml &&
+        complains "$folder/empty/libSDL2-2.0.so.0" && complains '`lom view SCENE --script FILE --no-window` works')
+}
+
 # What --help lists stands in the page, row by row.
 page_has_the_keys() {
     "$lom" view --help | sed -n '/^keys and mouse:/,$p' | grep '^  ' | sed 's/^  //; s/   */|/' >"$folder/rows"
@@ -177,14 +189,16 @@ no_display() {
     refuses 'no window can be opened' env -u DISPLAY SDL_VIDEODRIVER=x11 "$lom" view scene.toml
 }
 
-if has_window; then
-    check no_display_is_said no_display
-    check in_a_dummy_window in_a_dummy_window
-else
-    check says_that_it_has_no_window says_that_it_has_no_window
-    echo "SKIP view in a window: this lom was built without SDL2"
+case $reason in
+built*) check says_that_it_has_no_window says_that_it_has_no_window ;;
+*) check the_library_is_opened_for_a_window library_is_opened_for_a_window ;;
+esac
+if [ -n "$reason" ]; then
+    echo "SKIP view in a window: $reason"
     exit $failures
 fi
+check no_display_is_said no_display
+check in_a_dummy_window in_a_dummy_window
 if ! command -v Xvfb >/dev/null || ! command -v xdotool >/dev/null || ! command -v import >/dev/null; then
     echo "SKIP view under Xvfb: wants Xvfb, xdotool and ImageMagick's import"
     exit $failures
