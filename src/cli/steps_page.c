@@ -43,7 +43,7 @@ static const char *const head_lines[] = {
 static const char *const script_lines[] = {
     "const data=JSON.parse(document.getElementById('data').textContent),id=name=>document.getElementById(name);",
     "const steps=data.steps,list=id('list'),slider=id('slider'),make=(tag,text)=>{const e=document.createElement(tag);",
-    "if(text!==undefined)e.textContent=text;return e};let at=0,group,start=null;",
+    "if(text!==undefined)e.textContent=text;return e};let at=0,group,start=null,planned=false;",
     "steps.forEach((s,i)=>{if(!group||group.label!=s.group){group=make('optgroup');group.label=s.group;list.append("
     "group)}",
     "const o=make('option',(i+1)+' '+s.title);o.value=i+1;group.append(o)});slider.max=steps.length;",
@@ -60,6 +60,11 @@ static const char *const script_lines[] = {
     "' (logarithmic)':'')))}",
     "for(const l of s.legend){const row=make('span'),swatch=make('i');swatch.style.background=color(l.color);"
     "row.append(swatch,l.text);legend.append(row)}",
+    "if(data.plan.length&&(s.group=='Passes'||s.group=='Frame')){const "
+    "rows=make('details');rows.open=planned;rows.ontoggle=()=>planned=rows.open;",
+    "rows.append(make('summary','The plan of the frame'));",
+    "for(const p of data.plan)rows.append(make('div',(p.runs?'\\u2022 ':'\\u2013 left out: ')+p.name+': '+p.text));",
+    "legend.append(rows)}",
     "slider.value=at;list.value=at;id('number').textContent=at+' / '+steps.length;",
     "document.title='lom steps: '+at+' / '+steps.length+' '+s.title;",
     "history.replaceState(null,'','#'+at);for(const k of[at,at-2])if(steps[k])new Image().src=steps[k].file}",
@@ -118,6 +123,16 @@ static void write_data(FILE *out, const struct lom_steps_page *page)
     lom_json_integer(&json, "width", page->pictures->width);
     lom_json_integer(&json, "height", page->pictures->height);
     lom_json_text(&json, "pass", page->pictures->pass);
+    lom_json_nest(&json, "plan", '[');
+    for (int i = 0; i < page->pictures->plan.count; i++) {
+        const lom_step *step = &page->pictures->plan.step[i];
+        lom_json_nest(&json, NULL, '{');
+        lom_json_text(&json, "name", step->name);
+        lom_json_bool(&json, "runs", step->runs);
+        lom_json_text(&json, "text", step->text);
+        lom_json_unnest(&json, '}');
+    }
+    lom_json_unnest(&json, ']');
     lom_json_nest(&json, "steps", '[');
     for (size_t i = 0; i < page->pictures->count; i++) {
         char file[80];

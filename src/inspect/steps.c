@@ -136,7 +136,7 @@ static bool draw_frame(struct steps *s, bool whole, lom_image **image)
         s->out->plan = frame.plan;
     if (!done)
         *s->error = error;
-    return done;
+    return done && (!whole || lom_take_made(s, &desc));
 }
 
 /* What a program draws, all of it each time. */
@@ -323,6 +323,8 @@ static void clear(struct steps *s)
     }
     for (size_t i = 0; i < s->level_count; i++)
         lom_release(s->levels[i].times);
+    for (size_t i = 0; i < MADE_PICTURES; i++)
+        lom_free_image(s->made[i].image);
     lom_release(s->passes);
     lom_release(s->planes);
     lom_release(s->levels);

@@ -39,6 +39,13 @@ struct read_level {
     uint64_t reads;
 };
 
+/* What a frame's stages make that is no pass: pictures of lom_show_pass. */
+enum { MADE_PICTURES = 3 };
+struct made_picture {
+    const char *name;
+    lom_image *image; /* NULL: the scene has none */
+};
+
 struct steps {
     lom_device *device;
     const char *pass; /* that is asked for; NULL: none */
@@ -61,6 +68,7 @@ struct steps {
     int width, height, zoom; /* of the target; pixels of a picture for one of its */
     int drawn, frames;       /* of all that are to be drawn */
 
+    struct made_picture made[MADE_PICTURES];
     struct plane *planes;
     size_t plane_count, plane_capacity;
     struct read_level *levels;
@@ -95,6 +103,8 @@ void lom_picture_coverage(struct steps *s);
 void lom_picture_detail(struct steps *s); /* steps_detail.c: a few pixels, large */
 void lom_picture_planes(struct steps *s);
 void lom_picture_textures(struct steps *s);
+/* What the frame that was drawn last has made, while it is there; then the pictures of it and of the passes. */
+bool lom_take_made(struct steps *s, const lom_frame_desc *frame);
 void lom_picture_passes(struct steps *s);
 
 #endif

@@ -35,6 +35,39 @@ static lom_image *show(struct steps *s, struct listed_pass *pass)
     return shown != NULL && shown->width == s->width ? lom_magnify(shown, s->zoom, s->error) : shown;
 }
 
+/* A scene that has none of it is no failure. */
+bool lom_take_made(struct steps *s, const lom_frame_desc *frame)
+{
+    static const char *const names[MADE_PICTURES] = { "heights", "light-grid", "caustics" };
+    for (size_t i = 0; i < MADE_PICTURES; i++) {
+        lom_error error = { .code = LOM_OK };
+        lom_image *gray = lom_show_to_eyes(lom_show_pass(s->renderer, frame, names[i], &error), names[i], &error);
+        s->made[i] = (struct made_picture){ names[i], NULL };
+        if (gray != NULL)
+            s->made[i].image = lom_convert_image(gray, LOM_FORMAT_RGB8, &error);
+        lom_free_image(gray);
+        if (error.code == LOM_ERROR_MEMORY) {
+            *s->error = error;
+            return false;
+        }
+    }
+    return true;
+}
+
+static void add_made(struct steps *s, struct made_picture *made)
+{
+    const lom_shown_pass *shown = NULL;
+    for (size_t i = 0; (shown = lom_describe_shown_pass(i)) != NULL; i++)
+        if (made->name != NULL && strcmp(shown->name, made->name) == 0)
+            break;
+    if (made->image == NULL || shown == NULL)
+        return;
+    made->image->format = LOM_FORMAT_RGB8_SRGB;
+    lom_add_picture(s, "Passes", made->name, made->name, NULL, made->image,
+                    "What the frame's stages make before they draw: %s. Brighter is more.", shown->text);
+    made->image = NULL;
+}
+
 static bool is_several(const struct steps *s, size_t pass)
 {
     size_t count = 0;
@@ -45,6 +78,8 @@ static bool is_several(const struct steps *s, size_t pass)
 
 void lom_picture_passes(struct steps *s)
 {
+    for (size_t i = 0; i < MADE_PICTURES && !s->failed; i++)
+        add_made(s, &s->made[i]);
     for (size_t i = 0; i < s->pass_count && !s->failed; i++) {
         struct listed_pass *pass = &s->passes[i];
         char name[64], title[96], times[64] = "";
