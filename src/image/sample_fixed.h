@@ -188,7 +188,16 @@ LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_text
     }
 
 /* The sampler `name` of one kind of texture: `sample`(fixed, storage, srgb, texture, at, lod), inline, as one straight
- * function for each way that texels are held and filtered, and the choice between them, once a call. */
+ * function for each way that texels are held and filtered, and the choice between them, once a call. Where nobody waits
+ * (widths that are lowered, records) it is one small function that asks while it runs. */
+#if defined LOM_LOWERED || defined LOM_RECORD
+#define SAMPLE_EVERY_STORAGE(name, coordinates, sample)                                                                \
+    void LOM_WIDE(name)(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)      \
+    {                                                                                                                  \
+        lom_storage storage = texture->decoded != NULL ? LOM_STORAGE_RGBA32F : texture->storage;                       \
+        *out = sample(texture->fixed, storage, texture->srgb, texture, at, *lod);                                      \
+    }
+#else
 #define SAMPLE_EVERY_STORAGE(name, coordinates, sample)                                                                \
     SAMPLE_STORAGE(sample_rgba8, coordinates, sample, false, LOM_STORAGE_RGBA8, false)                                 \
     SAMPLE_STORAGE(sample_srgb8, coordinates, sample, false, LOM_STORAGE_RGBA8, true)                                  \
@@ -215,5 +224,6 @@ LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_text
             break;                                                                                                     \
         }                                                                                                              \
     }
+#endif
 
 #endif

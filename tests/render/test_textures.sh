@@ -22,6 +22,17 @@ plain=$("$lom" render "$folder/plain.toml" --size 160x90 --quiet --hash)
 [ "$plain" != "$(draw --hash)" ] || why='16 probes change nothing'
 verdict one_probe_is_the_default "$why"
 
+# The planks, by the reference in double with its rays a pixel: probes come within 38 dB of them, one does not.
+why=
+planks="$scene --crop 248,130,232,140 --quiet"
+"$lom" render $planks -o "$folder/rays.png" --set 'quality.water="reference"' --set quality.reference.samples=16
+for row in '16 0' '1 1'; do
+    "$lom" render $planks -o "$folder/probes.png" --set "quality.anisotropy=${row% *}" --set output.samples=16
+    "$lom" compare "$folder/probes.png" "$folder/rays.png" --min-psnr 38 >/dev/null
+    [ $? = "${row#* }" ] || why="${row% *} probes are on the other side of 38 dB"
+done
+verdict probes_are_near_the_reference "$why"
+
 # A square of 20 m before an eye 5 m away: a pixel of 32 down is 0.3125 m, 2^k texels where 64 texels are laid 2^k times.
 why=
 for row in '4 82 255 82' '5 99 255 255' '6 82 85 255'; do
