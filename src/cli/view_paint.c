@@ -167,10 +167,12 @@ static void paint_cross(const struct painting *p)
     write_text(p, view->explained_x - half, view->explained_y - half - p->scale, "+", 0xffff60);
 }
 
-/* At the bottom, or beside what is at the top, since an overlay's legend is at the bottom. */
+/* At the bottom, or beside what is at the top, since an overlay's legend is at the bottom. To the right of it, where there is
+ * room, how one learns more. */
 static void paint_status(const struct painting *p, int x)
 {
     static const char *const kinds[] = { "scene's camera", "free", "third person", "first person" };
+    static const char *const keys_hint = "f1: keys";
     const struct lom_view *view = p->view;
     const char *name = view->eye.followed != 0 ? view->scene->entities[view->eye.followed - 1].name : NULL;
     char text[400];
@@ -185,10 +187,13 @@ static void paint_status(const struct painting *p, int x)
     snprintf(text + used, sizeof text - used, "%s%s%s%s%s", view->is_free ? "  free" : "",
              view->adapts ? "" : "  whole", view->load != NULL ? "  reading ..." : "",
              view->recording.runs ? "  recording" : "", view->saves ? "  writing ..." : "");
-    int height = LOM_GLYPH_LINE * p->scale;
+    int height = LOM_GLYPH_LINE * p->scale, margin = MARGIN * p->scale;
     bool is_above = view->overlay >= 0;
-    write_text(p, (is_above ? x : 0) + MARGIN * p->scale, is_above ? p->scale : view->height - height - p->scale, text,
-               0xffffff);
+    int left = (is_above ? x : 0) + margin, y = is_above ? p->scale : view->height - height - p->scale;
+    write_text(p, left, y, text, 0xffffff);
+    int hint = view->width - margin - lom_text_width(keys_hint, p->scale);
+    if (left + lom_text_width(text, p->scale) + 2 * margin <= hint)
+        write_text(p, hint, y, keys_hint, 0xffffff);
 }
 
 /* Which pass is shown; an overlay says it itself. */
