@@ -140,6 +140,7 @@ void lom_turn_eye(struct lom_eye *eye, double left, double above)
 void lom_move_eye(struct lom_eye *eye, double ahead, double right, double above)
 {
     if (eye->kind == LOM_EYE_THIRD) {
+        lom_turn_eye(eye, 0.01 * right, -0.01 * above); /* an arc as long as the step ahead */
         struct lom_eye before = *eye;
         eye->distance = within(eye->distance * (1 - 0.01 * within(ahead, -50, 50)), 0.1, 100);
         if (!can_look(eye))

@@ -36,7 +36,8 @@ size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const c
 
 /* Turns it by radians to the left and upwards; a third person goes around. Never over the zenith. */
 void lom_turn_eye(struct lom_eye *eye, double left, double up);
-/* Moves it by metres along its own axes; a third person comes nearer by `ahead` a hundredth of the distance. */
+/* Moves it by metres along its own axes; a third person's metre is a hundredth of the distance: `ahead` nearer, `right` and
+ * `up` around what is followed. */
 void lom_move_eye(struct lom_eye *eye, double ahead, double right, double up);
 /* Multiplies the angle of view, within 1..150 degrees. */
 void lom_zoom_eye(struct lom_eye *eye, double factor);

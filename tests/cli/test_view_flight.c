@@ -124,6 +124,30 @@ static void a_drag_goes_with_the_hand(void)
     lom_close_view(view);
 }
 
+/* The keys of flying lead a third person around what it follows: nearer, to the right and up. */
+static void a_third_person_goes_around(void)
+{
+    struct lom_view *view = open_moving(false);
+    tap(view, 'n');
+    go_on(view, 2);
+    static const char keys[] = { 'w', 'd', 'e' };
+    for (size_t i = 0; i < sizeof keys; i++) {
+        struct lom_eye eye = view->eye;
+        lom_camera_view before = lom_eye_view(&eye, view->scene, 0);
+        send(view, LOM_VIEW_PRESS, keys[i], 0, 0);
+        go_on(view, 20);
+        send(view, LOM_VIEW_RELEASE, keys[i], 0, 0);
+        lom_camera_view after = lom_eye_view(&view->eye, view->scene, 0);
+        lom_vec3 moved = lom_vec3_subtract(after.position, before.position);
+        lom_vec3 ahead = lom_vec3_normalize(lom_vec3_subtract(before.target, before.position));
+        lom_vec3 right = lom_vec3_normalize(lom_vec3_cross(ahead, (lom_vec3){ 0, 1, 0 }));
+        double ways[] = { lom_vec3_dot(moved, ahead), lom_vec3_dot(moved, right), moved.y };
+        CHECK(ways[i] > 0.02 && ways[i] > 0.8 * lom_vec3_length(moved), "%c: ahead %g, right %g, up %g", keys[i],
+              ways[0], ways[1], ways[2]);
+    }
+    lom_close_view(view);
+}
+
 /* Plates of a run of moving pictures are not those of a frame alone: at rest it is drawn afresh. */
 static void at_rest_plates_are_made_anew(void)
 {
@@ -309,6 +333,7 @@ int main(int argc, char **argv)
     RUN(nothing_to_steer_is_said);
     RUN(persons_follow_in_turn);
     RUN(a_drag_goes_with_the_hand);
+    RUN(a_third_person_goes_around);
     RUN(at_rest_plates_are_made_anew);
     RUN(a_path_beside_an_entity_is_recorded);
     RUN(what_is_no_longer_there_is_let_go);
