@@ -1,6 +1,7 @@
 /* The pictures of passes. In: a renderer that has drawn a frame, a name. Out: what the pass left in its target, as floats.
  * The table below has a row a picture. Invariant: numbers are the targets' own, or those that the stages recorded. */
 #include "base/own_float_state.h"
+#include "inspect/eyes.h"
 #include "inspect/show.h"
 #include "pipeline/check_device.h"
 #include "render/renderer.h"
@@ -187,30 +188,6 @@ lom_image *lom_show_pass(lom_renderer *renderer, const lom_frame_desc *desc, con
 
 /* ---- for eyes ---- */
 
-/* Distances reach over many powers of two. */
-static void take_logarithm(lom_image *image)
-{
-    float *value = (float *)(void *)image->pixels;
-    for (size_t i = 0; i < lom_image_size(image) / sizeof *value; i++)
-        value[i] = value[i] > 0 ? (float)(1000 + lom_double_log((double)value[i])) : 0;
-}
-
-static void stretch(lom_image *image)
-{
-    float *value = (float *)(void *)image->pixels, low = 0, high = 0;
-    size_t count = lom_image_size(image) / sizeof *value;
-    bool any = false;
-    for (size_t i = 0; i < count; i++) {
-        if (value[i] == 0 || !__builtin_isfinite(value[i]))
-            continue;
-        low = !any || value[i] < low ? value[i] : low;
-        high = !any || value[i] > high ? value[i] : high;
-        any = true;
-    }
-    for (size_t i = 0; i < count; i++)
-        value[i] = value[i] == 0 ? 0 : high > low ? (value[i] - low) / (high - low) : 1;
-}
-
 /* -largest .. largest to 0 .. 1. */
 static void halve(lom_image *image)
 {
@@ -239,16 +216,14 @@ static lom_image *color_objects(const lom_image *image, lom_error *error)
 lom_image *lom_show_to_eyes(lom_image *raw, const char *name, lom_error *error)
 {
     LOM_OWN_FLOAT_STATE;
-    if (raw == NULL)
-        return NULL;
+    if (raw == NULL || strstr(name, "depth") != NULL)
+        return lom_depth_to_eyes(raw, error);
     bool is_color = false, is_objects = strcmp(name, "objects") == 0;
     for (size_t i = 0; i < ROWS; i++)
         is_color |= rows[i].pass.is_color && strcmp(rows[i].pass.name, name) == 0;
     lom_image *shown = NULL, *colors = is_objects ? color_objects(raw, error) : NULL;
-    if (strstr(name, "depth") != NULL)
-        take_logarithm(raw);
     if (!is_objects && !is_color && raw->format == LOM_FORMAT_R32F)
-        stretch(raw);
+        lom_stretch_numbers(raw);
     else if (!is_objects && !is_color)
         halve(raw);
     if (!is_objects || colors != NULL)

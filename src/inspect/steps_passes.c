@@ -1,5 +1,6 @@
 /* Pictures of the passes. In: what each pass of the frame left in its attachment. Out: a picture of each, in the order in
  * which they ran, with what the plan says of it. Invariant: the picture is read when its pass has ended. */
+#include "inspect/eyes.h"
 #include "inspect/steps.h"
 
 #include <stdio.h>
@@ -21,7 +22,7 @@ static lom_image *show(struct steps *s, struct listed_pass *pass)
     pass->image = NULL;
     if (format->is_depth) {
         lom_image *floats = lom_convert_image(image, LOM_FORMAT_R32F, s->error);
-        lom_image *gray = floats != NULL ? lom_show_to_eyes(floats, "depth", s->error) : NULL;
+        lom_image *gray = floats != NULL ? lom_depth_to_eyes(floats, s->error) : NULL;
         shown = gray != NULL ? lom_convert_image(gray, LOM_FORMAT_RGB8, s->error) : NULL;
         lom_free_image(gray);
     } else if (format->is_float || format->is_srgb) {

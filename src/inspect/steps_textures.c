@@ -1,5 +1,6 @@
 /* Pictures of textures. In: which texels of which levels were read. Out: for each texture a picture of those levels, one
  * beside the other; what was read is bright. Invariant: texels are shown as they are stored. */
+#include "inspect/eyes.h"
 #include "inspect/steps.h"
 
 #include "base/numbers.h"
@@ -56,7 +57,7 @@ static lom_image *read_level(const struct steps *s, const struct read_level *l)
     lom_image *image = lom_read_texture(l->texture, l->level, l->layer, s->error), *floats = NULL, *shown = NULL;
     const lom_format_info *format = image != NULL ? lom_describe_format(image->format) : NULL;
     if (format != NULL && format->is_depth) {
-        floats = lom_show_to_eyes(lom_convert_image(image, LOM_FORMAT_R32F, s->error), "depth", s->error);
+        floats = lom_depth_to_eyes(lom_convert_image(image, LOM_FORMAT_R32F, s->error), s->error);
     } else if (format != NULL && format->is_float) {
         floats = lom_convert_image(image, LOM_FORMAT_RGB32F, s->error);
         if (floats != NULL)

@@ -1,24 +1,34 @@
 // The page of a lesson. In: its elements, the name of the lesson and the hash of its picture. Out: the picture as the
-// program draws it in its worker; as it was at each step; what happened to a pixel that is clicked. The address may say
+// program draws it in a worker; as it was at each step; what happened to a pixel that is clicked. The address may say
 // #step=12&pixel=160,90. The title ends with the hash once the picture is drawn; the body says when all of it is there.
 const element = name => document.getElementById(name);
 const { name, hash: native } = JSON.parse(element('known').textContent);
 const canvas = element('picture'), slider = element('step'), pen = canvas.getContext('2d');
-const worker = new Worker(URL.createObjectURL(new Blob([element('worker').textContent], { type: 'text/javascript' })));
 const waiting = new Map(), pictures = new Map();
 let number = 0, facts, picture, steps = [], at = 0, shown, marked = null, wanted = null, busy = false;
 
-worker.onmessage = ({ data }) => {
-    waiting.get(data.number)(data);
-    waiting.delete(data.number);
-};
-worker.onerror = error => { element('status').textContent = `The worker failed: ${error.message}`; };
+function make_worker() {
+    const script = new Blob([element('worker').textContent], { type: 'text/javascript' });
+    const worker = new Worker(URL.createObjectURL(script));
+    worker.onmessage = ({ data }) => {
+        waiting.get(data.number)(data);
+        waiting.delete(data.number);
+    };
+    worker.onerror = error => { element('status').textContent = `The worker failed: ${error.message}`; };
+    worker.is_new = true;
+    return worker;
+}
+
+/** The second one makes the pictures of the stages, so that nobody waits for them. */
+const workers = { draw: make_worker() };
 
 /** One run of the program; its files. */
 function ask(...words) {
+    const worker = words[0] === 'stages' ? workers.stages ??= make_worker() : workers.draw;
     return new Promise((resolve, reject) => {
         waiting.set(++number, done => done.status === 0 ? resolve(done) : reject(new Error(done.text)));
-        const program = number === 1 ? element('program').textContent : undefined;
+        const program = worker.is_new ? element('program').textContent : undefined;
+        worker.is_new = false;
         worker.postMessage({ program, number, words: [name, ...words.map(String)] });
     });
 }
@@ -134,13 +144,15 @@ async function begin() {
     const list = async name => JSON.parse(text_of(keep(await ask(name, `/${name}`, ...picture)).get(`/${name}.json`))).steps
         .map(step => ({ ...step, file: `/${name}${step.file}` }));
     offer([...await list('steps'), { title: 'The picture', text: 'What the program writes.', file: '/picture.png' }]);
+    const asked = new URLSearchParams(location.hash.slice(1));
+    const explained = asked.has('pixel') ? explain(...asked.get('pixel').split(',').map(Number)) : null;
     if (facts.picture[2] === 0) { // by a device, whose stages record what they do: the last of them is the picture
         const stages = await list('stages');
+        workers.stages.terminate();
         offer([...steps.slice(0, -1), ...stages]);
     }
-    const asked = new URLSearchParams(location.hash.slice(1));
     if (asked.has('step')) await go(Number(asked.get('step')) - 1);
-    if (asked.has('pixel')) await explain(...asked.get('pixel').split(',').map(Number));
+    await explained;
     document.body.dataset.done = 'yes';
 }
 
