@@ -86,10 +86,12 @@ static void set_rows(struct lom_ground_shadow *shadow, const double plane[4], do
     }
 }
 
+/* All of which the map follows that is not the same in every frame: the sun, the plane, the noise that eats into clouds. */
 static uint64_t hash_places(const struct lom_cloud_set *set, const double plane[4], const double to_light[3])
 {
     uint64_t hash = lom_hash_bytes(LOM_HASH_START, to_light, 3 * sizeof *to_light);
     hash = lom_hash_bytes(hash, plane, 4 * sizeof *plane);
+    hash = lom_hash_bytes(hash, &set->phase, sizeof set->phase);
     for (size_t i = 0; i < set->count; i++)
         hash = lom_hash_bytes(hash, &set->clouds[i].middle, sizeof set->clouds[i].middle);
     return hash;
@@ -113,7 +115,7 @@ bool lom_draw_cloud_shadows(struct frame *f, const double to_light[3])
     set_rows(shadow, plane, y, to_light);
     uint64_t hash = hash_places(r->clouds.set, plane, to_light);
     if (shadow->made_for == hash) {
-        lom_add_step(f, "cloud shadow", false, "neither the sun nor a cloud has moved");
+        lom_add_step(f, "cloud shadow", false, "neither the sun nor a cloud has moved or changed");
         return true;
     }
     lom_step *step = lom_add_step(f, "cloud shadow", true, "what clouds let through of the sun, over %.0f x %.0f m",
