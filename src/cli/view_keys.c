@@ -173,8 +173,18 @@ static bool belongs_to_menu(int key)
     return (key >= LOM_VIEW_UP && key <= LOM_VIEW_PAGE_DOWN) || key == LOM_VIEW_ENTER || key == LOM_VIEW_BACKSPACE;
 }
 
+/* A mistake until it is mended, a verdict as long as its pixel is marked, all else until the next key, which is not one that
+ * is only repeated. */
+static bool message_stays(const struct lom_view *view, int key)
+{
+    return view->is_error || view->explained_x >= 0 || view->held[key] || key == LOM_VIEW_ESCAPE ||
+           key == LOM_VIEW_SHIFT;
+}
+
 void lom_press_key(struct lom_view *view, int key)
 {
+    if (view->message[0] != '\0' && !message_stays(view, key))
+        lom_tell_view(view, false, "%s", "");
     if (view->menu->is_open && belongs_to_menu(key)) {
         lom_press_menu(view, key);
         return;

@@ -310,6 +310,30 @@ static void overlays_are_shown_in_turn(void)
     lom_close_view(view);
 }
 
+/* What is said goes with the next key; a mistake does not, nor the verdict on a pixel that is still marked. */
+static void what_is_said_goes(void)
+{
+    struct lom_view *view = open_view(LOM_ORDER_RGBX);
+    go_on(view, 1);
+    lom_tell_view(view, false, "%s", "written");
+    tap(view, LOM_VIEW_SHIFT);
+    CHECK(strcmp(view->message, "written") == 0, "shift: %s", view->message);
+    tap(view, 'h');
+    CHECK(view->message[0] == '\0' && view->is_unpainted, "h: %s", view->message);
+    lom_tell_view(view, true, "%s", "a mistake");
+    tap(view, 'h');
+    CHECK(strcmp(view->message, "a mistake") == 0, "%s", view->message);
+    send(view, LOM_VIEW_BUTTON, 0, 16, 10);
+    send(view, LOM_VIEW_LET_GO, 0, 16, 10);
+    go_on(view, 1);
+    tap(view, 'h');
+    CHECK(strncmp(view->message, "16,10: ", 7) == 0 && view->explained_x == 16, "%s", view->message);
+    send(view, LOM_VIEW_WHEEL, 0, 0, 1);
+    tap(view, 'h');
+    CHECK(view->message[0] == '\0' && view->explained_x < 0, "of another picture: %s", view->message);
+    lom_close_view(view);
+}
+
 /* The frame of a letter is dark, the letter light, whatever is behind; all of the window is written. */
 static void what_is_painted_is_legible(void)
 {
@@ -352,6 +376,7 @@ int main(int argc, char **argv)
     RUN(a_path_is_recorded);
     RUN(passes_are_shown_in_turn);
     RUN(overlays_are_shown_in_turn);
+    RUN(what_is_said_goes);
     RUN(what_is_painted_is_legible);
     remove_small_scene();
     return check_result();
