@@ -22,8 +22,7 @@ static size_t value_count(const lom_key *key)
     return key->count > 1 ? (size_t)key->count : 1;
 }
 
-/* Bytes of the member behind a key's offset. */
-static size_t member_size(const lom_key *key)
+size_t lom_key_size(const lom_key *key)
 {
     switch (key->type) {
     case LOM_KEY_BOOL:
@@ -70,7 +69,7 @@ static bool is_rest_same(const lom_key_table *table, const char *a, const char *
     memcpy(mixed, a, table->size);
     for (int i = 0; i < table->key_count; i++) {
         const lom_key *key = &table->keys[i];
-        memcpy(mixed + key->offset, b + key->offset, member_size(key));
+        memcpy(mixed + key->offset, b + key->offset, lom_key_size(key));
         if (key->type == LOM_KEY_TABLES)
             memcpy(mixed + key->length_offset, b + key->length_offset, sizeof(size_t));
     }
@@ -111,7 +110,7 @@ static void compare_tables(struct comparison *c, size_t length, const lom_key_ta
             compare_arrays(c, longer, key, a, b);
         else if (key->type == LOM_KEY_TABLE)
             compare_tables(c, longer, key->table, at[0], at[1]);
-        else if (is_text ? !are_same_texts(key, at[0], at[1]) : memcmp(at[0], at[1], member_size(key)) != 0)
+        else if (is_text ? !are_same_texts(key, at[0], at[1]) : memcmp(at[0], at[1], lom_key_size(key)) != 0)
             c->differs(c->context, c->path);
         c->path[length] = 0;
     }

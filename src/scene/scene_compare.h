@@ -2,7 +2,12 @@
 #ifndef LOM_SCENE_SCENE_COMPARE_H
 #define LOM_SCENE_SCENE_COMPARE_H
 
+#include "base/keys.h"
+
 #include <lom/scene.h>
+
+/* Bytes of the member behind a key's offset. */
+size_t lom_key_size(const lom_key *key);
 
 enum { LOM_LONGEST_KEY_PATH = 160 };
 

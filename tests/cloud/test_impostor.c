@@ -357,7 +357,9 @@ static void test_misting(void)
 
 static struct lom_cloud_set *load(lom_cloud clouds[], size_t count, const lom_clouds *params)
 {
-    const struct lom_cloud_quality quality = { LOM_CLOUDS_OCTAVES, 0.05, 0.004, 0.5, 2, true };
+    const struct lom_cloud_quality quality = {
+        .model = LOM_CLOUDS_OCTAVES, .error = 0.05, .stop = 0.004, .light_scale = 0.5, .octaves = 2, .jitter = true
+    };
     for (size_t i = 0; i < count; i++) {
         clouds[i].kind = "hemisphere";
         clouds[i].seed = 1;

@@ -209,7 +209,7 @@ static void v5_an_empty_volume_changes_no_bit(void)
 static void v1_v17_lost_steps_are_flagged(void)
 {
     uint8_t voxels[2] = { 255, 0 };
-    lom_image image = { 2, 1, 1, LOM_FORMAT_R8, voxels };
+    lom_image image = { .width = 2, .height = 1, .depth = 1, .format = LOM_FORMAT_R8, .pixels = voxels };
     const lom_reference_light dark = { .to_sun = { 0, 1, 0 } };
     lom_reference_volume *v = lom_create_reference_volume(
         &(lom_reference_volume_desc){

@@ -175,7 +175,7 @@ static void v8_directions_of_any_length(void)
 static void v4_v9_what_is_refused(void)
 {
     uint8_t voxel = 255;
-    lom_image image = { 1, 1, 1, LOM_FORMAT_R8, &voxel };
+    lom_image image = { .width = 1, .height = 1, .depth = 1, .format = LOM_FORMAT_R8, .pixels = &voxel };
     const double nan = INFINITE - INFINITE;
     const lom_reference_volume_desc good = { .density = &image, .high = { 1, 1, 1 }, .extinction = 1 };
     lom_reference_volume_desc bad[10];
@@ -191,7 +191,7 @@ static void v4_v9_what_is_refused(void)
     bad[7].density = NULL;
     bad[8].high.x = INFINITE;
     uint8_t rgb[3] = { 255, 255, 255 };
-    lom_image colors = { 1, 1, 1, LOM_FORMAT_RGB8, rgb };
+    lom_image colors = { .width = 1, .height = 1, .depth = 1, .format = LOM_FORMAT_RGB8, .pixels = rgb };
     bad[9].density = &colors;
     for (int i = 0; i < 10; i++) {
         lom_error error = { .code = LOM_OK };
@@ -220,10 +220,12 @@ static void v19_voxels_of_every_format(void)
     uint8_t bytes[2] = { 255, 51 };
     uint16_t words[2] = { 65535, 13107 };
     float floats[2] = { 1, 0.2f }, strange[2] = { -3, (float)(INFINITE - INFINITE) };
-    lom_image images[] = { { 2, 1, 1, LOM_FORMAT_R8, bytes },
-                           { 2, 1, 1, LOM_FORMAT_R16, (uint8_t *)words },
-                           { 2, 1, 1, LOM_FORMAT_R32F, (uint8_t *)floats },
-                           { 2, 1, 1, LOM_FORMAT_R32F, (uint8_t *)strange } };
+    lom_image images[] = {
+        { .width = 2, .height = 1, .depth = 1, .format = LOM_FORMAT_R8, .pixels = bytes },
+        { .width = 2, .height = 1, .depth = 1, .format = LOM_FORMAT_R16, .pixels = (uint8_t *)words },
+        { .width = 2, .height = 1, .depth = 1, .format = LOM_FORMAT_R32F, .pixels = (uint8_t *)floats },
+        { .width = 2, .height = 1, .depth = 1, .format = LOM_FORMAT_R32F, .pixels = (uint8_t *)strange }
+    };
     for (int i = 0; i < 4; i++) {
         lom_reference_volume *v = lom_create_reference_volume(
             &(lom_reference_volume_desc){ .density = &images[i], .high = { 2, 1, 1 }, .extinction = 1 }, NULL);

@@ -1,33 +1,10 @@
 /* Proves that the table of keys is sound (ranges hold the defaults, members lie inside their structs and apart, every
  * key is explained) and that docs/scene.md is what the table makes. */
 #include "check.h"
+#include "scene/scene_compare.h"
 #include "scene/scene_keys.h"
 
 #include <lom/scene.h>
-
-static size_t member_size(const lom_key *key)
-{
-    size_t count = key->count > 1 ? (size_t)key->count : 1;
-    switch (key->type) {
-    case LOM_KEY_BOOL:
-        return sizeof(bool);
-    case LOM_KEY_INTEGER:
-    case LOM_KEY_CHOICE:
-        return sizeof(int);
-    case LOM_KEY_NUMBER:
-    case LOM_KEY_ANGLE:
-    case LOM_KEY_COLOR:
-        return count * sizeof(double);
-    case LOM_KEY_STRING:
-    case LOM_KEY_FILE:
-        return count * sizeof(char *);
-    case LOM_KEY_TABLE:
-        return key->table->size;
-    case LOM_KEY_TABLES:
-        return sizeof(void *);
-    }
-    return 0;
-}
 
 static void check_default(const lom_key *key)
 {
@@ -46,7 +23,7 @@ static void check_default(const lom_key *key)
 static void check_key(const lom_key_table *table, int index)
 {
     const lom_key *key = &table->keys[index];
-    size_t end = key->offset + member_size(key);
+    size_t end = key->offset + lom_key_size(key);
     CHECK(key->offset >= sizeof(bool) && end <= table->size, "%s lies outside its struct", key->name);
     CHECK(key->minimum <= key->maximum, "%s", key->name);
     CHECK(key->type != LOM_KEY_COLOR || key->count == 3, "%s", key->name);
@@ -61,8 +38,8 @@ static void check_key(const lom_key_table *table, int index)
     for (int i = 0; i < index; i++) {
         const lom_key *other = &table->keys[i];
         CHECK(strcmp(other->name, key->name) != 0, "%s stands twice", key->name);
-        CHECK(end <= other->offset || key->offset >= other->offset + member_size(other), "%s and %s overlap", key->name,
-              other->name);
+        CHECK(end <= other->offset || key->offset >= other->offset + lom_key_size(other), "%s and %s overlap",
+              key->name, other->name);
     }
 }
 
