@@ -22,6 +22,7 @@ lom_bytes lom_encode_pgm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pam(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_pfm(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_nrrd(const lom_image *image, lom_error *error); /* any depth */
+lom_bytes lom_encode_dds(const lom_image *image, lom_error *error);  /* any depth and levels */
 lom_bytes lom_encode_qoi(const lom_image *image, lom_error *error);
 lom_bytes lom_encode_npy(const lom_image *image, lom_error *error);
 

@@ -2,7 +2,7 @@
  * of 128 bytes, 20 more where the four-character code is DX10, and surfaces: single texels or blocks, little-endian,
  * rows on bytes. Out: a picture, a volume, a cube or an array with its mip levels. What numbers mean (sRGB, alpha
  * multiplied beforehand) is left to the caller, as of every picture file; typeless formats are read as unsigned
- * normalised ones. Invariant: a header whose fields contradict each other is refused. */
+ * normalised ones. Written are single texels with the long header, all levels and slices. Invariant: a header whose fields contradict each other is refused. */
 #include "codec.h"
 
 #include "bytes.h"
@@ -163,4 +163,111 @@ lom_image *lom_decode_dds(const uint8_t *data, size_t size, const char *name, lo
                                                              : read_short_header(&picture, flags, code, error);
     picture.by_slice = picture.slices != LOM_SLICES_VOLUME;
     return done && lom_check_coded_picture(&picture, error) ? lom_read_coded_picture(&picture, error) : NULL;
+}
+
+/* ---- write ---- */
+
+/* DXGI_FORMAT of samples as an image holds them; 0: none. */
+static uint32_t number_of(lom_format format)
+{
+    const lom_format_info *info = lom_describe_format(format);
+    if (info == NULL)
+        return 0;
+    if (info->is_srgb)
+        format = (lom_format)(format - (LOM_FORMAT_R8_SRGB - LOM_FORMAT_R8));
+    for (int i = 0; i < ROWS; i++) {
+        const lom_texel_coding *coding = &rows[i].coding;
+        if (coding->format == format && coding->side == 1 && (coding->mask[0] | coding->mask[3]) == 0)
+            return rows[i].dxgi[info->is_srgb && rows[i].dxgi[0] == 28];
+    }
+    return 0;
+}
+
+static void write_header(uint8_t *file, const lom_image *image, uint32_t number)
+{
+    uint32_t levels = (uint32_t)lom_image_levels(image), depth = (uint32_t)image->depth;
+    bool cube = image->slices == LOM_SLICES_CUBE, volume = image->slices == LOM_SLICES_VOLUME && depth > 1;
+    const struct {
+        int at;
+        uint32_t word;
+    } fields[] = {
+        { 4, 124 },
+        { 8, 0x1007u | (levels > 1 ? 0x20000u : 0) | (volume ? 0x800000u : 0) },
+        { 12, (uint32_t)image->height },
+        { 16, (uint32_t)image->width },
+        { 24, volume ? depth : 0 },
+        { 28, levels },
+        { 76, 32 },
+        { 80, CODED },
+        { 84, CODE("DX10") },
+        { 108, 0x1000u | (levels > 1  ? 0x400008u
+                          : depth > 1 ? 8u
+                                      : 0) },
+        { 112, cube     ? CUBE | ALL_FACES
+               : volume ? VOLUME
+                        : 0 },
+        { 128, number },
+        { 132, volume ? DIMENSION_3D : DIMENSION_3D - 1 },
+        { 136, cube ? MISC_CUBE : 0 },
+        { 140, cube || volume ? 1 : depth },
+    };
+    memcpy(file, "DDS ", 4);
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        store_32_little(file + fields[i].at, fields[i].word);
+}
+
+/* Samples of an image in the file's byte order; returns what is behind them. */
+static uint8_t *write_samples(const lom_image *image, int first_slice, int slices, uint8_t *to)
+{
+    size_t bytes = (size_t)lom_describe_format(image->format)->bits / 8;
+    size_t count = lom_image_size(image) / (size_t)image->depth * (size_t)slices / bytes;
+    const uint8_t *from = lom_image_pixel(image, 0, 0, first_slice);
+    for (size_t i = 0; i < count; i++, from += bytes, to += bytes) {
+        uint32_t sample = from[0];
+        if (bytes == 2) {
+            uint16_t word;
+            memcpy(&word, from, 2);
+            sample = word;
+        } else if (bytes == 4) {
+            memcpy(&sample, from, 4);
+        }
+        for (size_t b = 0; b < bytes; b++)
+            to[b] = (uint8_t)(sample >> 8 * b);
+    }
+    return to;
+}
+
+static lom_bytes encode(const lom_image *image, lom_error *error)
+{
+    uint32_t number = number_of(image->format);
+    size_t size = LONG_HEADER;
+    if (number == 0) {
+        lom_fail(error, LOM_ERROR_USAGE, "DDS holds no samples of format %d; convert the picture first.",
+                 (int)image->format);
+        return (lom_bytes){ 0 };
+    }
+    for (const lom_image *level = image; level != NULL; level = level->smaller)
+        size += lom_image_size(level);
+    lom_bytes file = { lom_allocate(size, 1, error), size };
+    if (file.data == NULL)
+        return (lom_bytes){ 0 };
+    write_header(file.data, image, number);
+    uint8_t *to = file.data + LONG_HEADER;
+    bool by_slice = image->slices != LOM_SLICES_VOLUME;
+    for (int slice = 0; slice < (by_slice ? image->depth : 1); slice++)
+        for (const lom_image *level = image; level != NULL; level = level->smaller)
+            to = write_samples(level, slice, by_slice ? 1 : level->depth, to);
+    return file;
+}
+
+/* Of three channels there is no such format for most bits: they get an opaque alpha. */
+lom_bytes lom_encode_dds(const lom_image *image, lom_error *error)
+{
+    const lom_format_info *info = lom_describe_format(image->format);
+    if (info == NULL || info->channels != 3)
+        return encode(image, error);
+    lom_image *wide = lom_convert_image(image, (lom_format)(image->format + 1), error);
+    lom_bytes file = wide != NULL ? encode(wide, error) : (lom_bytes){ 0 };
+    lom_free_image(wide);
+    return file;
 }

@@ -90,7 +90,8 @@ containers() {
     exits 0 "$lom" convert "$corpus/fuzz_dds/bc1_levels" first.png && exits 0 "$lom" info first.png && says "9 x 6, RGBA8, hash" &&
         exits 2 "$lom" convert "$corpus/fuzz_ktx/bc3_cube" none.png && complains "one slice, not 6" && [ ! -e none.png ] &&
         exits 2 "$lom" convert "$corpus/fuzz_dds/short" none.png && complains "too short for" && [ ! -e none.png ] &&
-        exits 2 "$lom" convert first.png none.dds && [ ! -e none.dds ]
+        exits 0 "$lom" convert "$corpus/fuzz_ktx/bc3_cube" cube.dds && exits 0 "$lom" info cube.dds &&
+        says "cube.dds: cube, 4 x 4 x 6, RGBA8, 3 levels, hash " && exits 2 "$lom" convert first.png none.ktx && [ ! -e none.ktx ]
 }
 
 check info_text text

@@ -226,6 +226,60 @@ static void blocks_are_cut(void)
     free(whole.data);
 }
 
+/* ---- written ---- */
+
+static lom_image *random_chain(lom_format format, lom_slices slices, int depth)
+{
+    lom_image *first = NULL, **next = &first;
+    for (int level = 0; level < 3; level++, next = &(*next)->smaller) {
+        int deep = slices == LOM_SLICES_VOLUME ? half(depth, level) : depth;
+        *next = lom_create_image(half(5, level), half(5, level), deep, format, NULL);
+        (*next)->slices = slices;
+        for (size_t i = 0; i < lom_image_size(*next); i++)
+            (*next)->pixels[i] = (uint8_t)(lom_random_bits((uint64_t)level, i) >> 6);
+    }
+    return first;
+}
+
+/* Every format, its samples as they were (of three channels as their conversion), levels and slices as they were. */
+static void what_is_written_comes_back(void)
+{
+    static const struct {
+        lom_slices slices;
+        int depth;
+    } kinds[] = {
+        { LOM_SLICES_VOLUME, 1 }, { LOM_SLICES_VOLUME, 4 }, { LOM_SLICES_CUBE, 6 }, { LOM_SLICES_LAYERS, 3 }
+    };
+    for (int format = LOM_FORMAT_R8; format < LOM_FORMAT_DEPTH16; format++)
+        for (int k = 0; k < 4; k++) {
+            lom_error error = { 0 };
+            const lom_format_info *info = lom_describe_format((lom_format)format);
+            lom_image *image = random_chain((lom_format)format, kinds[k].slices, kinds[k].depth);
+            if (info->is_float) /* numbers: what is no number may change its bits in a conversion */
+                for (lom_image *level = image; level != NULL; level = level->smaller)
+                    for (size_t i = 1; i < lom_image_size(level); i += 2)
+                        level->pixels[i] = (uint8_t)(level->pixels[i] % 0x3c);
+            lom_bytes file = lom_encode_image("dds", image, &error);
+            lom_image *back = lom_decode_image(file.data, file.size, "t.dds", &error);
+            lom_image *want = lom_convert_image(image, (lom_format)(format + (info->channels == 3)), &error);
+            CHECK(back != NULL && want != NULL && lom_image_levels(back) == 3 && back->slices == image->slices,
+                  "%s: %s", info->name, error.text);
+            const lom_image *b = back, *w = want;
+            for (; b != NULL && w != NULL; b = b->smaller, w = w->smaller)
+                CHECK(b->width == w->width && b->depth == w->depth && lom_image_size(b) == lom_image_size(w) &&
+                          memcmp(b->pixels, w->pixels, lom_image_size(w)) == 0,
+                      "%s, kind %d, %d wide", info->name, k, w->width);
+            lom_release(file.data);
+            lom_free_image(image);
+            lom_free_image(back);
+            lom_free_image(want);
+        }
+    lom_error error = { 0 };
+    lom_image *depth = lom_create_image(1, 1, 1, LOM_FORMAT_DEPTH24, NULL);
+    CHECK(lom_encode_image("dds", depth, &error).data == NULL && error.code == LOM_ERROR_USAGE, "%s", error.text);
+    lom_free_image(depth);
+}
+
 /* ---- the chart of levels ---- */
 
 /* Two colours a level, in checks of blocks, and no colour in two levels of the first eight. */
@@ -317,6 +371,7 @@ int main(int argc, char **argv)
     RUN(masks_say_where_channels_are);
     RUN(surfaces_in_their_order);
     RUN(blocks_are_cut);
+    RUN(what_is_written_comes_back);
     RUN(the_chart_has_a_colour_a_level);
     RUN(refusals);
     return check_result();
