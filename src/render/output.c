@@ -16,20 +16,21 @@ static double encode_srgb(double x)
     return x <= 0.0031308 ? 12.92 * x : 1.055 * lom_double_pow(x, 1 / 2.4) - 0.055;
 }
 
-/* A row of linear light, `channels` floats a pixel, in a format of more than 8 bits. */
-static void encode_row(const lom_output *output, const float *linear, int channels, int count, void *row)
+/* A row of linear light, `channels` floats a pixel, in a format of more than 8 bits. The row may lie at any address. */
+static void encode_row(const lom_output *output, const float *linear, int channels, int count, uint8_t *row)
 {
     bool srgb = output->transfer == LOM_TRANSFER_SRGB;
-    uint16_t *deep = row;
-    float *whole = row;
     for (int i = 0; i < count; i++, linear += channels)
         for (int c = 0; c < 3; c++) {
             if (output->format == LOM_OUTPUT_RGB32F) {
-                *whole++ = linear[c];
+                memcpy(row, &linear[c], sizeof linear[c]);
+                row += sizeof linear[c];
                 continue;
             }
             double value = linear[c] > 0 ? linear[c] < 1 ? linear[c] : 1 : 0;
-            *deep++ = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
+            uint16_t deep = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
+            memcpy(row, &deep, sizeof deep);
+            row += sizeof deep;
         }
 }
 
