@@ -39,14 +39,14 @@ for name in targets water; do
         $compiler $flags $calls -o "$folder/lom" src/web/*.c src/cli/explain_text.c src/cli/explain_names.c src/cli/json.c src/cli/page.c src/cli/steps_page.c \
             "$folder/$name.o" "$BUILD/liblom.a" -lm -lpthread || { check "$name is built" no "$compiler fails"; continue; }
     different=
-    for asked in "explain 160 90" "explain 150 140" "explain 5 5" "moment 9300" "moment 18434" stages; do
+    for asked in "explain 160 90" "explain 150 140" "explain 5 5" "moment 12002" "moment 18434" stages; do
         set -- $asked
         mkdir "$folder/native" "$folder/wasm"
         "$folder/lom" "$1" "$folder/native/a" "${@:2}" 0 0 0 0 0 >"$folder/log" 2>&1
         wasm "$name" "$1" "$folder/wasm/a" "${@:2}" 0 0 0 0 0 >>"$folder/log" 2>&1
         [ -n "$(ls "$folder/native")" ] && diff -r "$folder/native" "$folder/wasm" >>"$folder/log" 2>&1 || different="$different, $asked"
         [ "$name $asked" != "targets explain 160 90" ] || cp "$folder/native/a.txt" "$folder/explained.txt"
-        [ "$name $asked" != "targets moment 9300" ] || cp "$folder/native/a.png" "$folder/moment.png"
+        [ "$name $asked" != "targets moment 12002" ] || cp "$folder/native/a.png" "$folder/moment.png"
         rm -r "$folder/native" "$folder/wasm"
     done
     check "$name is explained, step by step, as natively" "$([ -z "$different" ] && echo yes)" "not$different; $(tail -n 2 "$folder/log")"
@@ -77,7 +77,7 @@ fi
     done
     echo "go file://$(realpath "$pages")/targets.html"
     echo 'document.body?.dataset.done === "yes" && name === "targets" && steps.some(step => step.title === "Coverage")'
-    echo 'slider.value = steps.findIndex(step => step.moment >= 9300), Object.assign(steps[slider.value], { moment: 9300, file: "/steps-9300.png" }), slider.oninput(), 1'
+    echo 'slider.value = steps.findIndex(step => step.moment >= 12002), Object.assign(steps[slider.value], { moment: 12002, file: "/steps-12002.png" }), slider.oninput(), 1'
     echo '!busy && canvas.toDataURL("image/png").slice(22)'
     echo 'click element("picture").getBoundingClientRect().left+160.5*canvas.clientWidth/320 element("picture").getBoundingClientRect().top+90.5*canvas.clientHeight/180'
     echo '/wrote this/.test(element("story").textContent) && element("story").textContent'
