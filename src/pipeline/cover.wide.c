@@ -32,12 +32,12 @@ LOM_INLINE lom_int bias_lanes(lom_int dx, lom_int dy)
     return ~((dx > 0) | ((dx == 0) & (dy > 0)));
 }
 
-/* How far an edge function of these steps, over 256, rises from a pixel's centre to one of its samples. */
-LOM_INLINE lom_int reach_lanes(const struct lom_pass *pass, lom_int dx, lom_int dy)
+/* How far an edge function rises from a pixel's centre to one of its samples; the steps over 256 are pairs. */
+LOM_INLINE lom_int reach_lanes(const struct lom_pass *pass, lom_int step)
 {
-    lom_int most = dx * pass->offset[0].x + dy * pass->offset[0].y;
-    for (int s = 1; s < pass->samples; s++)
-        most = lom_max_int(most, dx * pass->offset[s].x + dy * pass->offset[s].y);
+    lom_int most = lom_dot_pairs(lom_splat_int(pass->offset_pair[1]), step);
+    for (int s = 2; s <= pass->samples; s++)
+        most = lom_max_int(most, lom_dot_pairs(lom_splat_int(pass->offset_pair[s]), step));
     return most << (SUBPIXEL_BITS - 4);
 }
 
@@ -59,9 +59,9 @@ static void fill_packet(struct lom_tile *tile, int first)
     lom_int start2 = lom_as_int(start.z) + (lom_dot_pairs(to_tile, pair2) << SUBPIXEL_BITS);
     lom_int bias1 = bias_lanes(dx1, dy1), bias2 = bias_lanes(dx2, dy2), bias0 = bias_lanes(-dx1 - dx2, -dy1 - dy2);
     if (tile->pass->samples > 1) { /* pixels of which a sample may be inside: pack_samples.wide.c sees which */
-        bias1 += reach_lanes(tile->pass, dx1, dy1);
-        bias2 += reach_lanes(tile->pass, dx2, dy2);
-        bias0 += reach_lanes(tile->pass, -dx1 - dx2, -dy1 - dy2);
+        bias1 += reach_lanes(tile->pass, pair1);
+        bias2 += reach_lanes(tile->pass, pair2);
+        bias0 += reach_lanes(tile->pass, lom_make_pair(-dx1 - dx2, -dy1 - dy2));
     }
     lom_float z0 = plane.y, z1 = z0 + plane.z, z2 = z0 + plane.w;
     store_slots(slots, SLOT_STEP1, first,

@@ -6,11 +6,6 @@
  * one; fragments at one sample are tested in their order. */
 #include "pipeline/packed.h"
 
-LOM_INLINE lom_int splat_offset(struct lom_sample_offset offset)
-{
-    return lom_make_pair(lom_splat_int(offset.x), lom_splat_int(offset.y));
-}
-
 /* -1 where the edge's own points are outside, as bias_of; the steps are pairs. */
 LOM_INLINE lom_int bias_of_pair(lom_int step)
 {
@@ -104,7 +99,7 @@ LOM_INLINE lom_int find_samples(struct lom_tile *tile, const struct packed *p, i
     lom_float units[LOM_MAX_SAMPLES];
     lom_int samples = { 0 }, place = { 0 };
     for (int s = 0; s < count; s++) {
-        struct entry_edges e = move_entries(centre, splat_offset(tile->pass->offset[s]));
+        struct entry_edges e = move_entries(centre, lom_splat_int(tile->pass->offset_pair[s + 1]));
         lom_float l[3];
         covered[s] = entries & covers(&e, &biases);
         place = lom_select_int(covered[s] & ~placed, lom_splat_int(s + 1), place);
@@ -152,15 +147,6 @@ void LOM_WIDE(lom_test_entry_samples)(struct lom_tile *tile, int from)
     }
 }
 
-/* The places of shading as pairs of sixteenths. */
-static lom_int offsets_of(const struct lom_pass *pass, lom_int place)
-{
-    int32_t offset[LOM_MAX_SAMPLES + 1] = { 0 };
-    for (int s = 0; s < pass->samples; s++)
-        offset[s + 1] = (pass->offset[s].x & 0xffff) | (int32_t)((uint32_t)pass->offset[s].y << 16);
-    return lom_gather_int(offset, place);
-}
-
 void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct packed *p, int at,
                                       struct lom_packet *packet, lom_float depth[LOM_MAX_SAMPLES])
 {
@@ -170,12 +156,12 @@ void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct 
         lom_select_int(lom_lane_index() < p->count, lom_load_int(tile->list_samples + at), (lom_int){ 0 });
     packet->samples = samples & ((1 << ENTRY_PLACE) - 1);
     packet->place = samples >> ENTRY_PLACE;
-    struct entry_edges placed = move_entries(centre, offsets_of(tile->pass, packet->place));
+    struct entry_edges placed = move_entries(centre, lom_gather_int(tile->pass->offset_pair, packet->place));
     weigh_entries(&placed, packet->l);
     packet->sample_depth = (const float *)depth;
     packet->depth_pitch = LOM_LANES;
     for (int s = 0; tile->draw->late_depth && s < tile->pass->samples; s++) {
-        struct entry_edges e = move_entries(centre, splat_offset(tile->pass->offset[s]));
+        struct entry_edges e = move_entries(centre, lom_splat_int(tile->pass->offset_pair[s + 1]));
         lom_float l[3];
         weigh_entries(&e, l);
         depth[s] = find_depth_lanes(list, p, l);

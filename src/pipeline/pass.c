@@ -165,6 +165,7 @@ static bool choose_samples(lom_device *device, struct lom_pass *pass)
                         pass->samples);
     for (int i = 0; i < pass->samples; i++) {
         const struct lom_sample_offset *at = &pass->offset[i];
+        pass->offset_pair[i + 1] = (int32_t)((uint32_t)(at->x & 0xffff) | (uint32_t)at->y << 16);
         const int low = at->x < at->y ? at->x : at->y, high = at->x > at->y ? at->x : at->y;
         pass->reach_low = low * (SUBPIXELS / 16) < pass->reach_low ? low * (SUBPIXELS / 16) : pass->reach_low;
         pass->reach_high = high * (SUBPIXELS / 16) > pass->reach_high ? high * (SUBPIXELS / 16) : pass->reach_high;

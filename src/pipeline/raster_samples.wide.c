@@ -23,8 +23,9 @@ struct sampled {
     int32_t low[3], high[3];                /* of the starts */
     int bias[3];
     struct lom_edges edges;
-    int64_t place[2][PLACES]; /* edge functions 1 and 2 at the places of a pixel, less that at its centre */
-    lom_int lanes[3][PARTS];  /* what the pixels of a window add */
+    double place[2][PLACES];     /* edge functions 1 and 2 at the places of a pixel, less that at its centre */
+    lom_double offset[2][PARTS]; /* of a window's pixels less that of its first; all exact, of large triangles */
+    lom_int lanes[3][PARTS];     /* what the pixels of a window add */
 };
 
 /* An edge function's change from a pixel's centre to a place in it; steps are multiples of 256. */
@@ -79,7 +80,12 @@ static bool find_triangle(const struct lom_tile *tile, const lom_triangle *t, in
     }
     for (int s = 0; s < PLACES; s++)
         for (int i = 0; i < 2 && (s < g->samples || s == CENTRE); i++)
-            g->place[i][s] = change(pass, &g->edges, i + 1, s);
+            g->place[i][s] = (double)change(pass, &g->edges, i + 1, s);
+    for (int part = 0; part < PARTS && g->large; part++) {
+        const lom_double x = lom_to_double(lane_x(part)), y = lom_to_double(lane_y(part));
+        for (int i = 0; i < 2; i++)
+            g->offset[i][part] = x * (double)g->edges.dx[i + 1] + y * (double)g->edges.dy[i + 1];
+    }
     return true;
 }
 
@@ -87,6 +93,7 @@ static bool find_triangle(const struct lom_tile *tile, const lom_triangle *t, in
 struct at {
     int x, y, part, index; /* index: of the window in tile memory */
     int32_t base[3];       /* what its window adds to the starts of the edge functions */
+    double first[2];       /* of a large triangle: edge functions 1 and 2 at the window's first pixel */
 };
 
 /* Their places in tile memory. */
@@ -105,12 +112,10 @@ LOM_INLINE void weigh(const struct sampled *g, const struct at *at, int place, l
         return;
     }
     const struct lom_edges *e = &g->edges;
-    const lom_double x = lom_to_double(lane_x(at->part)), y = lom_to_double(lane_y(at->part));
     const double area = (double)e->area;
     lom_double value[2];
     for (int i = 0; i < 2; i++) {
-        int64_t first = e->start[i + 1] + e->dx[i + 1] * at->x + e->dy[i + 1] * at->y + g->place[i][place];
-        value[i] = x * (double)e->dx[i + 1] + y * (double)e->dy[i + 1] + (double)first;
+        value[i] = g->offset[i][at->part] + (at->first[i] + g->place[i][place]);
         l[i + 1] = __builtin_convertvector(value[i], lom_float) * inverse;
     }
     l[0] = __builtin_convertvector(area - value[0] - value[1], lom_float) * inverse;
@@ -294,6 +299,8 @@ void LOM_WIDE(lom_raster_sampled)(struct lom_tile *tile, const lom_triangle *t, 
             struct at at = { .x = x, .y = y };
             for (int i = 0; i < 3; i++)
                 at.base[i] = g.dx[i] * x + g.dy[i] * y;
+            for (int i = 0; i < 2 && g.large; i++)
+                at.first[i] = (double)(g.edges.start[i + 1] + g.edges.dx[i + 1] * x + g.edges.dy[i + 1] * y);
             at.index = memory_index(tile, x, y);
             for (; kind != NONE && at.part < PARTS; at.part++)
                 raster_part(tile, &g, &at, kind == ALL);
