@@ -61,7 +61,7 @@ void lom_release_texture(lom_device *device, lom_texture *texture);
 
 /* Work done since the device was opened: what is not needed must show as zero here. */
 typedef struct lom_counters {
-    uint64_t passes, draws, vertices, triangles; /* triangles and sprites submitted */
+    uint64_t passes, draws, vertices, triangles; /* triangles, sprites, points and lines submitted */
     uint64_t triangles_clipped;                  /* cut by near, far or the guard band */
     uint64_t triangles_binned; /* left after culling, with at least one pixel centre possibly inside */
     uint64_t fragments;        /* that passed the early depth test, or reached a shader */
@@ -97,7 +97,8 @@ typedef struct lom_vertex {
     lom_float4 position; /* clip space */
     lom_float varying[LOM_MAX_VARYINGS];
     lom_float distance[LOM_MAX_DISTANCES]; /* clip distances first, then cull distances */
-    lom_float4 axis[2]; /* only with sprites; clip space, what to add to the position for half a side */
+    lom_float4 axis[2];   /* only with sprites; clip space, what to add to the position for half a side */
+    lom_float point_size; /* only with LOM_POINTS: the side of the square in pixels; 1 when the shader starts */
 } lom_vertex;
 
 /* What a fragment shader gets: LOM_LANES fragments of one triangle or of several, in submission order. Lanes that are
@@ -114,7 +115,7 @@ typedef struct lom_varyings {
      * differences of the triangle's vertices: df/dx = dx[0] delta[0][f] + dx[1] delta[1][f]. */
     lom_float dx[2], dy[2];
     lom_float delta[2][LOM_MAX_VARYINGS];
-    lom_float st[2];        /* only with sprites: where on the sprite, -1 to 1 along its axes; dx and dy are theirs */
+    lom_float st[2]; /* only with sprites and points: where on them, -1 to 1 along their axes; dx and dy are theirs */
     lom_float target_depth; /* only with reads_depth: what the attachment holds at the pixel */
 } lom_varyings;
 
@@ -149,7 +150,7 @@ typedef struct lom_shader {
     int colors; /* outputs written */
     size_t uniforms_size;
     bool sprites;     /* for LOM_SPRITES */
-    bool round;       /* of sprites: covers s^2 + t^2 < 1 alone */
+    bool round;       /* of sprites and points: covers s^2 + t^2 < 1 alone */
     bool reads_depth; /* target_depth; in passes with depth, in draws that write none */
 } lom_shader;
 
@@ -369,8 +370,36 @@ bool lom_end_pass(lom_device *device);
  * (p.y - m.y) (-b.x / D), t = (p.x - m.x) (-a.y / D) + (p.y - m.y) (a.x / D). Depth and all varyings are the vertex'
  * own. Nothing is clipped: a vertex that lies outside near, far, the guard band or a clip or cull distance is not
  * drawn, nor is a sprite with |D| below 2^-16 or half sides above 2^16 pixels. Facing, culling and depth bias do not
- * apply. */
-typedef enum lom_topology { LOM_TRIANGLES = 0, LOM_TRIANGLE_STRIP, LOM_TRIANGLE_FAN, LOM_SPRITES } lom_topology;
+ * apply.
+ *
+ * LOM_POINTS: a square a vertex, of any shader that is not for sprites. Its side is point_size, rounded to 1/256 of a
+ * pixel (to even), at most 32768; 1/512 and less, and NaN: nothing. A pixel centre p is covered where m - size / 2 <= p <
+ * m + size / 2 along x and y, exactly, m the snapped window position; so a point of size 1 is one pixel. With `round` s^2
+ * + t^2 < 1, too. s points right, t down: (st + 1) / 2 is OpenGL's gl_PointCoord. With h = size / 2, in float: s = (p.x -
+ * m.x) (h / (h h)), t likewise. Depth, varyings, samples and what is not drawn: as of sprites. Derivatives of varyings
+ * are 0. OpenGL 4.6, 14.4 "Points" and 13.7 (a point is clipped by its centre).
+ *
+ * LOM_LINES, two vertices each, and LOM_LINE_STRIP, each vertex joined to the one before it. Lines are cut by near, far
+ * and the guard band as the edges of triangles are, and by clip distances pixel by pixel. The two ends a, b are snapped to
+ * 1/256 of a pixel and moved by (-e, -e^2), e > 0 smaller than all else. Exactly those pixels are covered whose diamond,
+ * |x - x0| + |y - y0| < 1/2 about the centre, the segment from a to b meets, but does not end in: OpenGL 4.6, 14.5.1
+ * "Basic Line Segment Rasterization", here with y down. So each vertex inside a strip has its pixel once. A line is
+ * x-major where |b.x - a.x| >= |b.y - a.y|; of width k an x-major one is moved up by (k - 1) / 2 pixels, and each
+ * pixel becomes the first of k that lie under one another; a y-major one is moved to the left, and they lie side by side
+ * (14.5.2.1 "Wide Lines"). At the pixel centre p is t = (p - a) (b - a) / |b - a|^2, clamped to 0..1, from exact whole
+ * numbers, rounded to float by one product with the rounded reciprocal of |b - a|^2; depth is z_a + t (z_b - z_a),
+ * varyings are perspective-correct as those of triangles are, with the weights 1 - t and t; flat ones are b's. In passes of
+ * several samples a covered pixel has all of them, with what the centre has; per_sample does not apply. Front facing;
+ * culling does not apply, nor does depth bias. */
+typedef enum lom_topology {
+    LOM_TRIANGLES = 0,
+    LOM_TRIANGLE_STRIP,
+    LOM_TRIANGLE_FAN,
+    LOM_SPRITES,
+    LOM_POINTS,
+    LOM_LINES,
+    LOM_LINE_STRIP
+} lom_topology;
 
 typedef enum lom_attribute_kind {
     LOM_ATTRIBUTE_NONE = 0,
@@ -454,10 +483,11 @@ typedef struct lom_draw_desc {
     size_t count;        /* indices (or vertices) to draw; a rest that makes no triangle is ignored */
     size_t first;        /* first index (or vertex) */
     int32_t base_vertex; /* added to every index */
-    bool restart;        /* the largest index value starts a new strip or fan */
+    bool restart;        /* the largest index value starts a new strip or fan; of sprites and points it is no vertex */
     size_t vertex_count; /* vertices that exist: a larger index drops its triangle; 0: what the attributes hold */
     int instances;       /* 0: 1 */
     lom_topology topology;
+    int line_width; /* of lines, in pixels: 1..64; 0: 1 */
     lom_cull cull;
     bool front_clockwise;
     lom_compare depth_compare;

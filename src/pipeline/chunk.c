@@ -95,7 +95,21 @@ static void corner_places(lom_topology topology, size_t t, size_t place[3])
         place[1] = t + 1;
         place[2] = t + 2;
         break;
+    case LOM_LINES: /* both vertices of a line, the second one twice */
+        place[0] = 2 * t;
+        place[1] = place[2] = 2 * t + 1;
+        break;
+    case LOM_LINE_STRIP:
+        place[0] = t;
+        place[1] = place[2] = t + 1;
+        break;
     }
+}
+
+/* Whether nothing is joined to what is before it. */
+static bool is_list(lom_topology topology)
+{
+    return topology == LOM_TRIANGLES || topology == LOM_LINES;
 }
 
 /* In a strip or fan with restarts the corners count from its own start: the place after the last restart before t. */
@@ -109,7 +123,7 @@ static size_t strip_start(const lom_draw_desc *desc, size_t t)
 /* Whether triangle t would begin with a restart: in a fan its corners are the centre before it and vertices behind it. */
 static bool begins_nothing(const lom_draw_desc *desc, size_t t)
 {
-    return desc->restart && desc->topology != LOM_TRIANGLES && index_at(desc, t) == UINT32_MAX;
+    return desc->restart && !is_list(desc->topology) && index_at(desc, t) == UINT32_MAX;
 }
 
 /* The vertex numbers of triangle t, or NO_VERTEX in the first where it has none (a restart index, an index out of
@@ -118,9 +132,10 @@ static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start,
 {
     const lom_draw_desc *desc = &draw->desc;
     size_t place[3];
-    corner_places(desc->topology, desc->topology == LOM_TRIANGLES ? t : t - start, place);
+    bool list = is_list(desc->topology);
+    corner_places(desc->topology, list ? t : t - start, place);
     for (int k = 0; k < 3; k++) {
-        uint32_t index = index_at(desc, place[k] + (desc->topology == LOM_TRIANGLES ? 0 : start));
+        uint32_t index = index_at(desc, place[k] + (list ? 0 : start));
         int64_t vertex = (int64_t)index + desc->base_vertex;
         if ((index == UINT32_MAX && desc->restart) || vertex < 0 || vertex >= (int64_t)desc->vertex_count) {
             number[0] = NO_VERTEX;
@@ -361,7 +376,7 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->triangles_clipped = chunk->vertices_shaded = 0;
     chunk->any_code = 0;
     chunk->tile_count = 0;
-    bool sprites = chunk->draw->desc.topology == LOM_SPRITES;
+    bool sprites = chunk->draw->sprites;
     const struct lom_room *room = &pass->device->room;
     chunk->failed =
         !(sprites ? lom_choose_sprites(room, chunk) : choose_vertices(room, chunk)) || !make_room(room, chunk);
@@ -371,6 +386,8 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     lom_stages_of(chunk->draw->variant)->shade_vertices(pass, chunk);
     if (sprites)
         lom_set_up_sprites(pass, chunk);
+    else if (chunk->draw->lines)
+        lom_set_up_lines(pass, chunk);
     else
         assemble(pass, chunk);
     if (!chunk->failed)

@@ -1,6 +1,7 @@
-/* Stage 2 of 7: clip. In: a triangle with a vertex outside the near plane, the far plane, w > 0 or the guard band. Out:
- * the fan of triangles that is left of it, its new vertices appended to the chunk's rows. User clip distances are not
- * cut here: the raster stage tests their sign at each pixel, which splits a triangle between d and -d exactly.
+/* Stage 2 of 7: clip. In: a triangle or line with a vertex outside the near plane, the far plane, w > 0 or the guard
+ * band. Out: the fan of triangles, or the line, that is left of it, its new vertices appended to the chunk's rows. User
+ * clip distances are not cut here: the raster stage tests their sign at each pixel, which splits a triangle between d and
+ * -d exactly.
  *
  * Invariant: an edge that two triangles share is cut at bitwise the same vertex, because every edge is cut from its
  * lexicographically smaller clip position, in double. Few triangles get here: one at a time, in order. */
@@ -152,4 +153,41 @@ int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, cons
     }
     chunk->triangles_clipped++;
     return count < 3 ? 0 : count - 2;
+}
+
+/* A line that is cut keeps its flat varyings: its last vertex' are written to the new one. */
+static void keep_flat(struct lom_chunk *chunk, uint32_t last, uint32_t cut)
+{
+    size_t pitch = (size_t)chunk->draw->row_floats;
+    const float *from = chunk->rows + last * pitch + ROW_HEADER;
+    float *to = chunk->rows + cut * pitch + ROW_HEADER;
+    for (int v = 0; v < chunk->draw->desc.shader->varyings; v++)
+        if (chunk->draw->desc.shader->flat >> v & 1)
+            to[v] = from[v];
+}
+
+bool lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t end[2], unsigned codes)
+{
+    struct plane planes[PLANES];
+    const uint32_t last = end[1];
+    if (!lom_reserve_rows(chunk, chunk->row_count + 2 * PLANES))
+        return false;
+    list_planes(pass, planes);
+    chunk->triangles_clipped++;
+    for (int i = 0; i < PLANES; i++) {
+        bool inside[2];
+        if (!(codes & planes[i].code))
+            continue;
+        for (int k = 0; k < 2; k++)
+            inside[k] = distance_to(&planes[i], chunk->assembly->clip + (size_t)end[k] * 4) >= 0;
+        if (!inside[0] && !inside[1])
+            return false;
+        if (inside[0] != inside[1])
+            end[inside[0] ? 1 : 0] = cut_edge(&planes[i], chunk, end[0], end[1]);
+    }
+    for (int k = 0; k < 2; k++)
+        project_row(pass, chunk, end[k]);
+    if (end[1] != last)
+        keep_flat(chunk, last, end[1]);
+    return true;
 }

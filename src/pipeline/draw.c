@@ -3,6 +3,8 @@
 #include "lanes/variants.h"
 #include "pipeline/device.h"
 
+enum { LARGEST_LINE_WIDTH = 64 };
+
 static size_t attribute_size(lom_attribute_kind kind)
 {
     static const size_t sizes[] = { 0, 4, 8, 12, 16, 4 };
@@ -44,20 +46,36 @@ static bool check_shader(lom_device *device, const lom_draw_desc *desc)
     return true;
 }
 
-/* What sprites and their shaders must agree on, and what a shader that reads the target's depth needs. */
+static bool is_of_sprites(const lom_draw_desc *desc)
+{
+    return desc->topology == LOM_SPRITES || desc->topology == LOM_POINTS;
+}
+
+static bool is_of_lines(const lom_draw_desc *desc)
+{
+    return desc->topology == LOM_LINES || desc->topology == LOM_LINE_STRIP;
+}
+
+/* What sprites and their shaders must agree on, what lines, points and sprites have not, and what a shader that reads the
+ * target's depth needs. */
 static bool check_sprites(lom_device *device, const lom_draw_desc *desc)
 {
+    static const char *const names[] = { "triangles", "triangles", "triangles", "sprites", "points", "lines", "lines" };
     const lom_shader *s = desc->shader;
+    const char *name = names[desc->topology];
     bool sprites = desc->topology == LOM_SPRITES, depth = device->pass.depth != NULL;
     if (sprites != s->sprites)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s is %s, but its draw is of %s.", s->name,
-                        s->sprites ? "for sprites" : "not for sprites", sprites ? "sprites" : "triangles");
+                        s->sprites ? "for sprites" : "not for sprites", name);
     if (sprites && s->differentiates != 0)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "Shader %s differentiates a varying, but those of sprites are the same at every pixel.",
                         s->name);
-    if (sprites && (desc->depth_bias != 0 || desc->depth_bias_slope != 0))
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of sprites has a depth bias (%s).", s->name);
+    if (desc->topology >= LOM_SPRITES && (desc->depth_bias != 0 || desc->depth_bias_slope != 0))
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of %s has a depth bias (%s).", name, s->name);
+    if (is_of_lines(desc) && (desc->line_width < 0 || desc->line_width > LARGEST_LINE_WIDTH))
+        return lom_fail(&device->error, LOM_ERROR_LIMIT, "Lines are 1 to %d pixels wide, not %d (a draw of %s).",
+                        LARGEST_LINE_WIDTH, desc->line_width, s->name);
     if (s->reads_depth && (!depth || !(desc->depth_test_off || desc->depth_write_off) || s->writes_depth))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s reads the target's depth, %s.", s->name,
                         depth ? "which its draw would write" : "but the pass has none");
@@ -70,7 +88,7 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
     if (desc->index_bits != 0 && desc->index_bits != 16 && desc->index_bits != 32)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Indices have 16 or 32 bits, not %d (a draw of %s).",
                         desc->index_bits, name);
-    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_SPRITES)
+    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_LINE_STRIP)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "A draw of %s has a topology or an instance count that is none.", name);
     if (!__builtin_isfinite(desc->depth_bias) || !__builtin_isfinite(desc->depth_bias_slope))
@@ -110,10 +128,13 @@ static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
                     desc->shader->name, (long long)from, (long long)to, held);
 }
 
-/* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. */
-static int choose_shader_variant(const lom_device *device, const lom_shader *shader)
+/* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. Lines are not
+ * recorded, sprites and points only counted. */
+static int choose_shader_variant(const lom_device *device, const lom_draw_desc *desc)
 {
-    bool is_recorded = device->pass.is_recorded && (!shader->sprites || device->pass.tallier != NULL);
+    const lom_shader *shader = desc->shader;
+    bool is_recorded =
+        device->pass.is_recorded && !is_of_lines(desc) && (!is_of_sprites(desc) || device->pass.tallier != NULL);
     if (is_recorded && shader->vertex[LOM_SLOT_4_recorded] != NULL)
         return LOM_SLOT_4_recorded;
     if (shader->vertex[device->variant] != NULL)
@@ -126,11 +147,19 @@ static int choose_shader_variant(const lom_device *device, const lom_shader *sha
 
 static size_t count_triangles(const lom_draw_desc *desc)
 {
-    if (desc->topology == LOM_SPRITES)
-        return desc->count;
-    if (desc->topology == LOM_TRIANGLES)
+    switch (desc->topology) {
+    case LOM_TRIANGLES:
         return desc->count / 3;
-    return desc->count < 3 ? 0 : desc->count - 2;
+    case LOM_SPRITES:
+    case LOM_POINTS:
+        return desc->count;
+    case LOM_LINES:
+        return desc->count / 2;
+    case LOM_LINE_STRIP:
+        return desc->count < 2 ? 0 : desc->count - 1;
+    default:
+        return desc->count < 3 ? 0 : desc->count - 2;
+    }
 }
 
 /* A draw whose uniforms are those of the draw before it shares their copy. */
@@ -181,11 +210,14 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     desc->vertex_count = desc->vertex_count == 0 || desc->vertex_count > held ? held : desc->vertex_count;
     desc->index_bits = desc->index_bits == 0 ? 32 : desc->index_bits;
     desc->instances = desc->instances == 0 ? 1 : desc->instances;
+    desc->line_width = desc->line_width == 0 ? 1 : desc->line_width;
+    draw->sprites = is_of_sprites(desc);
+    draw->lines = is_of_lines(desc);
     draw->triangles = count_triangles(desc);
     draw->distances = shader->clip_distances + shader->cull_distances;
     draw->distance_offset = ROW_HEADER + ((shader->varyings + 3) & ~3);
     draw->axis_offset = draw->distance_offset + ((draw->distances + 3) & ~3);
-    draw->row_floats = draw->axis_offset + (shader->sprites ? 4 : 0);
+    draw->row_floats = draw->axis_offset + (draw->sprites ? 4 : 0);
     bool depth = pass->depth != NULL && !desc->depth_test_off;
     draw->compare = !depth                                       ? LOM_COMPARE_ALWAYS
                     : desc->depth_compare == LOM_COMPARE_DEFAULT ? LOM_COMPARE_GREATER
@@ -201,7 +233,7 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     draw->sampled = pass->samples > 1 || desc->alpha_to_coverage;
     draw->constant = !pass->is_recorded && pass->samples == 1 && shader->fragment[draw->variant] != NULL &&
                      shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&
-                     !shader->sprites && !shader->reads_depth;
+                     !draw->sprites && !shader->reads_depth;
     draw->queues_depth = shader->reads_position || draw->late_depth;
     draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
 }
@@ -215,7 +247,7 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     struct lom_draw *draw = &device->draws[pass->draw_count];
-    *draw = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc->shader) };
+    *draw = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc) };
     if (draw->variant < 0)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
                         desc->shader->name);

@@ -59,7 +59,8 @@ void LOM_WIDE(lom_raster_sprite_samples)(struct lom_tile *tile, const uint32_t *
  * `apart`: they are different pixels. */
 void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
                                   bool apart, const lom_fragment *out);
-/* Draws a list of sprites (raster_sprites.wide.c). */
+/* Draws a list of lines (raster_lines.wide.c); of sprites (raster_sprites.wide.c). */
+void LOM_WIDE(lom_raster_lines)(struct lom_tile *tile, const uint32_t *list, size_t count);
 void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, size_t count);
 /* The output stage: blends and stores the lanes of mask, which are different pixels (or, in lane order, opaque). */
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,

@@ -125,9 +125,20 @@ static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t n
     case TRIANGLE_LARGE:
         LOM_WIDE(lom_raster_large)(tile, t, number);
         break;
-    case TRIANGLE_SPRITE: /* never here */
+    case TRIANGLE_NONE: /* never here */
         break;
     }
+}
+
+/* Sprites, points and lines. */
+static void raster_others(struct lom_tile *tile, const uint32_t *list, size_t count)
+{
+    if (tile->draw->lines)
+        LOM_WIDE(lom_raster_lines)(tile, list, count);
+    else if (tile->pass->samples > 1)
+        LOM_WIDE(lom_raster_sprite_samples)(tile, list, count);
+    else
+        LOM_WIDE(lom_raster_sprites)(tile, list, count);
 }
 
 void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count)
@@ -145,9 +156,8 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
     size_t folded = tile->is_whole ? LOM_WIDE(lom_fold)(tile, list, count) : 0;
     if (tile->is_whole && folded < count)
         lom_load_whole_tile(tile);
-    if (draw->desc.topology == LOM_SPRITES) {
-        (tile->pass->samples > 1 ? LOM_WIDE(lom_raster_sprite_samples) : LOM_WIDE(lom_raster_sprites))(tile, list,
-                                                                                                       count);
+    if (draw->sprites || draw->lines) {
+        raster_others(tile, list, count);
         return;
     }
     for (size_t i = folded; i < count; i++) {

@@ -1,21 +1,34 @@
-/* Stages 5 and 6 of 7 for sprites. In: the sprites of a tile, in order. Out: their fragments, shaded, on to the output
+/* Stages 5 and 6 of 7 for sprites and points. In: those of a tile, in order. Out: their fragments, shaded, on to the output
  * stage: a window's part at a time, without the queue, since what all fragments of a sprite share is found once for it.
  *
  * Invariant: s and t at a pixel are fl(fl(dx ds/dx) + fl(dy ds/dy)) of its exact distance to the middle, whatever tile
- * or part of a window it lies in. */
+ * or part of a window it lies in. What a point covers follows from that distance itself. */
 #include "pipeline/record.h"
 #include "pipeline/sample_depth.h"
 #include "pipeline/window.h"
 
 enum { AHEAD = 4 };
 
+/* What is covered: -1 <= s, t < 1; s^2 + t^2 < 1; -half <= dx, dy < half; the last two together. */
+enum shape { PARALLELOGRAM, DISC, SQUARE, ROUND_POINT };
+
+static enum shape shape_of(const struct lom_draw *draw)
+{
+    if (draw->desc.topology == LOM_POINTS)
+        return draw->desc.shader->round ? ROUND_POINT : SQUARE;
+    return draw->desc.shader->round ? DISC : PARALLELOGRAM;
+}
+
 /* A sprite over one tile. */
 struct sprite {
     const lom_triangle *record;
+    enum shape shape;
+    float half; /* of a point's side */
     struct lom_bounds bounds;
     float x, y;               /* of the centre of the tile's first pixel, from the middle; pixels, exact */
     lom_float x_away[PARTS];  /* of the lanes of the strip's first window */
     lom_float down[PARTS][2]; /* along a strip of windows: what its rows add to s and t */
+    lom_float y_away[PARTS];  /* and how far they lie */
     struct lom_varyings in;
     lom_int place; /* of shading, where pixels have several samples */
 };
@@ -34,6 +47,8 @@ static void begin_sprite(const struct lom_tile *tile, const lom_triangle *t, str
     int32_t middle[2];
     memcpy(middle, row, sizeof middle);
     sprite->record = t;
+    sprite->shape = shape_of(tile->draw);
+    sprite->half = row[tile->draw->axis_offset];
     sprite->bounds = lom_bounds_of(t);
     sprite->x = centre(tile->x, tile->pass->viewport.x, middle[0]);
     sprite->y = centre(tile->y, tile->pass->viewport.y, middle[1]);
@@ -43,6 +58,8 @@ static void begin_sprite(const struct lom_tile *tile, const lom_triangle *t, str
         int v = __builtin_ctz(reads);
         in->varying[v] = lom_splat(row[ROW_HEADER + v]);
     }
+    for (uint32_t slopes = shader->differentiates; slopes != 0; slopes &= slopes - 1) /* of points */
+        in->delta[0][__builtin_ctz(slopes)] = in->delta[1][__builtin_ctz(slopes)] = (lom_float){ 0 };
     in->z = lom_splat(t->depth[0]);
     in->w = 1.0f / lom_splat(row[3]);
     in->front = lom_splat_int(-1);
@@ -52,10 +69,28 @@ static void begin_sprite(const struct lom_tile *tile, const lom_triangle *t, str
     in->dy[1] = lom_splat(t->step_y2);
 }
 
+/* Distances to a point's middle are exact: multiples of 1/256 below 2^16. */
+LOM_INLINE lom_mask cover_shape(const struct sprite *sprite, lom_float right, lom_float down, lom_float s, lom_float t)
+{
+    const float half = sprite->half;
+    switch (sprite->shape) {
+    case PARALLELOGRAM:
+        return (s >= -1.0f) & (s < 1.0f) & (t >= -1.0f) & (t < 1.0f);
+    case DISC:
+        return s * s + t * t < 1.0f;
+    case SQUARE:
+        return (right >= -half) & (right < half) & (down >= -half) & (down < half);
+    case ROUND_POINT:
+        return (right >= -half) & (right < half) & (down >= -half) & (down < half) & (s * s + t * t < 1.0f);
+    }
+    return (lom_mask){ 0 };
+}
+
 static void begin_strip(struct sprite *sprite, int y)
 {
     for (int part = 0; part < PARTS; part++) {
         lom_float y_away = lom_to_float(lane_y(part)) + (sprite->y + (float)y);
+        sprite->y_away[part] = y_away;
         sprite->down[part][0] = y_away * sprite->record->step_y1;
         sprite->down[part][1] = y_away * sprite->record->step_y2;
     }
@@ -95,14 +130,14 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
 }
 
 /* The window at (x, y) of the tile. */
-static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, int y, bool round, bool shades)
+static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, int y, bool shades)
 {
     const lom_triangle *t = sprite->record;
     bool cut = t->state >> TRIANGLE_CUT & 1;
     for (int part = 0; part < PARTS; part++) {
         lom_float x_away = sprite->x_away[part] + (float)x;
         lom_float p = x_away * t->step_x1 + sprite->down[part][0], q = x_away * t->step_x2 + sprite->down[part][1];
-        lom_mask covered = round ? p * p + q * q < 1.0f : (p >= -1.0f) & (p < 1.0f) & (q >= -1.0f) & (q < 1.0f);
+        lom_mask covered = cover_shape(sprite, x_away, sprite->y_away[part], p, q);
         int place = memory_index(tile, x, y) + tile->offset[part * LOM_LANES];
         if (cut)
             covered &= inside_bounds(tile, &sprite->bounds, x, y, part);
@@ -136,7 +171,7 @@ void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, s
         for (int y = r.y0; y <= r.y1; y += 4) {
             begin_strip(&sprite, y);
             for (int x = r.x0; x <= r.x1; x += 4)
-                raster_window(tile, &sprite, x, y, shader->round, shades);
+                raster_window(tile, &sprite, x, y, shades);
         }
     }
 }
@@ -145,13 +180,13 @@ void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, s
 
 /* s and t at a place of the pixels of a part, which lies so far from their centres; the lanes that are inside. */
 LOM_INLINE lom_mask cover_place(const struct sprite *sprite, int x, int y, int part,
-                                struct lom_sample_offset from_centre, bool round, lom_float st[2])
+                                struct lom_sample_offset from_centre, lom_float st[2])
 {
     const lom_triangle *t = sprite->record;
     lom_float right = lom_to_float(lane_x(part)) + (sprite->x + (float)x + (float)from_centre.x * (1.0f / 16));
     lom_float down = lom_to_float(lane_y(part)) + (sprite->y + (float)y + (float)from_centre.y * (1.0f / 16));
     lom_float p = st[0] = right * t->step_x1 + down * t->step_y1, q = st[1] = right * t->step_x2 + down * t->step_y2;
-    return round ? p * p + q * q < 1.0f : (p >= -1.0f) & (p < 1.0f) & (q >= -1.0f) & (q < 1.0f);
+    return cover_shape(sprite, right, down, p, q);
 }
 
 /* A packet of the sprite: the lanes of these samples, shaded at a place. */
@@ -179,13 +214,13 @@ static void shade_samples(struct lom_tile *tile, struct sprite *sprite, int x, i
 static void cover_samples(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part, lom_int pixel,
                           lom_mask covered[LOM_MAX_SAMPLES], lom_float st[LOM_MAX_SAMPLES][2])
 {
-    const bool round = tile->draw->desc.shader->round, cut = sprite->record->state >> TRIANGLE_CUT & 1;
+    const bool cut = sprite->record->state >> TRIANGLE_CUT & 1;
     lom_mask allowed = cut ? inside_bounds(tile, &sprite->bounds, x, y, part) : lom_splat_int(-1), placed;
     lom_float depth[LOM_MAX_SAMPLES];
-    placed = cover_place(sprite, x, y, part, (struct lom_sample_offset){ 0, 0 }, round, sprite->in.st) & allowed;
+    placed = cover_place(sprite, x, y, part, (struct lom_sample_offset){ 0, 0 }, sprite->in.st) & allowed;
     sprite->place = (lom_int){ 0 };
     for (int s = 0; s < tile->pass->samples; s++) {
-        covered[s] = cover_place(sprite, x, y, part, tile->pass->offset[s], round, st[s]) & allowed;
+        covered[s] = cover_place(sprite, x, y, part, tile->pass->offset[s], st[s]) & allowed;
         lom_mask here = covered[s] & ~placed;
         for (int k = 0; k < 2; k++)
             sprite->in.st[k] = lom_select(here, st[s][k], sprite->in.st[k]);

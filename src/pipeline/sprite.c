@@ -1,11 +1,12 @@
-/* Chunks of sprites, which have one vertex each: the stages 1 to 3 of 7 as far as they differ from those of triangles.
+/* Chunks of sprites and points, which have one vertex each: the stages 1 to 3 of 7 as far as they differ from those of triangles.
  * In: a chunk's range; vertices with their half sides in pixels. Out: the vertices it needs; a record for each sprite
  * that may cover a pixel centre, in order.
  *
  * Invariant: a record is a function of its vertex alone, found by one source in single steps of float. */
 #include "pipeline/stages.h"
 
-static const float smallest_area = 0x1p-16f, largest_side = 0x1p16f; /* |D| in square pixels; pixels */
+/* |D| in square pixels; pixels. The smallest point has sides of 1/256. */
+static const float smallest_area = 0x1p-16f, smallest_point = 0x1p-18f, largest_side = 0x1p16f;
 
 /* The vertex number of sprite i of the chunk; false where there is none. */
 static bool find_number(const struct lom_chunk *chunk, size_t i, uint32_t *number)
@@ -15,9 +16,10 @@ static bool find_number(const struct lom_chunk *chunk, size_t i, uint32_t *numbe
     uint32_t index = desc->indices == NULL    ? (uint32_t)place
                      : desc->index_bits == 16 ? ((const uint16_t *)desc->indices)[place]
                                               : ((const uint32_t *)desc->indices)[place];
+    bool none = desc->restart && desc->indices != NULL && index == (desc->index_bits == 16 ? UINT16_MAX : UINT32_MAX);
     int64_t vertex = (int64_t)index + desc->base_vertex;
     *number = (uint32_t)vertex;
-    return vertex >= 0 && vertex < (int64_t)desc->vertex_count;
+    return !none && vertex >= 0 && vertex < (int64_t)desc->vertex_count;
 }
 
 bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk)
@@ -78,7 +80,8 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
         bound(middle[0], size_of(a[0]) + size_of(b[0]) + more, pass->viewport.x, s->x, s->x + s->width - 1);
     struct extent y =
         bound(middle[1], size_of(a[1]) + size_of(b[1]) + more, pass->viewport.y, s->y, s->y + s->height - 1);
-    if (!(size_of(area) >= smallest_area) || x.low > x.high || y.low > y.high)
+    if (!(size_of(area) >= (draw->desc.topology == LOM_POINTS ? smallest_point : smallest_area)) || x.low > x.high ||
+        y.low > y.high)
         return false;
     t->step_x1 = b[1] / area;
     t->step_y1 = -b[0] / area;
@@ -88,14 +91,13 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
     t->first = (uint32_t)x.low | (uint32_t)y.low << 16;
     t->large.right = x.high;
     t->large.bottom = y.high;
-    t->state = TRIANGLE_SPRITE << TRIANGLE_KIND;
+    t->state = TRIANGLE_NONE << TRIANGLE_KIND;
     if (x.cut || y.cut || is_sliver(a, b, area))
         t->state |= 1u << TRIANGLE_CUT;
     return true;
 }
 
-/* The tile that holds all of the sprite, if one does. */
-static int32_t find_tile(const struct lom_pass *pass, const lom_triangle *t)
+int32_t lom_tile_of(const struct lom_pass *pass, const lom_triangle *t)
 {
     int shift = __builtin_ctz((unsigned)pass->tile);
     struct lom_bounds b = lom_bounds_of(t);
@@ -118,7 +120,7 @@ void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk)
         lom_triangle t = { .row = { (uint32_t)(i * pitch) } };
         if (assembly->codes[i] != 0 || !set_up(pass, draw, chunk->rows + i * pitch, &t))
             continue;
-        assembly->tile[chunk->triangle_count] = find_tile(pass, &t);
+        assembly->tile[chunk->triangle_count] = lom_tile_of(pass, &t);
         chunk->triangles[chunk->triangle_count++] = t;
     }
 }

@@ -44,7 +44,8 @@ typedef enum lom_triangle_kind {
     TRIANGLE_WINDOW = 0, /* fits an even-aligned 4x4 window inside one tile; mask holds its pixels */
     TRIANGLE_SMALL,      /* edge functions fit int32 */
     TRIANGLE_LARGE,      /* edge functions in 64 bits, rebased for each tile */
-    TRIANGLE_SPRITE      /* a parallelogram about vertex 0: the steps are those of s and t, a pixel right and down */
+    TRIANGLE_NONE        /* as the draw is: a sprite or point about vertex 0, the steps are those of s and t, a pixel
+                            right and down; or a line from vertex 0 to vertex 1, which is vertex 2, too (line.c) */
 } lom_triangle_kind;
 
 /* A triangle after set-up, 16 words (four rows of four, written and read by lanes). Its vertices are in the order of
@@ -58,7 +59,7 @@ typedef struct lom_triangle {
         struct { /* else: twice the area, edge functions 1 and 2 at pixel (left & ~1, top & ~1) */
             int32_t area, start[2];
         } small;
-        struct { /* TRIANGLE_LARGE, TRIANGLE_SPRITE: the last pixel, inclusive */
+        struct { /* TRIANGLE_LARGE, TRIANGLE_NONE: the last pixel, inclusive */
             int32_t right, bottom, unused;
         } large;
     };
@@ -90,7 +91,7 @@ static inline struct lom_bounds lom_bounds_of(const lom_triangle *t)
     int left = (int)(t->first & 0xffff), top = (int)(t->first >> 16);
     switch (lom_kind_of(t)) {
     case TRIANGLE_LARGE:
-    case TRIANGLE_SPRITE:
+    case TRIANGLE_NONE:
         return (struct lom_bounds){ left, top, t->large.right, t->large.bottom };
     case TRIANGLE_SMALL:
         return (struct lom_bounds){ left, top, left + (int)(t->state & 255), top + (int)(t->state >> 8 & 255) };
@@ -129,9 +130,11 @@ struct lom_draw {
     int variant;
     int row_floats; /* of a vertex row: header, varyings, distances, padded to 4 */
     int distance_offset;
-    int distances;       /* clip + cull */
-    int axis_offset;     /* of a sprite's half sides in its row: x and y of the one, of the other, in pixels, y down */
-    size_t triangles;    /* or sprites, of one instance */
+    int distances;   /* clip + cull */
+    int axis_offset; /* of a sprite's half sides in its row: x and y of the one, of the other, in pixels, y down */
+    bool sprites,
+        lines;        /* what it is of, if not of triangles; sprites: or points, whose half sides are (h, 0), (0, h) */
+    size_t triangles; /* or sprites, points, lines, of one instance */
     lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool depth_write, late_depth, blends, constant, biased;
     bool sampled; /* several samples a pixel, or alpha as coverage */
@@ -408,7 +411,13 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
 enum { LOM_MAX_FAN = 10 };
 int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
                       uint32_t fan[LOM_MAX_FAN][3]);
-/* Stages 1 and 3 of a chunk of sprites: which vertices it needs; a record for each that may cover a pixel centre. */
+/* Stage 2 of a line of two rows: false where nothing is left, else `end` are those of what is. Stages 2 and 3 of a chunk of
+ * lines: a record for each that may cover a pixel. */
+bool lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t end[2], unsigned codes);
+void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk);
+/* The tile that holds all of a record, or SEVERAL_TILES. */
+int32_t lom_tile_of(const struct lom_pass *pass, const lom_triangle *t);
+/* Stages 1 and 3 of a chunk of sprites or points: which vertices it needs; a record for each that may cover a pixel centre. */
 bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk);
 void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk);
 /* Stage 4: sorts the chunk's triangles into its bins. */

@@ -187,6 +187,15 @@ static void write_axes(const struct lom_pass *pass, const struct lom_draw *draw,
     lom_scatter_rows(row + draw->axis_offset, at, (lom_float4){ side[0], side[1], side[2], side[3] });
 }
 
+/* Half the side of a point's square: a whole number of 1/512 of a pixel. */
+static void write_size(const struct lom_draw *draw, lom_float size, float *row, lom_int at)
+{
+    enum { LARGEST_SIZE = 32768 };
+    size = lom_select(size > 0.0f, lom_min(size, lom_splat(LARGEST_SIZE)), (lom_float){ 0 });
+    lom_float half = lom_round(size * SUBPIXELS) * (0.5f / SUBPIXELS);
+    lom_scatter_rows(row + draw->axis_offset, at, (lom_float4){ half, { 0 }, { 0 }, half });
+}
+
 static void write_codes(struct lom_chunk *chunk, size_t first, lom_int codes)
 {
     if (!lom_any(codes != 0)) {
@@ -214,6 +223,8 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
     write_distances(draw, vertex, row, at, &codes);
     if (draw->desc.topology == LOM_SPRITES)
         write_axes(pass, draw, vertex, row, at, codes);
+    else if (draw->sprites)
+        write_size(draw, vertex->point_size, row, at);
     write_codes(chunk, first, codes);
 }
 
@@ -233,6 +244,7 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
         struct numbers n = find_numbers(chunk, first);
         memcpy(&in.vertex, n.number, sizeof n.number);
         fetch(draw, &n, &in);
+        vertex.point_size = lom_splat(1);
         LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
         shade(&vertex, &in, draw->uniforms);
         write_packet(pass, chunk, first, &vertex);

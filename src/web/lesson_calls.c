@@ -86,8 +86,10 @@ const char *lom_lesson_pass(int number)
 
 static size_t count_triangles(const lom_draw_desc *desc)
 {
+    bool one = desc->topology == LOM_SPRITES || desc->topology == LOM_POINTS;
     size_t count = desc->topology == LOM_TRIANGLES ? desc->count / 3
-                   : desc->topology == LOM_SPRITES ? desc->count
+                   : desc->topology == LOM_LINES   ? desc->count / 2
+                   : one                           ? desc->count
                    : desc->count < 3               ? 0
                                                    : desc->count - 2;
     return count * (size_t)(desc->instances > 0 ? desc->instances : 1);

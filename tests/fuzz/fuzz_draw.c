@@ -27,6 +27,7 @@ static void place(lom_vertex *out, const lom_attributes *in, const void *uniform
 {
     (void)uniforms;
     out->position = in->attribute[0];
+    out->point_size = in->attribute[1].x;
     const lom_float four[4] = { in->attribute[1].x, in->attribute[1].y, in->attribute[1].z, in->attribute[1].w };
     for (int i = 0; i < 4; i++) {
         out->varying[i] = four[i];
@@ -293,6 +294,11 @@ static lom_draw_desc take_draw(fuzz_bytes *in, struct heap *heap, const struct u
     if (take_choice(in, 4) == 3) {
         draw.topology = LOM_SPRITES;
         draw.shader = take_bool(in) ? &fuzz_sprite : &fuzz_soft;
+    }
+    if (take_choice(in, 4) == 3) {
+        static const lom_topology others[] = { LOM_POINTS, LOM_LINES, LOM_LINE_STRIP };
+        draw.topology = others[take_choice(in, 3)];
+        draw.line_width = take_byte(in) - 1;
     }
     return draw;
 }

@@ -94,6 +94,15 @@ static void sprite_vertex(lom_vertex *out, const lom_attributes *in, const void 
 LOM_SHADER(sprite, sprite_vertex, broken_fragment, .attributes = 3, .reads_position = true, .colors = 1,
            .sprites = true)
 
+static void sized_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->position = in->attribute[0];
+    out->point_size = lom_splat(4);
+}
+
+LOM_SHADER(sized, sized_vertex, broken_fragment, .attributes = 1, .reads_position = true, .colors = 1)
+
 /* A triangle that holds all of the viewport, its depth z; value 0 and 1 run from 0 to `reach` along it. */
 static void cover(vertex v[3], float z, float w, float reach)
 {
@@ -266,6 +275,35 @@ static void sprites_are_counted(void)
         CHECK(!inside || below || (t->packets == 1 && t->lanes == 4), "pixel %d", p);
     }
     close_stage(&s);
+}
+
+/* A point of size 4 about (8, 32) is counted, a line from there to the right is not; a watched or tallied pass shows both
+ * as any other does. */
+static void points_are_counted_and_lines_drawn(void)
+{
+    stage s[3] = { open(1), open(1), open(1) };
+    const vertex ends[2] = { { .position = { -0.75f, 0, 0.5f, 1 } }, { .position = { 0.5f, 0.25f, 0.5f, 1 } } };
+    tally_all(&s[1]);
+    lom_watch(s[2].device, &(lom_watch_desc){ .target = s[2].color, .x = 8, .y = 30, .width = 8, .height = 4 }, 1);
+    for (int i = 0; i < 3; i++) {
+        lom_draw_desc point = draw_of(&sized, ends, 1), line = draw_of(&sized, ends, 2);
+        point.topology = LOM_POINTS;
+        line.topology = LOM_LINES;
+        begin(&s[i], (lom_pass_desc){ .samples = 1 });
+        lom_draw(s[i].device, &point);
+        lom_draw(s[i].device, &line);
+        finish(&s[i]);
+        CHECK(same_images(s[i].image, s[0].image), "picture %d", i);
+    }
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        int x = p % SIZE, y = p / SIZE;
+        bool inside = x >= 6 && x < 10 && y >= 30 && y < 34;
+        CHECK(lom_tallied(s[1].device, x, y)->fragments == inside, "pixel %d, %d", x, y);
+    }
+    CHECK(lom_device_counters(s[0].device).fragments > 16 + 30, "%llu fragments",
+          (unsigned long long)lom_device_counters(s[0].device).fragments);
+    for (int i = 0; i < 3; i++)
+        close_stage(&s[i]);
 }
 
 static void steps_are_those_of_the_slab(void)
@@ -524,6 +562,7 @@ int main(int argc, char **argv)
     RUN(lanes_in_use_are_those_of_packets);
     RUN(broken_colors_are_those_pixels);
     RUN(sprites_are_counted);
+    RUN(points_are_counted_and_lines_drawn);
     RUN(steps_are_those_of_the_slab);
     RUN(levels_are_those_of_the_distance);
     RUN(values_are_named_by_the_last_that_has_one);

@@ -212,7 +212,7 @@ static void draws_are_what_a_draw_can_be(void)
     const lom_draw_desc wrong[] = { { .count = 3, .indices = indices, .index_bits = 8 },
                                     { .count = 3, .indices = indices, .index_bits = -32 },
                                     { .count = 3, .instances = -1 },
-                                    { .count = 3, .topology = LOM_SPRITES + 1 },
+                                    { .count = 3, .topology = LOM_LINE_STRIP + 1 },
                                     { .count = 3, .topology = -1 },
                                     { .count = 3, .depth_bias = __builtin_inff() },
                                     { .count = 3, .depth_bias_slope = __builtin_nanf("") },
