@@ -253,8 +253,9 @@ $(BUILD)/docs/lessons/%.page.o: docs/lessons/%.c $(BUILD)/flags
 $(BUILD)/docs/lessons/%.page: $(BUILD)/docs/lessons/%.page.o $(page_objects) $(BUILD)/liblom.a
 	$(call short,LD)$(CC) $(LDFLAGS) $(PAGE_CALLS:%=-Wl,--wrap=lom_%) -o $@ $^ $(LDLIBS)
 
-# The pages themselves, in PAGES.
+# The pages themselves, in PAGES, of programs for WebAssembly (make wasm).
 PAGES = $(BUILD)/web
+ifneq ($(filter wasm32%,$(MACHINE)),)
 define page_rule
 $(PAGES)/$(1).html: $(BUILD)/docs/lessons/$(1)/$(1).page $(wildcard docs/lessons/$(1)/*) $(wildcard src/web/*) src/cli/lesson_answers.h
 	@mkdir -p $$(@D)
@@ -264,6 +265,7 @@ $(foreach lesson,$(notdir $(lesson_sources:.c=)),$(eval $(call page_rule,$(lesso
 
 pages: $(foreach lesson,$(notdir $(lesson_sources:.c=)),$(PAGES)/$(lesson).html)
 	node src/web/page.mjs index $(PAGES)/index.html
+endif
 
 # What compares a student's stage with the right one, in lom: by the gallery's files.
 $(BUILD)/docs/lessons/grade/judge.o: docs/lessons/grade/judge.c $(BUILD)/flags
