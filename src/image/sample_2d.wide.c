@@ -2,7 +2,7 @@
  * function a storage, so that nothing is decided per texel. */
 #include "compare_lanes.h"
 #include "level_of_detail.h"
-#include "sample_fixed.h"
+#include "sample_plain.h"
 
 LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, const lom_texture *texture,
                                 const lom_float2 *at, lom_float lod)
@@ -13,7 +13,26 @@ LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, cons
     return sample_by(fixed, texture, LOM_TEXTURE_2D, storage, srgb, &point, lod);
 }
 
-SAMPLE_EVERY_STORAGE(lom_sample_lanes, lom_float2, sample_as)
+SAMPLE_EVERY_STORAGE(static void sample_generally, lom_float2, sample_as)
+
+#define SAMPLE_PLAIN(function, storage, srgb)                                                                          \
+    static void function(const lom_texture *texture, const lom_float2 *at, const lom_float *lod, lom_float4 *out)      \
+    {                                                                                                                  \
+        if (!sample_plain(texture, storage, srgb, at, lod, out))                                                       \
+            sample_generally(texture, at, lod, out);                                                                   \
+    }
+SAMPLE_PLAIN(plain_rgba8, LOM_STORAGE_RGBA8, false)
+SAMPLE_PLAIN(plain_srgb8, LOM_STORAGE_RGBA8, true)
+SAMPLE_PLAIN(plain_decoded, LOM_STORAGE_RGBA32F, true)
+
+void LOM_WIDE(lom_sample_lanes)(const lom_texture *texture, const lom_float2 *at, const lom_float *lod, lom_float4 *out)
+{
+    bool decoded = texture->decoded != NULL, plain = texture->plain && SAMPLE_PLAINLY;
+    (!plain          ? sample_generally
+     : decoded       ? plain_decoded
+     : texture->srgb ? plain_srgb8
+                     : plain_rgba8)(texture, at, lod, out);
+}
 
 void LOM_WIDE(lom_sample_depth_lanes)(const lom_texture *texture, const lom_float2 *at, lom_float *out)
 {

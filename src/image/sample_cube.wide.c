@@ -36,4 +36,4 @@ LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, cons
     return sample_by(fixed, texture, LOM_TEXTURE_CUBE, storage, srgb, &point, lod);
 }
 
-SAMPLE_EVERY_STORAGE(lom_sample_cube_lanes, lom_float3, sample_as)
+SAMPLE_EVERY_STORAGE(void LOM_WIDE(lom_sample_cube_lanes), lom_float3, sample_as)

@@ -119,62 +119,11 @@ LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_textu
     return sample_finish_pairs(srgb, value);
 }
 
-/* ---- plain textures (texture.h), of which all lanes take one level or the same two ---- */
-
-/* sample_level_pairs. The largest float below 1 is the same weight as 1 - 2^-23. */
-LOM_INLINE sample_pairs sample_plain_level(const lom_texture *texture, lom_storage storage, bool srgb,
-                                           const sample_point *point, int level)
-{
-    const lom_level_row *row = &texture->row[level];
-    lom_float x = point->s * row->width + 0.5f, y = point->t * row->height + 0.5f;
-    lom_int column = lom_bounded_to_int(x), line = lom_bounded_to_int(y);
-    lom_pairs s = lom_weight_pairs(x - lom_to_float(column)), t = lom_weight_pairs(y - lom_to_float(line));
-    lom_int index = line * row->pitch + column;
-    size_t from = (size_t)row->offset;
-    sample_pairs a, b, c, d;
-    sample_two_pairs(texture, from, storage, srgb, index, &a, &b);
-    sample_two_pairs(texture, from + (size_t)row->pitch, storage, srgb, index, &c, &d);
-    return sample_mix_pairs(sample_mix_pairs(a, b, s), sample_mix_pairs(c, d, s), t);
-}
-
-/* Records want the notes of the general functions. */
-#ifdef LOM_RECORD
-enum { SAMPLE_TAKES_NOTES = true };
-#else
-enum { SAMPLE_TAKES_NOTES = false };
-#endif
-
-/* sample_texture_fixed of such lanes; else it takes over. */
-LOM_INLINE lom_float4 sample_plain(const lom_texture *texture, lom_storage storage, bool srgb, sample_point *point,
-                                   lom_float lod)
-{
-    int last = texture->level_count - 1, first;
-    lom_float chosen = { 0 };
-    lom_int level = { 0 };
-    if (last > 0) {
-        chosen = lom_clamp(lod + texture->sampler.lod_bias, lom_splat(texture->lod_min), lom_splat(texture->lod_max));
-        chosen = lom_min(lom_max(chosen, (lom_float){ 0 }), lom_splat((float)last));
-        level = lom_bounded_to_int(chosen);
-    }
-    first = level[0];
-    if (!lom_all(level == first))
-        return sample_texture_fixed(texture, LOM_TEXTURE_2D, storage, srgb, point, lod);
-    sample_pairs value = sample_plain_level(texture, storage, srgb, point, first);
-    lom_float fraction = chosen - (float)first;
-    if (last > 0 && lom_any(fraction > 0.0f)) {
-        sample_pairs next = sample_plain_level(texture, storage, srgb, point, first < last ? first + 1 : last);
-        value = sample_mix_pairs(value, next, lom_weight_pairs(fraction));
-    }
-    return sample_finish_pairs(srgb, value);
-}
-
 /* ---- both arithmetics, every storage ---- */
 
 LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_texture_kind kind, lom_storage storage,
                                 bool srgb, sample_point *point, lom_float lod)
 {
-    if (fixed && kind == LOM_TEXTURE_2D && texture->plain && !SAMPLE_TAKES_NOTES)
-        return sample_plain(texture, storage, srgb, point, lod);
     lom_float4 value = fixed ? sample_texture_fixed(texture, kind, storage, srgb, point, lod)
                              : sample_texture(texture, kind, storage, srgb, point, lod);
     LOM_NOTE(LOM_NOTE_RESULT, texture, value.x, value.y, value.z, value.w);
@@ -187,12 +136,12 @@ LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_text
         *out = sample(fixed, storage, srgb, texture, at, lod);                                                         \
     }
 
-/* The sampler `name` of one kind of texture: `sample`(fixed, storage, srgb, texture, at, lod), inline, as one straight
+/* The sampler `name`, a declarator, of one kind of texture: `sample`(fixed, storage, srgb, texture, at, lod), inline, as one straight
  * function for each way that texels are held and filtered, and the choice between them, once a call. Where nobody waits
  * (widths that are lowered, records) it is one small function that asks while it runs. */
 #if defined LOM_LOWERED || defined LOM_RECORD
 #define SAMPLE_EVERY_STORAGE(name, coordinates, sample)                                                                \
-    void LOM_WIDE(name)(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)      \
+    name(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)                     \
     {                                                                                                                  \
         lom_storage storage = texture->decoded != NULL ? LOM_STORAGE_RGBA32F : texture->storage;                       \
         *out = sample(texture->fixed, storage, texture->srgb, texture, at, *lod);                                      \
@@ -207,7 +156,7 @@ LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_text
     SAMPLE_STORAGE(fixed_rgba8, coordinates, sample, true, LOM_STORAGE_RGBA8, false)                                   \
     SAMPLE_STORAGE(fixed_srgb8, coordinates, sample, true, LOM_STORAGE_RGBA8, true)                                    \
     SAMPLE_STORAGE(fixed_decoded, coordinates, sample, true, LOM_STORAGE_RGBA32F, true)                                \
-    void LOM_WIDE(name)(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)      \
+    name(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)                     \
     {                                                                                                                  \
         bool fixed = texture->fixed, decoded = texture->decoded != NULL;                                               \
         switch (texture->storage) {                                                                                    \

@@ -39,7 +39,8 @@ struct large {
     struct tile_edge k[3];
     lom_double offset[2][PARTS]; /* edge functions 1 and 2 of a window's pixels less that of its first, exact */
     bool needs_weights;
-    bool fills; /* whole windows can be filled with the draw's constant colour */
+    bool shades; /* whole windows are packets of which nothing is tested */
+    bool fills;  /* whole windows can be filled with the draw's constant colour */
     bool cut;
 };
 
@@ -83,13 +84,30 @@ LOM_INLINE lom_mask cover_large(const struct tile_edge k[3], int x, int y, int p
     return inside >= 0;
 }
 
+/* Edge functions 1 and 2 at a window's first pixel, and the area. */
+struct window_edges {
+    double start1, start2, area;
+};
+
+LOM_INLINE struct window_edges edges_of_window(const struct lom_edges *e, int x, int y)
+{
+    return (struct window_edges){ (double)(e->start[1] + e->dx[1] * x + e->dy[1] * y),
+                                  (double)(e->start[2] + e->dx[2] * x + e->dy[2] * y), (double)e->area };
+}
+
+LOM_INLINE void weigh(const struct large *g, const struct window_edges *w, int part, lom_float l[3])
+{
+    lom_double e1 = g->offset[0][part] + w->start1, e2 = g->offset[1][part] + w->start2;
+    l[0] = __builtin_convertvector(w->area - e1 - e2, lom_float) * g->triangle->inverse_area;
+    l[1] = __builtin_convertvector(e1, lom_float) * g->triangle->inverse_area;
+    l[2] = __builtin_convertvector(e2, lom_float) * g->triangle->inverse_area;
+}
+
 /* The window at (x, y) of the tile. */
 static void raster_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y, bool full)
 {
-    const struct lom_edges *e = &g->edges;
     struct part at = { g->triangle, number, memory_index(tile, x, y), 0, g->depth };
-    double start1 = (double)(e->start[1] + e->dx[1] * x + e->dy[1] * y);
-    double start2 = (double)(e->start[2] + e->dx[2] * x + e->dy[2] * y), area = (double)e->area;
+    struct window_edges w = edges_of_window(&g->edges, x, y);
     lom_float l[3];
     for (int i = 0; i < 3 && !g->needs_weights; i++)
         l[i] = (lom_float){ 0 };
@@ -106,13 +124,22 @@ static void raster_large_window(struct lom_tile *tile, const struct large *g, in
             LOM_WIDE(lom_fill_part)(tile, at.base + tile->offset[at.part * LOM_LANES], &covered);
             continue;
         }
-        if (g->needs_weights) {
-            lom_double e1 = g->offset[0][at.part] + start1, e2 = g->offset[1][at.part] + start2;
-            l[0] = __builtin_convertvector(area - e1 - e2, lom_float) * g->triangle->inverse_area;
-            l[1] = __builtin_convertvector(e1, lom_float) * g->triangle->inverse_area;
-            l[2] = __builtin_convertvector(e2, lom_float) * g->triangle->inverse_area;
-        }
+        if (g->needs_weights)
+            weigh(g, &w, at.part, l);
         LOM_WIDE(lom_emit)(tile, &at, &covered, l, true);
+    }
+}
+
+/* What raster_large_window does of a whole window with g->shades. */
+static void shade_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y)
+{
+    struct part at = { .number = number, .base = memory_index(tile, x, y) };
+    struct window_edges w = edges_of_window(&g->edges, x, y);
+    lom_float l[3], depth = { 0 };
+    tile->fragments += 16;
+    for (; at.part < PARTS; at.part++) {
+        weigh(g, &w, at.part, l);
+        LOM_WIDE(lom_shade_part)(tile, &at, l, &depth);
     }
 }
 
@@ -120,6 +147,14 @@ static void raster_large_window(struct lom_tile *tile, const struct large *g, in
 static bool fills(const struct lom_tile *tile, const lom_triangle *t)
 {
     return tile->draw->constant && tile->draw->paint.fills && !tile->tests_early && t->state >> TRIANGLE_CLIP == 0;
+}
+
+/* Whether a covered part goes to the fragment stage as it is. */
+static bool shades(const struct lom_tile *tile, const lom_triangle *t)
+{
+    const struct lom_draw *draw = tile->draw;
+    return !draw->constant && draw->desc.shader->fragment[draw->variant] != NULL && tile->depth == NULL &&
+           !draw->queues_depth && !draw->biased && t->state >> TRIANGLE_CLIP == 0 && !tile->pass->one_by_one;
 }
 
 /* False when the triangle does not touch the tile. */
@@ -136,6 +171,7 @@ static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struc
             return false;
     g->needs_weights = t->state >> TRIANGLE_CLIP != 0 || tile->depth != NULL || !draw->constant;
     g->fills = fills(tile, t);
+    g->shades = shades(tile, t);
     for (int part = 0; part < PARTS && g->needs_weights; part++) {
         lom_double x = lom_to_double(lane_x(part)), y = lom_to_double(lane_y(part));
         g->offset[0][part] = x * (double)g->edges.dx[1] + y * (double)g->edges.dy[1];
@@ -163,7 +199,10 @@ void LOM_WIDE(lom_raster_large)(struct lom_tile *tile, const lom_triangle *t, in
                 left &= ~(((UINT32_C(1) << run) - 1) << first);
                 continue;
             }
-            raster_large_window(tile, &g, number, first * 4, y, run > 0);
+            if (run > 0 && g.shades)
+                shade_large_window(tile, &g, number, first * 4, y);
+            else
+                raster_large_window(tile, &g, number, first * 4, y, run > 0);
             left &= left - 1;
         }
     }
