@@ -118,6 +118,18 @@ static int count_exercises(const char *lesson)
     return count;
 }
 
+/* The line that compiles a changed program: beside a build in lom's source, which pkg-config does not know, by its files. */
+static void tell_compiling(void)
+{
+    static const char *const archives[] = { "liblom.a" }, *const headers[] = { "../include" };
+    char archive[4096], include[4096];
+    if (lom_path_by_program(archives, 1, archive) != NULL && lom_path_by_program(headers, 1, include) != NULL)
+        printf("  compile    cc -O2 -ffp-contract=off -I%s mine.c %s -lm -lpthread -o mine\n", include, archive);
+    else
+        printf("  compile    cc -O2 mine.c $(pkg-config --cflags --libs lom) -lm -o mine\n");
+    printf("  run        ./mine mine.png\n");
+}
+
 static int tell_lesson(const struct lesson *lesson)
 {
     char path[4096];
@@ -129,10 +141,11 @@ static int tell_lesson(const struct lesson *lesson)
     else
         printf("  text       docs/lessons/%s/README.md of lom's source, which is not installed here\n", name);
     printf("  picture    lom lesson %s -o %s.png\n", name, name);
-    printf("  compile    cc -O2 %s.c $(pkg-config --cflags --libs lom) -lm -o %s && ./%s %s.png\n", name, name, name,
-           name);
+    if (folder != NULL)
+        printf("  copy       cp %s/%s/%s.c mine.c\n", folder, name, name);
+    tell_compiling();
     if (count > 0)
-        printf("  exercises  %d: lom lesson %s 1 ANSWER\n", count, name);
+        printf("  exercises  %d, at the end of the text: lom lesson %s 1 ANSWER\n", count, name);
     return LOM_EXIT_DONE;
 }
 
@@ -145,11 +158,17 @@ static bool hash_answer(const struct answer *asked, const char *text, uint64_t *
         lom_image *image = lom_read_image(text, &error);
         *hash = image == NULL ? 0 : lom_hash_image(image);
         lom_free_image(image);
-        return image != NULL || lom_complain_error(&error) == LOM_EXIT_DONE;
+        if (image == NULL)
+            lom_complain("the answer is the file of a picture: %s", error.text);
+        return image != NULL;
     }
     if (text[0] == '\0' || lom_parse_double(text, strlen(text), &value) != strlen(text) || !(value * value < 1e24)) {
-        lom_complain("\"%s\" is no number; the answer to this exercise is one, with %d decimals.", text,
-                     asked->decimals);
+        if (asked->decimals == 0)
+            lom_complain("\"%s\" is no number; the answer to this exercise is a whole one.", text);
+        else
+            lom_complain("\"%s\" is no number; the answer to this exercise is one with %d decimals behind a point, "
+                         "like %.*f.",
+                         text, asked->decimals, asked->decimals, 12.345678);
         return false;
     }
     for (int i = 0; i < asked->decimals; i++)
@@ -195,7 +214,7 @@ static int draw_lesson(const struct lesson *lesson, const char *path)
     int status = lesson->draw(2, argv);
     if (status != LOM_EXIT_DONE || !hash_answer(&own, path, &hash))
         return LOM_EXIT_FAILED;
-    printf("%016llx\n", (unsigned long long)hash);
+    printf("%s: the picture of the lesson %s, hash %016llx\n", path, lesson->name, (unsigned long long)hash);
     for (int i = 0; i < ANSWERS; i++)
         if (strcmp(answers[i].lesson, lesson->name) == 0 && answers[i].exercise == 0 && answers[i].hash == hash)
             return LOM_EXIT_DONE;

@@ -86,7 +86,20 @@ refuses 'is no number' triangle 1 one
 refuses 'no/such.png' triangle 3 no/such.png
 refuses 'name of a lesson' -o "$folder/none.png"
 refuses 'nothing was written' triangle -o "$folder/none/none.png"
+refuses 'is a whole one' triangle 1 2,5
+refuses 'like 12.35' triangle 2 2/3
+refuses 'file of a picture: 0.5: ' triangle 3 0.5
 result lom_lesson_refuses_what_is_none "$why"
+
+# The lines that are printed are run as they are, in a folder of their own.
+why=
+"$lom" lesson triangle | sed -n 's/^  copy *//p; s/^  compile *//p; s/^  run *//p' >"$folder/lines"
+[ "$(wc -l <"$folder/lines")" -eq 3 ] || why='three lines are not told'
+if [ -z "$SAN$COVERAGE" ]; then
+    (cd "$folder" && sh -e ./lines) && "$lom" lesson triangle 3 "$folder/mine.png" | grep -q 'own program' ||
+        why='the printed lines do not draw the picture'
+fi
+result what_lom_lesson_prints_compiles "$why"
 
 source=docs/lessons/pipeline/pipeline.c why=
 [ "$(wc -l <$source)" -lt 500 ] || why="$(wc -l <$source) lines"
