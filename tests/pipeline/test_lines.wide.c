@@ -29,6 +29,15 @@ LOM_SHADER(cut, place_cut, show_values, .attributes = 4, .varyings = 4, .reads =
 LOM_SHADER(whole, place_values, show_all, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 2),
            .differentiates = 1, .flat = LOM_VARYINGS(1, 1), .reads_position = true, .colors = 1)
 
+static void show_some(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    show_all(out, in, uniforms);
+    out->discard = in->varying[0] > 0.0f;
+}
+
+LOM_SHADER(holed, place_values, show_some, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 2),
+           .differentiates = 1, .flat = LOM_VARYINGS(1, 1), .reads_position = true, .colors = 1, .discards = true)
+
 /* ---- the rule ---- */
 
 /* c[0] + c[1] e + c[2] e^2 for an e smaller than all that is compared. */
@@ -475,6 +484,35 @@ static void crops_are_parts_of_the_whole(void)
     close_stage(&t);
 }
 
+/* Before or after the shader, in depth, however often it is asked for. */
+static void all_samples_have_what_the_centre_has(void)
+{
+    static const int samples[] = { 1, 2, 4, 8, 16 };
+    stage s[5];
+    for (int i = 0; i < 5; i++)
+        s[i] = open_stage(devices[i % 3], SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    for (int list = 0; list < LISTS; list++) {
+        make_lines(1);
+        for (int i = 0; i < 2 * LINES; i++) {
+            ends[i].position[2] = random_float(0, 1);
+            ends[i].value[0] = random_float(-1, 1);
+        }
+        lom_draw_desc draw = draw_of(list % 2 == 0 ? &whole : &holed, ends, 2 * LINES);
+        draw.topology = LOM_LINE_STRIP;
+        draw.line_width = 1 + list % 4;
+        draw.per_sample = list % 3 == 0;
+        for (int i = 0; i < 5; i++) {
+            begin(&s[i], (lom_pass_desc){ .samples = samples[i] });
+            lom_draw(s[i].device, &draw);
+            finish(&s[i]);
+            CHECK(same_images(s[i].image, s[0].image) && same_images(s[i].depths, s[0].depths), "list %d, %d samples",
+                  list, samples[i]);
+        }
+    }
+    for (int i = 0; i < 5; i++)
+        close_stage(&s[i]);
+}
+
 static void refused(const char *because, int width, float bias)
 {
     static const vertex v[2] = { { .position = { 0, 0, 0.5f, 1 } } };
@@ -507,6 +545,7 @@ int main(int argc, char **argv)
     RUN(clip_distances_cut_at_pixels);
     RUN(planes_cut_lines);
     RUN(crops_are_parts_of_the_whole);
+    RUN(all_samples_have_what_the_centre_has);
     RUN(what_lines_have_not_is_refused);
     return check_result();
 }
