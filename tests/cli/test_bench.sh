@@ -1,7 +1,7 @@
 #!/bin/sh
 # Proves what `lom bench`, `lom selftest` and `lom version` say of this build: workloads are listed, and drawn in the order
 # they are asked for, the hash of one is that of the picture which is kept and the same at every width, and lines of JSON
-# hold what is stated.
+# hold what is stated; samples a pixel change edges alone.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/cli/cli.sh
 
@@ -65,9 +65,18 @@ selftest() {
         exits 2 "$lom" selftest -o "$folder/absent/sheet.png" && complains "could not create"
 }
 
+# More samples are another picture where there are edges, one where there are none; other numbers are refused.
+samples() {
+    bench mesh && one=$(sed 's/.* //' "$folder/out") && bench mesh --samples 1 && [ "$(sed 's/.* //' "$folder/out")" = "$one" ] &&
+        bench mesh --samples 4 && [ "$(sed 's/.* //' "$folder/out")" != "$one" ] &&
+        bench fill && one=$(sed 's/.* //' "$folder/out") && bench fill --samples 8 && [ "$(sed 's/.* //' "$folder/out")" = "$one" ] &&
+        exits 2 "$lom" bench mesh --samples 3 && complains "1, 2, 4, 8 or 16" && exits 2 "$lom" bench mesh --samples 17
+}
+
 check workloads_are_listed_and_drawn_in_order listed
 check the_hash_is_that_of_the_kept_picture kept
 check every_width_has_one_hash widths
 check lines_of_json_hold_what_is_stated lines_of_json
+check samples_a_pixel samples
 check selftest_of_parts selftest
 exit $failures
