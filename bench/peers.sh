@@ -1,24 +1,27 @@
 #!/bin/sh
-# bench/peers.sh [--size WxH] [--frames N] [--repeats N] [--output FILE] [WORKLOAD]...
+# bench/peers.sh [--size WxH] [--frames N] [--repeats N] [--samples N] [--output FILE] [WORKLOAD]...
 # Draws the workloads of bench/peers/README.md with lom and with every renderer of bench/peers that is installed, in
 # turn, and writes a Markdown table: medians of the repeats, ratios, how well the pictures agree, and what share of this
 # machine's limit lom reaches (bench/peers/work.md); then a table of the first frame and of frames that are read back. A
 # renderer that is not there is named with SKIP. LOM names another program than build/lom.
 cd "$(dirname "$0")/.." || exit 2
-lom=${LOM:-${BUILD:-build}/lom} size=1280x720 frames=15 repeats=3 output='' workloads=''
+lom=${LOM:-${BUILD:-build}/lom} size=1280x720 frames=15 repeats=3 samples=1 output='' workloads=''
 usage() { echo "bench/peers.sh: $1" >&2; sed -n 2p "$0" >&2; exit 2; }
 while [ $# -gt 0 ]; do
     case $1 in
     --size) size=$2; shift 2 ;;
     --frames) frames=$2; shift 2 ;;
     --repeats) repeats=$2; shift 2 ;;
+    --samples) samples=$2; shift 2 ;;
     --output) output=$2; shift 2 ;;
     -*) usage "there is no option $1." ;;
     *) workloads="$workloads $1"; shift ;;
     esac
 done
 [ -n "$workloads" ] || workloads='clear fill blend depth mesh terrain water cloud cloud-skip sprites foliage gradients draws textured'
-[ -n "$output" ] || output=bench/results/peers-$size.md
+several='' asked=''
+[ "$samples" -eq 1 ] || { several=-$samples-samples; asked=" --samples $samples"; }
+[ -n "$output" ] || output=bench/results/peers-$size$several.md
 [ -x "$lom" ] || usage "there is no $lom; run make first."
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
@@ -28,7 +31,7 @@ field() { sed -n 's/.*"'"$1"'": *"\{0,1\}\([^",}]*\).*/\1/p'; }
 # The peers' cloud walks every step: it is what cloud-skip is compared with.
 peer_workload() { case $1 in cloud-skip) echo cloud ;; *) echo "$1" ;; esac; }
 # The frames of slow peers are bounded by time, 20 s a run.
-run_peer() { bench/peers/run "$1" "$(peer_workload "$2")" "$size" "$frames" -t 20 -o "$work/$1.ppm" 2>"$work/log"; }
+run_peer() { bench/peers/run "$1" "$(peer_workload "$2")" "$size" "$frames" -t 20 -samples "$samples" -o "$work/$1.ppm" 2>"$work/log"; }
 median() { sort -n "$1" | awk '{ v[NR] = $1 } END { if (NR) printf "%.2f", (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
 
 # The figures of a run: of frames, of the first one, of those that are read back.
@@ -70,7 +73,7 @@ done
 repeat=1
 while [ "$repeat" -le "$repeats" ]; do
     for workload in $workloads; do
-        line=$("$lom" bench "$workload" --size "$size" --frames "$frames" --json -o "$work/lom.png") || exit 2
+        line=$("$lom" bench "$workload" --size "$size" --frames "$frames" --samples "$samples" --json -o "$work/lom.png") || exit 2
         keep lom "$line"
         for count in vertices triangles_binned fragments; do echo "$line" | field $count; done >"$work/$workload.counts"
         echo "$line" | field hash >"$work/$workload.hash"
@@ -139,7 +142,7 @@ mkdir -p "$(dirname "$output")"
     echo "- machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) CPUs"
     echo "- lom: $(cat "$work/device"), $("$lom" version | sed -n 's/^ *compiler *//p')"
     for peer in llvmpipe mesa25 swiftshader; do echo "- $peer: $(cat "$work/$peer.name")"; done
-    echo "- command: \`make bench-peers\` (\`bench/peers.sh --size $size --frames $frames --repeats $repeats\`)"
+    echo "- command: \`make bench-peers\` (\`bench/peers.sh --size $size --frames $frames --repeats $repeats$asked\`)"
     echo
     table ''
     echo
