@@ -2,9 +2,8 @@
  * take. Invariant: nothing is written but what was asked for, whatever a student's code does. */
 #include "commands.h"
 #include "options.h"
+#include "report.h"
 #include "student.h"
-
-#include <stdlib.h>
 
 struct values {
     const char *output, *json, *junit;
@@ -36,41 +35,6 @@ static const lom_command_line line = {
     .maximum_arguments = -1,
 };
 
-/* A report that is made in memory and written as a whole. */
-struct report {
-    const char *path; /* NULL: not asked for */
-    FILE *out;
-    char *text;
-    size_t size;
-};
-
-static bool open_report(struct report *report)
-{
-    report->out = report->path != NULL ? open_memstream(&report->text, &report->size) : NULL;
-    return report->path == NULL || report->out != NULL || lom_complain("no memory is left.") == LOM_EXIT_DONE;
-}
-
-static bool write_report(struct report *report)
-{
-    lom_error error = { .code = LOM_OK };
-    if (report->out == NULL)
-        return true;
-    bool done = fclose(report->out) == 0;
-    report->out = NULL;
-    if (!done)
-        lom_complain("no memory is left.");
-    else if (!lom_write_file(report->path, report->text, report->size, &error))
-        done = lom_complain_error(&error) == LOM_EXIT_DONE;
-    return done;
-}
-
-static void drop_report(struct report *report)
-{
-    if (report->out != NULL)
-        fclose(report->out);
-    free(report->text);
-}
-
 /* The status that a student's file gives; what is said of it is printed. */
 static int report_student(const lom_student *student, bool in_table)
 {
@@ -88,14 +52,14 @@ static int report_student(const lom_student *student, bool in_table)
 }
 
 static int grade_all(const lom_bench_of_grading *bench, const lom_arguments *files, const struct values *values,
-                     struct report reports[2])
+                     struct lom_report reports[2])
 {
     int worst = LOM_EXIT_DONE;
     if (files->count > 1)
         printf("%-24s %-16s %-10s %14s  %s\n", "student", "stage", "verdict", "right cases",
                "rule that is probably broken");
     if (reports[1].out != NULL)
-        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n", reports[1].out);
+        lom_begin_junit(reports[1].out);
     for (int i = 0; i < files->count; i++) {
         lom_student student;
         bool done = lom_grade_student(bench, files->items[i], values->output, &student);
@@ -111,8 +75,8 @@ static int grade_all(const lom_bench_of_grading *bench, const lom_arguments *fil
             return worst;
     }
     if (reports[1].out != NULL)
-        fputs("</testsuites>\n", reports[1].out);
-    return write_report(&reports[0]) && write_report(&reports[1]) ? worst : LOM_EXIT_FAILED;
+        lom_end_junit(reports[1].out);
+    return lom_write_report(&reports[0]) && lom_write_report(&reports[1]) ? worst : LOM_EXIT_FAILED;
 }
 
 int lom_command_grade(int argc, char **argv)
@@ -125,14 +89,14 @@ int lom_command_grade(int argc, char **argv)
         return status;
     if (values.output != NULL && arguments.count > 1)
         return lom_complain("-o draws the picture of one student; %d files were given.", arguments.count);
-    struct report reports[2] = { { .path = values.json }, { .path = values.junit } };
+    struct lom_report reports[2] = { { .path = values.json }, { .path = values.junit } };
     status = LOM_EXIT_FAILED;
-    if (open_report(&reports[0]) && open_report(&reports[1]) &&
+    if (lom_open_report(&reports[0]) && lom_open_report(&reports[1]) &&
         lom_open_grading(&bench, values.seconds.given ? (int)values.seconds.value[0] : 2)) {
         status = grade_all(&bench, &arguments, &values, reports);
         lom_close_grading(&bench);
     }
-    drop_report(&reports[0]);
-    drop_report(&reports[1]);
+    lom_drop_report(&reports[0]);
+    lom_drop_report(&reports[1]);
     return status;
 }

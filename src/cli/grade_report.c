@@ -2,9 +2,8 @@
  * XML are well formed whatever a compiler or a file's name says; a stage has two tests, its corner cases and the others. */
 #include "json.h"
 #include "paths.h"
+#include "report.h"
 #include "student.h"
-
-#include "base/utf8.h"
 
 #include <string.h>
 
@@ -85,33 +84,18 @@ void lom_report_json(FILE *out, const lom_student *student)
     lom_json_end(&json);
 }
 
-/* As content or in an attribute; what XML has no character for becomes U+FFFD. */
-static void put_escaped(FILE *out, const char *text)
-{
-    for (const unsigned char *p = (const unsigned char *)text; *p != '\0';) {
-        size_t length = lom_utf8_length(p, SIZE_MAX);
-        if (*p == '&' || *p == '<' || *p == '>' || *p == '"' || *p == '\n' || *p == '\t')
-            fprintf(out, "&#%d;", *p);
-        else if (*p < 0x20 || length == 0 || (length == 3 && p[0] == 0xef && p[1] == 0xbf && p[2] >= 0xbe))
-            fputs("&#65533;", out);
-        else
-            fwrite(p, 1, length, out);
-        p += length != 0 ? length : 1;
-    }
-}
-
 void lom_report_junit(FILE *out, const lom_student *student)
 {
     int failures = 0;
     for (int i = 0; i < 2 * student->count; i++)
         failures += !is_right(student->stages[i / 2], i % 2);
     fputs("  <testsuite name=\"", out);
-    put_escaped(out, student->file);
+    lom_put_escaped(out, student->file);
     fprintf(out, "\" tests=\"%d\" failures=\"%d\" errors=\"%d\">\n", student->count > 0 ? 2 * student->count : 1,
             failures, student->refusal != NULL);
     if (student->refusal != NULL) {
         fputs("    <testcase name=\"compiles\"><error message=\"", out);
-        put_escaped(out, student->refusal);
+        lom_put_escaped(out, student->refusal);
         fputs("\"/></testcase>\n", out);
     }
     for (int i = 0; i < 2 * student->count; i++) {
@@ -120,7 +104,7 @@ void lom_report_junit(FILE *out, const lom_student *student)
         fprintf(out, "    <testcase classname=\"%s\" name=\"%s\"%s", lom_grade_stage(g->stage), parts[i % 2],
                 right ? "/>\n" : "><failure message=\"");
         if (!right) {
-            put_escaped(out, g->text);
+            lom_put_escaped(out, g->text);
             fputs("\"/></testcase>\n", out);
         }
     }

@@ -30,6 +30,7 @@ static const command commands[] = {
     { "grade", "compare a student's stage of the pipeline with the right one, name the broken rule",
       lom_command_grade },
     { "selftest", "draw built-in content: one hash, the same on every machine", lom_command_selftest },
+    { "verify", "draw golden pictures of a project, compare them with their hashes, approve them", lom_command_verify },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "frame_output.h"
 #include "frame_stats.h"
+#include "one_colour.h"
 #include "picture_kinds.h"
 #include "progress.h"
 #include "scene_options.h"
@@ -81,11 +82,7 @@ static double seconds(void)
 /* One single colour, or a number that is none. */
 static bool is_suspicious(const lom_image *image)
 {
-    size_t size = lom_format_size(image->format), count = lom_image_size(image) / size;
-    bool same = true;
-    for (size_t i = 1; i < count && same; i++)
-        same = memcmp(image->pixels, image->pixels + i * size, size) == 0;
-    if (same && count > 1)
+    if (lom_is_one_colour(image))
         return true;
     if (!lom_describe_format(image->format)->is_float)
         return false;
