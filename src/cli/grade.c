@@ -54,10 +54,10 @@ static int report_student(const lom_student *student, bool in_table)
 static int grade_all(const lom_bench_of_grading *bench, const lom_arguments *files, const struct values *values,
                      struct lom_report reports[2])
 {
-    int worst = LOM_EXIT_DONE;
+    int worst = LOM_EXIT_DONE, count[LOM_EXIT_FAILED + 1] = { 0 };
     if (files->count > 1)
         printf("%-24s %-16s %-10s %14s  %s\n", "student", "stage", "verdict", "right cases",
-               "rule that is probably broken");
+               "rule that is probably broken, or what happened");
     if (reports[1].out != NULL)
         lom_begin_junit(reports[1].out);
     for (int i = 0; i < files->count; i++) {
@@ -70,10 +70,14 @@ static int grade_all(const lom_bench_of_grading *bench, const lom_arguments *fil
             lom_report_junit(reports[1].out, &student);
         lom_free_student(&student);
         worst = status > worst ? status : worst;
+        count[status]++;
         fflush(stdout);
         if (!done)
             return worst;
     }
+    if (files->count > 1)
+        printf("%d files: %d right, %d wrong, %d could not be graded\n", files->count, count[LOM_EXIT_DONE],
+               count[LOM_EXIT_DIFFERS], count[LOM_EXIT_FAILED]);
     if (reports[1].out != NULL)
         lom_end_junit(reports[1].out);
     return lom_write_report(&reports[0]) && lom_write_report(&reports[1]) ? worst : LOM_EXIT_FAILED;

@@ -34,11 +34,43 @@ void lom_report_text(FILE *out, const lom_student *student)
     }
 }
 
+/* Why a file could not be graded, in a line: the first thing that the compiler or the linker calls an error. */
+static void put_refusal(FILE *out, const char *refusal)
+{
+    static const char *const signs[] = { "undefined reference", "multiple definition", "error: " };
+    const char *found = NULL;
+    for (int i = 0; i < 3 && found == NULL; i++)
+        found = strstr(refusal, signs[i]);
+    const char *line = found;
+    while (line > refusal && line[-1] != '\n')
+        line--;
+    const char *place = line != NULL ? strchr(line, ':') : NULL; /* the file's name, which the row begins with */
+    if (found != NULL && (place == NULL || place + 1 > found || *place == '\0'))
+        place = found - 1;
+    fprintf(out, "%.*s", (int)strcspn(refusal, "\n"), refusal);
+    if (found != NULL)
+        fprintf(out, " %.*s", (int)strcspn(place + 1, "\n"), place + 1);
+    fputc('\n', out);
+}
+
+/* Of a stage that is not right: the rule, or else what the verdict's second line says of the crash or the case. */
+static void put_cause(FILE *out, const lom_graded *g)
+{
+    const char *line = strchr(g->text, '\n');
+    if (g->right)
+        fputc('\n', out);
+    else if (g->verdict.rule != NULL && g->verdict.answered == g->verdict.cases)
+        fprintf(out, "%s\n", g->verdict.rule);
+    else
+        fprintf(out, "%.*s\n", line != NULL ? (int)strcspn(line + 1, "\n") : 0, line != NULL ? line + 1 : "");
+}
+
 void lom_report_row(FILE *out, const lom_student *student)
 {
-    if (student->count == 0)
-        fprintf(out, "%-24s %-16s %-10s %14s  %.*s\n", lom_path_file(student->file), "-", "ungraded", "-",
-                (int)strcspn(student->refusal, ":\n"), student->refusal);
+    if (student->count == 0) {
+        fprintf(out, "%-24s %-16s %-10s %14s  ", lom_path_file(student->file), "-", "ungraded", "-");
+        put_refusal(out, student->refusal);
+    }
     for (int i = 0; i < student->count; i++) {
         const lom_graded *g = student->stages[i];
         const lom_verdict *v = &g->verdict;
@@ -49,8 +81,8 @@ void lom_report_row(FILE *out, const lom_student *student)
                                                           : "crashed";
         char cases[32];
         snprintf(cases, sizeof cases, "%d/%d", v->right, v->cases);
-        fprintf(out, "%-24s %-16s %-10s %14s  %s\n", lom_path_file(student->file), lom_grade_stage(g->stage), word,
-                cases, v->rule != NULL ? v->rule : "");
+        fprintf(out, "%-24s %-16s %-10s %14s  ", lom_path_file(student->file), lom_grade_stage(g->stage), word, cases);
+        put_cause(out, g);
     }
 }
 
@@ -81,6 +113,9 @@ void lom_report_json(FILE *out, const lom_student *student)
             lom_json_unnest(&json, '}');
         }
     lom_json_unnest(&json, ']');
+    lom_json_nest(&json, "extra_data", '{'); /* by which a line of a class is found again */
+    lom_json_text(&json, "file", student->file);
+    lom_json_unnest(&json, '}');
     lom_json_end(&json);
 }
 

@@ -71,8 +71,10 @@ static bool compile(const char *const words[MOST_WORDS], char **said)
     return true;
 }
 
-/* Compiles one file to an object beside the others. What asks runs as long as it compiles when it is not optimised. */
-static bool compile_file(const lom_bench_of_grading *bench, const char *file, const char *object, const char *level,
+/* Compiles one file to an object beside the others. What asks runs as long as it compiles when it is not optimised. A
+ * student's file gets student.h whether it includes it or not: else a function of other types would be called as if it
+ * had the right ones. A main with which the student tries the function is one function more. */
+static bool compile_file(const lom_bench_of_grading *bench, const char *file, const char *object, bool by_student,
                          char **said)
 {
     const char *words[MOST_WORDS] = { NULL };
@@ -80,9 +82,12 @@ static bool compile_file(const lom_bench_of_grading *bench, const char *file, co
     int count = begin_command(words, compiler);
     snprintf(out, sizeof out, "%s/%s", bench->folder.path, object);
     snprintf(own, sizeof own, "%s/grade", bench->lessons);
-    const char *const more[] = { "-I", bench->headers, "-I", own, level, "-c", "-o", out, "-x", "c", file };
+    const char *const student[] = { "-O1", "-include", "student.h", "-DLOM_GRADED" };
+    const char *const more[] = { "-O0", "-I", bench->headers, "-I", own, "-c", "-o", out, "-x", "c", file };
     for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
         words[count++] = more[i];
+    for (size_t i = 0; by_student && i < sizeof student / sizeof student[0]; i++)
+        words[count++] = student[i];
     return compile(words, said);
 }
 
@@ -118,7 +123,7 @@ bool lom_open_grading(lom_bench_of_grading *bench, int seconds)
     if (!lom_open_temporary_folder(&bench->folder, &error))
         return lom_complain_error(&error) == LOM_EXIT_DONE;
     snprintf(source, sizeof source, "%s/grade/run.c", bench->lessons);
-    bool done = compile_file(bench, source, "run.o", "-O0", &said);
+    bool done = compile_file(bench, source, "run.o", false, &said);
     if (said != NULL)
         done = lom_complain("%s does not compile:\n%s", source, said) == LOM_EXIT_DONE;
     free(said);
@@ -243,6 +248,54 @@ static char *refuse(const char *format, const char *text)
     return refusal;
 }
 
+static bool is_of_name(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* The stage that a name before a bracket in the source was probably meant for: a stage's own name, or nearly one behind
+ * "student_"; NULL for none. found: the name as it stands there. */
+static const char *meant_stage(const char *source, char found[64])
+{
+    static const char prefix[] = "student_";
+    const char *names[LOM_MOST_GRADED];
+    int count = lom_grade_stages();
+    for (int i = 0; i < count; i++)
+        names[i] = lom_grade_stage(i);
+    for (const char *p = source; *p != '\0'; p += *p != '\0') {
+        size_t length = 0;
+        while (is_of_name(p[length]))
+            length++;
+        const char *behind = p + length + strspn(p + length, " "), *meant = NULL;
+        bool prefixed = length >= sizeof prefix && strncmp(p, prefix, sizeof prefix - 1) == 0;
+        for (int i = 0; i < count && !prefixed; i++)
+            if (strlen(names[i]) == length && strncmp(names[i], p, length) == 0)
+                meant = names[i];
+        if (prefixed)
+            meant = lom_nearest_name(p + sizeof prefix - 1, length - (sizeof prefix - 1), names, (size_t)count);
+        if (*behind == '(' && meant != NULL) {
+            snprintf(found, 64, "%.*s", (int)(length < 63 ? length : 63), p);
+            return meant;
+        }
+        p += length;
+    }
+    return NULL;
+}
+
+/* Why a file without a stage could not be graded. */
+static char *refuse_without_stage(const char *path)
+{
+    char found[64] = "", hint[256];
+    lom_bytes source = lom_read_file(path, 1 << 24, NULL);
+    const char *meant = source.data != NULL ? meant_stage((const char *)source.data, found) : NULL;
+    if (meant != NULL)
+        snprintf(hint, sizeof hint, "call %s student_%s", found, meant);
+    else
+        snprintf(hint, sizeof hint, "name it student_covers, student_clip ... as docs/lessons/grade/student.h does");
+    lom_release(source.data);
+    return refuse("has no function whose stage is known: ", hint);
+}
+
 bool lom_grade_student(const lom_bench_of_grading *bench, const char *file, const char *picture, lom_student *student)
 {
     char *said = NULL, path[4200];
@@ -254,7 +307,7 @@ bool lom_grade_student(const lom_bench_of_grading *bench, const char *file, cons
         student->refusal = refuse("cannot be read", "");
         return student->refusal != NULL;
     }
-    if (!compile_file(bench, path, "student.o", "-O1", &said) || (said == NULL && !link_student(bench, &said)))
+    if (!compile_file(bench, path, "student.o", true, &said) || (said == NULL && !link_student(bench, &said)))
         return false;
     if (said != NULL) {
         student->refusal = refuse("does not compile:\n", said);
@@ -268,9 +321,7 @@ bool lom_grade_student(const lom_bench_of_grading *bench, const char *file, cons
             done = grade_stage(bench, i, student);
     free(written);
     if (done && student->count == 0)
-        student->refusal = refuse("has no function whose stage is known: name it student_covers, student_clip ... as "
-                                  "docs/lessons/grade/student.h does",
-                                  "");
+        student->refusal = refuse_without_stage(path);
     return done && (student->count == 0 || picture == NULL || draw_difference(bench, student, picture));
 }
 

@@ -40,6 +40,12 @@ student syntax "$nearer" 'return depth >'
 student signature 'bool student_is_nearer(int depth)' 'return depth;'
 student copies "$nearer" 'return is_nearer(depth, before);'
 student unknown 'static int student_is_best(void)' 'return 1;'
+student misnamed 'bool student_is_neerer(float depth, float before)' 'return depth > before;'
+student unnamed 'bool is_nearer (float depth, float before)' 'return depth > before;'
+student tries "$nearer" 'return depth > before;} int main(void) { return student_is_nearer(1, 0) ? 0 : abort(), 1;'
+student unlinked "float helper(float); $nearer" 'return helper(depth) > before;'
+printf 'bool student_is_nearer(float depth, float before)\n{\n return depth > before;\n}\n' >bare.c
+printf 'int student_is_nearer(double depth, double before)\n{\n return depth > before;\n}\n' >doubles.c
 student '-dash' "$nearer" 'return depth > before;'
 
 right_ones_pass() {
@@ -103,6 +109,18 @@ assert tree.parse("no.xml").getroot()[0].get("errors") == "1"' &&
         exits 2 "$lom" grade unknown.c speaks.c && says 'ungraded' && grep -q '^speaks.c .* right ' out
 }
 
+# What students stumble over: a row says what to do, and a main or a forgotten include harms nothing.
+a_row_says_what_is_wrong() {
+    exits 2 "$lom" grade tries.c bare.c misnamed.c unnamed.c crash.c syntax.c unlinked.c doubles.c unknown.c --json row.json &&
+        grep -q '^tries.c .* right ' out && grep -q '^bare.c .* right ' out &&
+        says 'is known: call student_is_neerer student_is_nearer' && says 'is known: call is_nearer student_is_nearer' &&
+        grep -q '^crash.c .*crashed .*SIGSEGV.* in case 17: depth' out && grep -q '^syntax.c .*does not compile: 8:' out &&
+        grep -q "^unlinked.c .*undefined reference to .helper" out && grep -q '^doubles.c .*does not compile: 1:5: error' out &&
+        grep -q '^unknown.c .*name it student_covers' out && says '9 files: 2 right, 1 wrong, 6 could not be graded' &&
+        python3 -c 'import json; r = [json.loads(line) for line in open("row.json")]
+assert [s["extra_data"]["file"] for s in r][:3] == ["tries.c", "bare.c", "misnamed.c"] and len(r) == 9'
+}
+
 # Ended by any signal, even by SIGKILL, it leaves no folder in TMPDIR.
 no_folder_is_left() {
     for number in TERM KILL; do
@@ -129,6 +147,7 @@ check mistakes_are_named mistakes_are_named
 check a_difference_is_told_and_drawn a_difference_is_told_and_drawn
 check what_ends_badly_is_a_verdict what_ends_badly_is_a_verdict
 check what_cannot_be_graded_is_refused what_cannot_be_graded_is_refused
+check a_row_says_what_is_wrong a_row_says_what_is_wrong
 check no_folder_is_left no_folder_is_left
 check nothing_else_is_written nothing_else_is_written
 exit $failures
