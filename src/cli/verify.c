@@ -13,7 +13,7 @@
 #include <string.h>
 
 struct values {
-    const char *junit, *output;
+    const char *junit, *output, *cache;
     lom_option_integers threads, line;
     bool twice, approve, quiet;
 };
@@ -27,6 +27,8 @@ static const lom_option options[] = {
       "draw each again by other threads and lanes, which must give the same" },
     { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "DIR", 0, 0,
       "write the pictures that fail, as DIR/LINE-SCENE.png (floats: .pfm)" },
+    { "cache", 0, LOM_OPTION_TEXT, offsetof(struct values, cache), "DIR", 0, 0,
+      "keep pictures that are right as DIR/HASH.png; those that fail have them beside them in --output" },
     { "junit", 0, LOM_OPTION_TEXT, offsetof(struct values, junit), "FILE", 0, 0,
       "write JUnit's XML, with the pictures of --output attached" },
     { "threads", 0, LOM_OPTION_INTEGER, offsetof(struct values, threads), "N", 1, 256,
@@ -145,17 +147,84 @@ static bool provide_scene(struct run *run, const struct lom_golden *golden, cons
 
 /* ---- one picture ---- */
 
+static const char *ending(const lom_image *image)
+{
+    return lom_describe_format(image->format)->is_float ? "pfm" : "png";
+}
+
 /* The name ends in `what`; NULL on failure. */
 static char *write_picture(const struct run *run, const struct lom_golden *golden, const lom_image *image,
                            const char *what, lom_error *error)
 {
-    const char *kind = lom_describe_format(image->format)->is_float ? "pfm" : "png";
     char *path = lom_path_print(error, "%s/%d-%s%s.%s", run->values->output, golden->number,
-                                lom_path_file(golden->scene), what, kind);
+                                lom_path_file(golden->scene), what, ending(image));
     if (path != NULL && lom_make_folders(path, 0, error) && lom_write_image(path, NULL, image, error))
         return path;
     lom_release(path);
     return NULL;
+}
+
+/* ---- the cache: files that are named for the hash of their picture, which is looked at before they are trusted ---- */
+
+/* The picture of this hash, of the format of `like`; NULL where the cache has none. *path is its file, NULL when memory
+ * runs out. */
+static lom_image *find_cached(const struct run *run, uint64_t hash, const lom_image *like, char **path,
+                              lom_error *error)
+{
+    *path = lom_path_print(error, "%s/%016llx.%s", run->values->cache, (unsigned long long)hash, ending(like));
+    lom_image *image = *path != NULL ? lom_read_image(*path, NULL) : NULL;
+    if (image != NULL && lom_reinterpret_image(image, like->format, NULL) && lom_hash_image(image) == hash)
+        return image;
+    lom_free_image(image);
+    return NULL;
+}
+
+/* Keeps a picture, unless it is there. */
+static bool keep_picture(const struct run *run, const lom_image *image, uint64_t hash, lom_error *error)
+{
+    char *path;
+    lom_image *cached = find_cached(run, hash, image, &path, error);
+    bool done = cached != NULL ||
+                (path != NULL && lom_make_folders(path, 0, error) && lom_write_image(path, NULL, image, error));
+    lom_free_image(cached);
+    lom_release(path);
+    return done;
+}
+
+/* Writes the picture that was expected instead of `image`, where the cache has it. */
+static bool write_expected(const struct run *run, const struct lom_golden *golden, const lom_image *image,
+                           lom_error *error)
+{
+    char *path, *expected = NULL;
+    lom_image *cached = find_cached(run, golden->expected, image, &path, error);
+    bool done = path != NULL;
+    if (cached != NULL) {
+        expected = write_picture(run, golden, cached, ".expected", error);
+        done = expected != NULL;
+    }
+    lom_free_image(cached);
+    lom_release(expected);
+    lom_release(path);
+    return done;
+}
+
+/* Writes what --output and --cache ask for. */
+static bool write_pictures(const struct run *run, const struct lom_golden *golden, lom_frame frames[2],
+                           struct lom_outcome *o)
+{
+    const struct values *v = run->values;
+    if (o->how == LOM_VERIFIED_OK || o->how == LOM_VERIFIED_APPROVED)
+        return v->cache == NULL || keep_picture(run, frames[0].image, o->got, &o->error);
+    if (v->output == NULL)
+        return true;
+    o->picture = write_picture(run, golden, frames[0].image, "", &o->error);
+    if (o->picture != NULL && o->how == LOM_VERIFIED_UNSTEADY) {
+        char *again = write_picture(run, golden, frames[1].image, ".again", &o->error);
+        lom_release(again);
+        return again != NULL;
+    }
+    return o->picture != NULL && (v->cache == NULL || o->how != LOM_VERIFIED_DIFFERS ||
+                                  write_expected(run, golden, frames[0].image, &o->error));
 }
 
 static lom_verified judge(const struct run *run, const struct lom_golden *golden, const lom_image *image,
@@ -184,15 +253,7 @@ static bool verify_picture(struct run *run, const struct lom_golden *golden, str
         o->got = lom_hash_image(frames[0].image);
         o->again = frames[1].image != NULL ? lom_hash_image(frames[1].image) : 0;
         o->how = judge(run, golden, frames[0].image, o);
-    }
-    if (done && run->values->output != NULL && o->how != LOM_VERIFIED_OK && o->how != LOM_VERIFIED_APPROVED) {
-        o->picture = write_picture(run, golden, frames[0].image, "", &o->error);
-        done = o->picture != NULL;
-        if (done && o->how == LOM_VERIFIED_UNSTEADY) {
-            char *again = write_picture(run, golden, frames[1].image, ".again", &o->error);
-            done = again != NULL;
-            lom_release(again);
-        }
+        done = write_pictures(run, golden, frames, o);
     }
     lom_free_image(frames[0].image);
     lom_free_image(frames[1].image);

@@ -139,11 +139,30 @@ assert error.get("name") == "<&missing.toml --frame 1" and "<&missing.toml" in e
 CODE
 }
 
+# What was right once lies in the cache under its hash, and is shown beside what differs; a file that has another
+# picture than its name says is not believed, and made again.
+cache() {
+    old=$(hash_of scene.toml --size 20x20)
+    echo "$old scene.toml --size 20x20" >some
+    exits 0 "$lom" verify some --cache kept/here && [ "$(ls kept/here)" = "$old.png" ] &&
+        "$lom" render scene.toml --size 20x20 -q -o was.png && cmp was.png "kept/here/$old.png" &&
+        touch -d '2020-01-01' "kept/here/$old.png" && exits 0 "$lom" verify some --cache kept/here &&
+        [ was.png -nt "kept/here/$old.png" ] || return 1
+    echo "$old scene.toml --size 20x20 --frame 0 --set water.enabled=false" >some
+    exits 1 "$lom" verify some --cache kept/here -o out && cmp was.png out/1-scene.toml.expected.png &&
+        [ "$(ls out | wc -l)" -eq 2 ] && [ "$(ls kept/here)" = "$old.png" ] &&
+        "$lom" render scene.toml --size 20x20 --set water.enabled=false -q -o "kept/here/$old.png" && rm -r out &&
+        exits 1 "$lom" verify some --cache kept/here -o out && [ "$(ls out)" = 1-scene.toml.png ] &&
+        echo "$old scene.toml --size 20x20" >some && exits 0 "$lom" verify some --cache kept/here &&
+        cmp was.png "kept/here/$old.png"
+}
+
 check known_answers known_answers
 check pictures_are_those_of_render_alone as_alone
 check approval_changes_hashes_alone approval
 check one_colour_must_be_declared one_colour
 check wrong_lines_are_refused_where_they_are bad_lines
+check pictures_that_were_right_are_kept cache
 if command -v python3 >/dev/null; then
     check reports_and_pictures_of_what_fails reports
 else
