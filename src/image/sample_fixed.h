@@ -136,9 +136,9 @@ LOM_INLINE lom_float4 sample_by(bool fixed, const lom_texture *texture, lom_text
         *out = sample(fixed, storage, srgb, texture, at, lod);                                                         \
     }
 
-/* The sampler `name`, a declarator, of one kind of texture: `sample`(fixed, storage, srgb, texture, at, lod), inline, as one straight
- * function for each way that texels are held and filtered, and the choice between them, once a call. Where nobody waits
- * (widths that are lowered, records) it is one small function that asks while it runs. */
+/* The sampler `name`, a declarator, of one kind of texture: `sample`(fixed, storage, srgb, texture, at, lod), inline, as
+ * one straight function for each way that texels are held and filtered, and the choice between them, once a call. Where
+ * nobody waits (widths that are lowered, records) it is one small function that asks while it runs. */
 #if defined LOM_LOWERED || defined LOM_RECORD
 #define SAMPLE_EVERY_STORAGE(name, coordinates, sample)                                                                \
     name(const lom_texture *texture, const coordinates *at, const lom_float *lod, lom_float4 *out)                     \
