@@ -156,7 +156,11 @@ limits() {
             --set quality.water=displaced --set 'terrain={height_map="heights.pgm",size=1e6,height=1e6}' \
             --set 'shallow={cells=8,size=1e5}' || return 1
     exits 0 "$lom" plan scene.toml --set quality.water=displaced --set "$ground,base=-60}" --set surf.height=0.5 &&
-        says "none breaks"
+        says "none breaks" || return 1
+    for sun in 40:'keeps the sun off' -1:'is not above the horizon'; do
+        exits 0 "$lom" plan scene.toml --set "$ground}" --set quality.terrain_shadows=true --set light.elevation=${sun%%:*} &&
+            says "${sun#*:}" || return 1
+    done
 }
 
 # Frame N at F frames a second is the moment of frame 2 N at 2 F.

@@ -36,7 +36,10 @@ static bool cast_shadow(struct frame *f, lom_error *error)
         lom_add_step(f, "terrain shadow", false, "the sun has not moved");
         return true;
     }
-    lom_step *step = lom_add_step(f, "terrain shadow", true, "heights up to which terrain keeps the sun off");
+    lom_step *step =
+        lom_add_step(f, "terrain shadow", true,
+                     to_light.y > 0 ? "heights up to which terrain keeps the sun off"
+                                    : "the sun is not above the horizon: it shines on nothing of the ground");
     step->width = ground->columns + 1;
     step->height = ground->rows + 1;
     return make_shadow(ground, f->scene->terrain.size, to_light, error);
