@@ -21,6 +21,9 @@ LOM_API_BEGIN
 typedef enum lom_transfer { LOM_TRANSFER_SRGB, LOM_TRANSFER_NAIVE } lom_transfer;
 typedef enum lom_output_format { LOM_OUTPUT_RGB8, LOM_OUTPUT_RGB16, LOM_OUTPUT_RGB32F } lom_output_format;
 
+/* From linear light to the light of the picture: cut off at 1 (not in RGB32F), or a curve that bends towards 1. */
+typedef enum lom_curve { LOM_CURVE_CLAMP, LOM_CURVE_REINHARD, LOM_CURVE_FILMIC, LOM_CURVE_ACES } lom_curve;
+
 typedef struct lom_output {
     bool present;
     int width, height;        /* pixels, 1..LOM_MAX_SIZE */
@@ -30,6 +33,9 @@ typedef struct lom_output {
     double fps;               /* frame n shows the time n / fps, in seconds */
     int samples;              /* a pixel: 1, 2, 4, 8, 16 (lom/pipeline.h); 0: 1 */
     bool sample_shading;      /* each of them is shaded */
+    double exposure;          /* stops, -10..10: light is multiplied by 2 to this power, before the curve */
+    lom_curve curve;
+    double white; /* what LOM_CURVE_REINHARD and LOM_CURVE_FILMIC show as 1, from 1, exposure applied */
 } lom_output;
 
 /* ---- [camera] ---- */

@@ -8,7 +8,7 @@
 /* The picture is read back with alpha as one image, and those have a limit. */
 static bool check_picture(const struct frame *f, lom_error *error)
 {
-    uint64_t pixel = f->scene->output.format == LOM_OUTPUT_RGB8 ? 4 : 16;
+    uint64_t pixel = lom_has_float_targets(f->scene) ? 16 : 4;
     return (uint64_t)f->crop.width * (uint64_t)f->crop.height * pixel <= LOM_MAX_IMAGE_BYTES ||
            lom_fail(error, LOM_ERROR_LIMIT,
                     "A picture of %d x %d pixels, %d bytes each while it is drawn, is larger than the limit of 2^31 "

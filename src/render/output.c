@@ -1,8 +1,10 @@
 /* The finished picture. In: what was drawn. Out: an image in the scene's output format, or rows in the caller's memory,
- * encoded once. */
+ * with exposure and curve (tone.h), encoded once. */
+#include "image/convert.h"
 #include "image/texture.h"
 #include "pipeline/share_work.h"
 #include "render/targets.h"
+#include "render/tone.h"
 
 #include <string.h>
 
@@ -16,22 +18,69 @@ static double encode_srgb(double x)
     return x <= 0.0031308 ? 12.92 * x : 1.055 * lom_double_pow(x, 1 / 2.4) - 0.055;
 }
 
-/* A row of linear light, `channels` floats a pixel, in a format of more than 8 bits. The row may lie at any address. */
-static void encode_row(const lom_output *output, const float *linear, int channels, int count, uint8_t *row)
+/* How a scene's light becomes its picture. */
+struct encoding {
+    const lom_output *output;
+    struct lom_tone tone;
+    bool is_toned;
+    lom_pixel_order order;
+};
+
+static struct encoding encoding_of(const lom_output *output, lom_pixel_order order)
 {
-    bool srgb = output->transfer == LOM_TRANSFER_SRGB;
-    for (int i = 0; i < count; i++, linear += channels)
-        for (int c = 0; c < 3; c++) {
-            if (output->format == LOM_OUTPUT_RGB32F) {
-                memcpy(row, &linear[c], sizeof linear[c]);
-                row += sizeof linear[c];
-                continue;
-            }
-            double value = linear[c] > 0 ? linear[c] < 1 ? linear[c] : 1 : 0;
-            uint16_t deep = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
-            memcpy(row, &deep, sizeof deep);
-            row += sizeof deep;
-        }
+    return (struct encoding){ output, lom_make_tone(output), lom_is_toned(output), order };
+}
+
+/* A pixel in a format of more than 8 bits, at any address; where the next one is to be. */
+static uint8_t *put_deep(const lom_output *output, const float light[3], uint8_t *to)
+{
+    const bool srgb = output->transfer == LOM_TRANSFER_SRGB;
+    if (output->format == LOM_OUTPUT_RGB32F) {
+        memcpy(to, light, 3 * sizeof *light);
+        return to + 3 * sizeof *light;
+    }
+    for (int c = 0; c < 3; c++) {
+        double value = light[c] > 0 ? light[c] < 1 ? light[c] : 1 : 0;
+        uint16_t deep = (uint16_t)lom_count_of((srgb ? encode_srgb(value) : value) * 65535 + 0.5, 65535);
+        memcpy(to, &deep, sizeof deep);
+        to += sizeof deep;
+    }
+    return to;
+}
+
+static uint32_t encode_texel(bool srgb, const float light[3])
+{
+    uint32_t texel = 0;
+    for (int c = 0; c < 3; c++)
+        texel |= (srgb ? lom_srgb8_of(light[c]) : lom_unorm_of((double)light[c], 255)) << 8 * c;
+    return texel;
+}
+
+/* Red in the lowest byte of the texel. */
+static inline uint8_t *put_texel(uint32_t texel, lom_pixel_order order, uint8_t *to)
+{
+    const int step = order == LOM_ORDER_OUTPUT ? 3 : 4, red = order == LOM_ORDER_BGRX ? 2 : 0;
+    to[red] = (uint8_t)texel;
+    to[1] = (uint8_t)(texel >> 8);
+    to[2 - red] = (uint8_t)(texel >> 16);
+    if (step == 4)
+        to[3] = 255;
+    return to + step;
+}
+
+/* A row of linear light, `channels` floats a pixel. */
+static void encode_row(const struct encoding *e, const float *linear, int channels, int count, uint8_t *row)
+{
+    const bool srgb = e->output->transfer == LOM_TRANSFER_SRGB;
+    for (int i = 0; i < count; i++, linear += channels) {
+        float light[3];
+        for (int c = 0; c < 3; c++)
+            light[c] = e->is_toned ? lom_tone_of(&e->tone, linear[c]) : linear[c];
+        if (e->output->format == LOM_OUTPUT_RGB8)
+            row = put_texel(encode_texel(srgb, light), e->order, row);
+        else
+            row = put_deep(e->output, light, row);
+    }
 }
 
 static lom_format output_format(const lom_output *output)
@@ -41,23 +90,16 @@ static lom_format output_format(const lom_output *output)
     return output->transfer == LOM_TRANSFER_SRGB ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8;
 }
 
-/* A row of texels, red in the lowest byte. */
+/* A row that was drawn in 8 bits: it is encoded already. */
 static void copy_row(const uint32_t *restrict from, int count, lom_pixel_order order, uint8_t *restrict to)
 {
-    const int step = order == LOM_ORDER_OUTPUT ? 3 : 4, red = order == LOM_ORDER_BGRX ? 2 : 0;
-    for (int i = 0; i < count; i++, to += step) {
-        to[red] = (uint8_t)from[i];
-        to[1] = (uint8_t)(from[i] >> 8);
-        to[2 - red] = (uint8_t)(from[i] >> 16);
-        if (step == 4)
-            to[3] = 255;
-    }
+    for (int i = 0; i < count; i++)
+        to = put_texel(from[i], order, to);
 }
 
 struct writing {
-    const lom_output *output;
+    struct encoding encoding;
     const lom_texture *drawn;
-    lom_pixel_order order;
     uint8_t *pixels;
     size_t pitch;
 };
@@ -66,12 +108,13 @@ static void write_rows(void *context, size_t first, size_t end)
 {
     const struct writing *w = context;
     const int width = lom_texture_width(w->drawn);
+    const bool floats = w->encoding.output->format != LOM_OUTPUT_RGB8 || w->encoding.is_toned;
     for (size_t y = first; y < end; y++) {
         const void *from = lom_texel(w->drawn, 0, 0, (int)y, 0);
-        if (w->output->format == LOM_OUTPUT_RGB8)
-            copy_row(from, width, w->order, w->pixels + y * w->pitch);
+        if (floats)
+            encode_row(&w->encoding, from, 4, width, w->pixels + y * w->pitch);
         else
-            encode_row(w->output, from, 4, width, w->pixels + y * w->pitch);
+            copy_row(from, width, w->encoding.order, w->pixels + y * w->pitch);
     }
 }
 
@@ -79,7 +122,7 @@ void lom_output_rows(const lom_scene *scene, lom_device *device, const lom_textu
                      void *pixels, size_t pitch)
 {
     enum { ROWS = 16 };
-    struct writing writing = { &scene->output, drawn, order, pixels, pitch };
+    struct writing writing = { encoding_of(&scene->output, order), drawn, pixels, pitch };
     lom_share_work(device, (size_t)lom_texture_height(drawn), ROWS, write_rows, &writing);
 }
 
@@ -99,14 +142,15 @@ lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error 
     lom_format format = output_format(output);
     if (drawn == NULL)
         return NULL;
-    if (output->format != LOM_OUTPUT_RGB16) {
+    if (output->format != LOM_OUTPUT_RGB16 && !lom_is_toned(output)) {
         lom_image *image = lom_convert_image(drawn, format, error);
         lom_free_image(drawn);
         return image;
     }
+    const struct encoding encoding = encoding_of(output, LOM_ORDER_OUTPUT);
     lom_image *image = lom_create_image(drawn->width, drawn->height, 1, format, error);
     for (int y = 0; image != NULL && y < image->height; y++)
-        encode_row(output, lom_image_pixel(drawn, 0, y, 0), 3, image->width, lom_image_pixel(image, 0, y, 0));
+        encode_row(&encoding, lom_image_pixel(drawn, 0, y, 0), 3, image->width, lom_image_pixel(image, 0, y, 0));
     lom_free_image(drawn);
     return image;
 }

@@ -2,6 +2,7 @@
  * table says that the one has been read when the other is drawn. */
 #include "pipeline/check_device.h"
 #include "render/renderer.h"
+#include "render/tone.h"
 #include "water/water_models.h"
 
 enum need { ALWAYS, FOR_WATER, FOR_SPRAY };
@@ -14,10 +15,15 @@ static int scaled(int size, double scale)
     return result < 1 ? 1 : result;
 }
 
-/* What the eye sees is 8-bit sRGB, unless the output asks for more than 8 bits. */
+bool lom_has_float_targets(const lom_scene *scene)
+{
+    return scene->output.format != LOM_OUTPUT_RGB8 || lom_is_toned(&scene->output);
+}
+
+/* What the eye sees is 8-bit sRGB, unless the output asks for more. */
 static lom_format color_format(const lom_scene *scene)
 {
-    if (scene->output.format != LOM_OUTPUT_RGB8)
+    if (lom_has_float_targets(scene))
         return LOM_FORMAT_RGBA32F;
     return scene->output.transfer == LOM_TRANSFER_SRGB ? LOM_FORMAT_RGBA8_SRGB : LOM_FORMAT_RGBA8;
 }
@@ -36,7 +42,7 @@ static bool is_planar(const lom_scene *scene)
 /* The mask is read, a byte a pixel, before that picture is drawn. */
 static bool has_bytes(const lom_scene *scene)
 {
-    return color_format(scene) != LOM_FORMAT_RGBA32F;
+    return !lom_has_float_targets(scene);
 }
 
 /* By lom_target. A target shares the texture of an earlier one of its size where the scene lets it: where what the one

@@ -24,6 +24,8 @@ struct lom_targets {
     size_t made_count;
 };
 
+/* Whether they hold light as floats: more than 8 bits are asked for, or light beyond 1 counts. */
+bool lom_has_float_targets(const lom_scene *scene);
 /* The bytes of the targets and of the picture: no more than a frame of this size will take. */
 uint64_t lom_target_bytes(const lom_scene *scene, int width, int height, int drawn_width, int drawn_height);
 /* Makes the targets for a frame of this size of which drawn_width x drawn_height is drawn. */

@@ -36,6 +36,14 @@ static const lom_key output[] = {
       .text = "Shade each sample instead of each surface that a pixel shows: textures and glints are smoothed too, at "
               "so many "
               "times the work." },
+    { "exposure", LOM_KEY_NUMBER, AT(lom_output, exposure), .minimum = -10, .maximum = 10, .unit = "stops",
+      .text = "The light is multiplied by 2 to this power, before the curve; in `rgb32f` too (docs/exposure.md)." },
+    { "curve", LOM_KEY_CHOICE, AT(lom_output, curve), .choices = { "clamp", "reinhard", "filmic", "aces" },
+      .text =
+          "How light becomes the light of the picture, between 0 and 1. `clamp` cuts off at 1, and leaves `rgb32f` as "
+          "it is. The others bend towards white, of Reinhard 2002, Hable 2010 and a fit of ACES by Narkowicz 2016." },
+    { "white", LOM_KEY_NUMBER, AT(lom_output, white), .minimum = 1, .maximum = 1e6, .initial = { 8 },
+      .text = "The least light, after exposure, that `reinhard` and `filmic` show as white." },
 };
 
 static bool check_output(void *members, const lom_key_check *check)

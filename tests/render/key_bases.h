@@ -34,6 +34,7 @@ static const struct base bases[] = {
       "[sky]\npattern = \"sky_%s.png\"\n[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
       "[entity.material]\nspecular = 0.5\n[[entity.key]]\ntime = 0\n[[entity.key]]\ntime = 1\nposition = [1, 1, "
       "1]\n[quality]\nterrain_shadows = true\nentity_shadows = 64\nambient_occlusion = true\n" },
+    { "tone", "output.exposure output.curve output.white", "curve = \"reinhard\"\n" VIEW TERRAIN },
     { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
       "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "
       "[0.5, 0.2, 0.1]\n" },

@@ -1,6 +1,7 @@
 /* Proves of the targets of a frame: each is of the size and the format that its name asks for; two names bear one texture
  * exactly where sizes and models allow it, which changes no byte of a picture; the bytes that a frame is said to take are
- * those of its textures; a frame of another size leaves none of the last one's. */
+ * those of its textures; a frame of another size leaves none of the last one's; a tone curve has floats, also
+ * after a change, and its pixels have the order that is asked for. */
 #include "check.h"
 #include "render/renderer.h"
 #include "small_scene.h"
@@ -63,6 +64,8 @@ static const struct {
     { { "quality.reflection_scale=0.5", "quality.refraction_scale=1" }, 2, true, false, 6 },
     { { "quality.reflection_scale=0.5", "quality.refraction_scale=0.5" }, 2, false, true, 6 },
     { { "quality.reflection_scale=1", "quality.refraction_scale=1", "output.format=rgb16" }, 3, false, true, 6 },
+    { { "quality.reflection_scale=1", "quality.refraction_scale=1", "output.exposure=1" }, 3, false, true, 6 },
+    { { "quality.reflection_scale=1", "quality.refraction_scale=1", "output.curve=aces" }, 3, false, true, 6 },
     { { "quality.reflection_scale=1", "quality.refraction_scale=1", "quality.water=normal_map" }, 3, true, false, 6 },
 };
 
@@ -131,6 +134,48 @@ static void targets_have_their_sizes(void)
     let_go(d);
 }
 
+/* From 8 bits to floats, and back. */
+static void a_curve_makes_targets_anew(void)
+{
+    static const char *const curve[] = { "output.curve=filmic" };
+    static const lom_frame_desc desc = { .frame = 0 };
+    struct drawn plain = draw(NULL, 0, &desc), toned = draw(curve, 1, &desc);
+    lom_error error = { 0 };
+    CHECK(lom_hash_image(plain.image) != lom_hash_image(toned.image), "a curve changes nothing");
+    CHECK(lom_change_scene(plain.renderer, toned.scene, NULL, &error), "%s", error.text);
+    CHECK(draws_again(plain.renderer, &desc, toned.image), "a frame after a change to a curve is another");
+    CHECK(lom_change_scene(plain.renderer, plain.scene, NULL, &error), "%s", error.text);
+    CHECK(draws_again(plain.renderer, &desc, plain.image), "a frame after a change from a curve is another");
+    let_go(plain);
+    let_go(toned);
+}
+
+/* In rows of the caller's, the picture's samples in every order; drawn and traced. */
+static void toned_pixels_have_their_order(void)
+{
+    static const char *const settings[] = { "output.curve=filmic", "output.exposure=1", "quality.water=reference",
+                                            "quality.reference.samples=1" };
+    for (size_t count = 2; count <= 4; count += 2) {
+        struct drawn d = draw(settings, count, &(lom_frame_desc){ .frame = 0 });
+        for (int order = LOM_ORDER_OUTPUT; order <= LOM_ORDER_BGRX; order++) {
+            uint8_t pixels[18][32 * 4] = { { 0 } };
+            lom_frame frame = { .image = NULL };
+            lom_error error = { 0 };
+            const lom_frame_desc desc = { .pixels = pixels, .pitch = sizeof *pixels, .order = (lom_pixel_order)order };
+            bool same = lom_render_frame(d.renderer, &desc, &frame, &error);
+            const int step = order == LOM_ORDER_OUTPUT ? 3 : 4, red = order == LOM_ORDER_BGRX ? 2 : 0;
+            for (int y = 0; y < 18; y++)
+                for (int x = 0; x < 32; x++) {
+                    const uint8_t *from = lom_image_pixel(d.image, x, y, 0), *to = &pixels[y][x * step];
+                    same = same && to[red] == from[0] && to[1] == from[1] && to[2 - red] == from[2] &&
+                           (step == 3 || to[3] == 255);
+                }
+            CHECK(same, "%zu settings, order %d: other pixels %s", count, order, error.text);
+        }
+        let_go(d);
+    }
+}
+
 int main(int argc, char **argv)
 {
     if (!make_small_scene())
@@ -138,6 +183,8 @@ int main(int argc, char **argv)
     RUN(names_share_where_they_may);
     RUN(sharing_changes_no_byte);
     RUN(targets_have_their_sizes);
+    RUN(a_curve_makes_targets_anew);
+    RUN(toned_pixels_have_their_order);
     remove_small_scene();
     return check_result();
 }
