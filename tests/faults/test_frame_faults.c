@@ -1,7 +1,7 @@
 /* Proves what failing memory does to frames: whichever allocation fails, once or from there on, two frames of a run are
  * the same bytes as without the fault, or there is an error with a sentence; and a frame that is asked for again after
  * one that failed is the same bytes or an error. On tiny scenes that between them have every model of clouds,
- * impostors, waves and water, shallow water, surf, caustics, foam, shadows, key frames, spray, and the reference. */
+ * impostors, waves and water, shallow water, surf, caustics, foam, shadows, key frames, spray, several samples a pixel, and the reference. */
 #include "faults.h"
 
 enum { FRAMES = 2, TRIES = 12 };
@@ -77,6 +77,11 @@ static const struct frame_scene {
       "[water.optics]\ncaustics = 1\ncaustics_size = 10\ncaustics_texels = 16\n[quality]\nwater = 'marched'\n",
       NULL,
       100 },
+    { "four samples a pixel of a lake, clouds and spray",
+      { camera, land, clouds, spray },
+      "[water]\nnormal_map = 'normal.png'\n[quality]\nwater = 'planar'\n",
+      "output.samples=4",
+      150 },
     { "tinted water", { camera, land, "[water]\n" }, "[quality]\nwater = 'tinted'\n", "output.format='rgb32f'", 50 },
     { "the reference of a sea, surf, spray and clouds",
       { camera, land, clouds, "[water]\nsize = 60\n", sea, surf },
