@@ -13,6 +13,8 @@
 #include "base/reserve.h"
 #include "base/threads.h"
 #include "image/texture.h"
+#include "pipeline/tile.h"
+#include "pipeline/triangle.h"
 
 #include <lom/pipeline.h>
 
@@ -39,66 +41,6 @@ enum {
     CODE_CLIP = CODE_NEAR | CODE_FAR | CODE_GUARD | CODE_W,
     CODE_REJECT = 0xff | CODE_NEAR | CODE_FAR | CODE_W /* outside one of these with all vertices: nothing to see */
 };
-
-typedef enum lom_triangle_kind {
-    TRIANGLE_WINDOW = 0, /* fits an even-aligned 4x4 window inside one tile; mask holds its pixels */
-    TRIANGLE_SMALL,      /* edge functions fit int32 */
-    TRIANGLE_LARGE,      /* edge functions in 64 bits, rebased for each tile */
-    TRIANGLE_NONE        /* as the draw is: a sprite or point about vertex 0, the steps are those of s and t, a pixel
-                            right and down; or a line from vertex 0 to vertex 1, which is vertex 2, too (line.c) */
-} lom_triangle_kind;
-
-/* A triangle after set-up, 16 words (four rows of four, written and read by lanes). Its vertices are in the order of
- * snapped (y, x), so nothing depends on the order they came in. Edge function i is that of the edge opposite to vertex
- * i, positive inside; the three of them add up to twice the area. */
-typedef struct lom_triangle {
-    float step_x1, step_y1, step_x2, step_y2; /* edge functions 1 and 2: their change a pixel right and down, exact */
-    float inverse_area;                       /* 1 / |twice the area|, both in units^2 */
-    float depth[3];                           /* of vertex 0, then differences of 1 and 2 to it */
-    union {
-        struct { /* else: twice the area, edge functions 1 and 2 at pixel (left & ~1, top & ~1) */
-            int32_t area, start[2];
-        } small;
-        struct { /* TRIANGLE_LARGE, TRIANGLE_NONE: the last pixel, inclusive */
-            int32_t right, bottom, unused;
-        } large;
-    };
-    uint32_t first;  /* first pixel (frame, inclusive): left | top << 16 */
-    uint32_t row[3]; /* where the vertices' rows begin in the chunk's */
-    uint32_t state;  /* TRIANGLE_WINDOW: bit k for pixel k of the window at (left & ~1, top & ~1); TRIANGLE_SMALL:
-                        right - left | (bottom - top) << 8; then the bits of TRIANGLE_... */
-} lom_triangle;
-
-enum {                          /* lom_triangle.state */
-       TRIANGLE_KIND = 16,      /* 2 bits: lom_triangle_kind */
-       TRIANGLE_FRONT = 18,     /* front facing */
-       TRIANGLE_CUT = 19,       /* its bounds were cut by the scissor, so coverage must be tested against them */
-       TRIANGLE_PROVOKING = 20, /* 2 bits: which row is the provoking vertex's */
-       TRIANGLE_CLIP = 24       /* 8 bits: bit i for a clip distance i that changes sign inside */
-};
-
-struct lom_bounds { /* pixels of the frame, inclusive */
-    int left, top, right, bottom;
-};
-
-static inline lom_triangle_kind lom_kind_of(const lom_triangle *t)
-{
-    return (lom_triangle_kind)(t->state >> TRIANGLE_KIND & 3);
-}
-
-static inline struct lom_bounds lom_bounds_of(const lom_triangle *t)
-{
-    int left = (int)(t->first & 0xffff), top = (int)(t->first >> 16);
-    switch (lom_kind_of(t)) {
-    case TRIANGLE_LARGE:
-    case TRIANGLE_NONE:
-        return (struct lom_bounds){ left, top, t->large.right, t->large.bottom };
-    case TRIANGLE_SMALL:
-        return (struct lom_bounds){ left, top, left + (int)(t->state & 255), top + (int)(t->state >> 8 & 255) };
-    default: /* lies within one tile, which its first pixel names */
-        return (struct lom_bounds){ left, top, left, top };
-    }
-}
 
 /* The colour of a draw whose shader reads nothing. Where `fills`, it goes to the only target as it is, or, with
  * `blends`, as (target * factor + add) / 255 rounded, channel by channel: two channels of 16 bits a word, red and blue,
@@ -194,91 +136,6 @@ struct lom_chunk {
     size_t rows_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
     uint64_t triangles_clipped, vertices_shaded;
     bool failed; /* memory ran out */
-};
-
-/* Fragments on their way into packets; all of one draw and chunk. Entry i of every array is one fragment. */
-enum { QUEUE_SIZE = 64, QUEUE_ROOM = QUEUE_SIZE + 2 * 16 };
-struct lom_queue {
-    float l[3][QUEUE_ROOM];       /* screen-space barycentric weights */
-    float depth[QUEUE_ROOM];      /* only with draw->queues_depth */
-    int32_t pixel[QUEUE_ROOM];    /* index into the tile's memory */
-    int32_t covered[QUEUE_ROOM];  /* -1, or 0 for a helper; only in shaders that ask for quads */
-    int32_t triangle[QUEUE_ROOM]; /* number of the fragment's triangle in the chunk's */
-    int count;
-};
-
-/* Small triangles that are drawn together, and the pixels that they cover: a code is the index into the tile's memory, the
- * pixel of the tile, and which of the list's triangles. */
-enum {
-    CODE_X = 12,
-    CODE_Y = 18,
-    CODE_TRIANGLE = 24,
-    LIST_SIZE = 512,     /* codes after which it is drained */
-    LIST_PIXELS = 1024,  /* that one triangle's parts may have, covered or not */
-    LIST_TRIANGLES = 64, /* of which some may be left from the last time */
-    LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
-    SLOT_PITCH = LIST_TRIANGLES + 16,
-    SLOT_WORDS = 16, /* slots.h */
-    LIST_HEADER = 8, /* interpolate.wide.c */
-    LIST_VALUE = 5
-};
-struct lom_list {
-    int32_t code[LIST_ROOM];
-    uint32_t number[SLOT_PITCH];          /* of the triangles, in the chunk's */
-    float slots[SLOT_WORDS * SLOT_PITCH]; /* what was found of them */
-    float value[(LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS) * SLOT_PITCH];
-    int count, triangles;
-    int kept;   /* triangles of which only the fragments that are there are left */
-    int tested; /* codes whose early depth test is done */
-};
-
-/* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). */
-struct lom_facet {
-    const lom_triangle *triangle; /* whose they are; NULL: nobody's */
-    float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
-};
-
-/* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where
- * they are shaded (0: the centre, i + 1: sample i); the depth at each sample, only with draw->late_depth. */
-struct lom_sample_queue {
-    int32_t samples[QUEUE_ROOM], place[QUEUE_ROOM];
-    float depth[LOM_MAX_SAMPLES][QUEUE_ROOM];
-};
-
-struct lom_pass;
-struct lom_tile;
-
-/* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
-struct lom_tile {
-    struct lom_pass *pass;
-    uint64_t fragments, packets;   /* counted */
-    const struct lom_draw *draw;   /* of the fragments in the queue */
-    const struct lom_chunk *chunk; /* likewise */
-    bool tests_early;              /* the draw's depth test comes before its fragment shader */
-    bool rejects_early;            /* it comes after, but who fails before would fail then, and is not shaded */
-    int x, y;                      /* frame pixel of the tile's first pixel */
-    int edge;
-    int32_t offset[16];          /* of the pixels of a 4x4 window to its first, in tile memory */
-    float *depth;                /* attachment units; NULL where no draw of the pass uses depth */
-    void *color[LOM_MAX_COLORS]; /* uint32_t for 8-bit formats, else 4 planes of floats */
-    int number;
-    uint8_t *memory;
-    bool is_whole; /* tile memory holds nothing yet: every pixel of the only colour target is `whole` */
-    uint32_t whole;
-    struct lom_queue queue;
-    struct lom_list list;
-    struct lom_facet facet;
-    uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
-                                 write often lies far apart */
-    /* Where pixels have several samples (samples.c): depth is of samples, side by side. A block of 2x2 pixels has one colour for
-     * all samples, in the image color, unless its flag is set: then they are in sample_color, codes side by side, floats in
-     * an image for each sample. */
-    uint8_t *several[LOM_MAX_COLORS];
-    void *sample_color[LOM_MAX_COLORS];
-    uint8_t *scratch; /* an image */
-
-    struct lom_sample_queue sample_queue;
-    int32_t list_samples[LIST_ROOM]; /* with the list's codes (packed.h) */
 };
 
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;

@@ -1,0 +1,97 @@
+/* What a worker holds of the tile that it owns: its memory, the fragments that wait in a queue for a whole packet, and the
+ * small triangles that are drawn together. Invariant: one draw and one chunk at a time; a tile's fragments are written in
+ * the order in which they were submitted. */
+#ifndef LOM_PIPELINE_TILE_H
+#define LOM_PIPELINE_TILE_H
+
+#include "pipeline/triangle.h"
+
+#include <lom/pipeline.h>
+
+struct lom_chunk;
+struct lom_draw;
+struct lom_pass;
+
+/* Fragments on their way into packets; all of one draw and chunk. Entry i of every array is one fragment. */
+enum { QUEUE_SIZE = 64, QUEUE_ROOM = QUEUE_SIZE + 2 * 16 };
+struct lom_queue {
+    float l[3][QUEUE_ROOM];       /* screen-space barycentric weights */
+    float depth[QUEUE_ROOM];      /* only with draw->queues_depth */
+    int32_t pixel[QUEUE_ROOM];    /* index into the tile's memory */
+    int32_t covered[QUEUE_ROOM];  /* -1, or 0 for a helper; only in shaders that ask for quads */
+    int32_t triangle[QUEUE_ROOM]; /* number of the fragment's triangle in the chunk's */
+    int count;
+};
+
+/* Small triangles that are drawn together, and the pixels that they cover: a code is the index into the tile's memory, the
+ * pixel of the tile, and which of the list's triangles. */
+enum {
+    CODE_X = 12,
+    CODE_Y = 18,
+    CODE_TRIANGLE = 24,
+    LIST_SIZE = 512,     /* codes after which it is drained */
+    LIST_PIXELS = 1024,  /* that one triangle's parts may have, covered or not */
+    LIST_TRIANGLES = 64, /* of which some may be left from the last time */
+    LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
+    SLOT_PITCH = LIST_TRIANGLES + 16,
+    SLOT_WORDS = 16, /* slots.h */
+    LIST_HEADER = 8, /* interpolate.wide.c */
+    LIST_VALUE = 5
+};
+struct lom_list {
+    int32_t code[LIST_ROOM];
+    uint32_t number[SLOT_PITCH];          /* of the triangles, in the chunk's */
+    float slots[SLOT_WORDS * SLOT_PITCH]; /* what was found of them */
+    float value[(LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS) * SLOT_PITCH];
+    int count, triangles;
+    int kept;   /* triangles of which only the fragments that are there are left */
+    int tested; /* codes whose early depth test is done */
+};
+
+/* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). */
+struct lom_facet {
+    const lom_triangle *triangle; /* whose they are; NULL: nobody's */
+    float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
+};
+
+/* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where
+ * they are shaded (0: the centre, i + 1: sample i); the depth at each sample, only with draw->late_depth. */
+struct lom_sample_queue {
+    int32_t samples[QUEUE_ROOM], place[QUEUE_ROOM];
+    float depth[LOM_MAX_SAMPLES][QUEUE_ROOM];
+};
+
+/* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
+struct lom_tile {
+    struct lom_pass *pass;
+    uint64_t fragments, packets;   /* counted */
+    const struct lom_draw *draw;   /* of the fragments in the queue */
+    const struct lom_chunk *chunk; /* likewise */
+    bool tests_early;              /* the draw's depth test comes before its fragment shader */
+    bool rejects_early;            /* it comes after, but who fails before would fail then, and is not shaded */
+    int x, y;                      /* frame pixel of the tile's first pixel */
+    int edge;
+    int32_t offset[16];          /* of the pixels of a 4x4 window to its first, in tile memory */
+    float *depth;                /* attachment units; NULL where no draw of the pass uses depth */
+    void *color[LOM_MAX_COLORS]; /* uint32_t for 8-bit formats, else 4 planes of floats */
+    int number;
+    uint8_t *memory;
+    bool is_whole; /* tile memory holds nothing yet: every pixel of the only colour target is `whole` */
+    uint32_t whole;
+    struct lom_queue queue;
+    struct lom_list list;
+    struct lom_facet facet;
+    uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
+                                 write often lies far apart */
+    /* Where pixels have several samples (samples.c): depth is of samples, side by side. A block of 2x2 pixels has one colour for
+     * all samples, in the image color, unless its flag is set: then they are in sample_color, codes side by side, floats in
+     * an image for each sample. */
+    uint8_t *several[LOM_MAX_COLORS];
+    void *sample_color[LOM_MAX_COLORS];
+    uint8_t *scratch; /* an image */
+
+    struct lom_sample_queue sample_queue;
+    int32_t list_samples[LIST_ROOM]; /* with the list's codes (packed.h) */
+};
+
+#endif
