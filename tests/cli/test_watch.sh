@@ -12,51 +12,56 @@ watcher=$!
 other=
 trap 'kill $watcher $other 2>/dev/null; rm -rf "$folder"' EXIT
 
-drawn=0 # how many times so far
-errors=0
-
-# Waits until COUNT lines of stderr have TEXT.
-waits() {
+# Waits until a command succeeds, at most ten seconds; then it says what did not happen.
+until_done() {
+    what=$1
+    shift
     tries=0
-    while [ "$(grep -c "$1" "$folder/err")" -lt "$2" ]; do
+    until "$@"; do
         tries=$((tries + 1))
-        [ $tries -lt 200 ] || { echo "no \"$1\" number $2:"; cat "$folder/err"; return 1; }
+        [ $tries -lt 200 ] || { echo "$what:"; cat "$folder/err"; return 1; }
         sleep 0.05
     done
 }
 
-# draws_after COMMAND...: the command changes a file; the picture is drawn again and is another one.
+count() { grep -c "$1" "$folder/err"; }
+is_said() { [ "$(count "$1")" -gt "$2" ]; }
+differ() { ! cmp -s "$1" "$2"; }
+
+# Waits until stderr has the text.
+waits() { until_done "no \"$1\"" is_said "$1" 0; }
+
+# draws_after COMMAND...: the command changes a file; the picture is drawn again and is another one. (It may be drawn more
+# than once, where a look falls between two steps of the command.)
 draws_after() {
     cp out.ppm before.ppm
     sleep 0.06 # so that the change falls into a look of its own
     "$@"
-    drawn=$((drawn + 1))
-    waits 'lom: drawn' $drawn && ! cmp -s out.ppm before.ppm
+    until_done "no other picture" differ out.ppm before.ppm
 }
 
 fails_after() {
     cp out.ppm before.ppm
     sleep 0.06
+    errors=$(count "lom: [a-z]*[.][a-z]*:")
     "$@"
-    errors=$((errors + 1))
-    waits "lom: [a-z]*[.][a-z]*:" $errors && cmp out.ppm before.ppm
+    until_done "no error" is_said "lom: [a-z]*[.][a-z]*:" "$errors" && cmp out.ppm before.ppm
 }
 
 put() { printf "$2" >"$1.new" && mv "$1.new" "$1"; }
 change() { sed "$2" "$1" >"$1.new" && mv "$1.new" "$1"; }
 
 first_picture() {
-    drawn=1
-    waits 'lom: drawn' 1 && [ -s out.ppm ]
+    waits 'lom: drawn' && [ -s out.ppm ]
 }
 
 # TEXT COMMAND...: after the command changes a file TEXT says what was loaded, and the picture is that of a new renderer.
 loads_after() {
     text=$1
     shift
-    before=$(grep -c "lom: $text" "$folder/err")
-    draws_after "$@" && [ "$(grep -c "lom: $text" "$folder/err")" -gt "$before" ] || return 1
-    "$lom" render scene.toml -o "$folder/right.ppm" --quiet && cmp out.ppm "$folder/right.ppm"
+    before=$(count "lom: $text")
+    draws_after "$@" && until_done "no \"$text\"" is_said "lom: $text" "$before" || return 1
+    "$lom" render scene.toml -o "$folder/right.ppm" --quiet && until_done "not that picture" cmp -s out.ppm "$folder/right.ppm"
 }
 
 # A key that frames look up, one of a part, one that everything depends on; then a file, for which all is loaded anew.
@@ -86,7 +91,7 @@ changes_while_it_draws() {
     : >"$folder/err"
     "$lom" render other.toml -o large.ppm --size 960x540 --threads 1 --watch --quiet >"$folder/watch" 2>>"$folder/err" &
     other=$!
-    waits 'lom: drawn' 1
+    waits 'lom: drawn'
     last=0
     for round in 1 2 3; do
         for change in 1 2 3 4 5 6 7; do
@@ -109,7 +114,7 @@ waits_for_the_scene() {
     : >"$folder/err"
     "$lom" render later.toml -o later.ppm --watch --quiet >"$folder/watch" 2>>"$folder/err" &
     other=$!
-    waits 'later.toml' 1 && cp scene.toml later.toml && waits 'lom: drawn' 1 && cmp -s later.ppm out.ppm
+    waits 'later.toml' && cp scene.toml later.toml && waits 'lom: drawn' && cmp -s later.ppm out.ppm
     same=$?
     kill $other
     return $same
