@@ -2,6 +2,7 @@
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
 #include "pipeline/record.h"
+#include "pipeline/variants.h"
 
 enum { GROUP = 16 }; /* triangles that are looked at together: a whole number of packets at every width */
 

@@ -7,6 +7,7 @@
  * a triangle outside of it. */
 #include "pipeline/clusters.h"
 #include "pipeline/device.h"
+#include "pipeline/variants.h"
 
 /* ---- making ---- */
 

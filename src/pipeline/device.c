@@ -5,6 +5,7 @@
 #include "pipeline/record.h"
 #include "pipeline/renew_texture.h"
 #include "pipeline/share_work.h"
+#include "pipeline/samples.h"
 
 #include "lanes/variants.h"
 

@@ -4,7 +4,7 @@
 
 #include "image/compare_lanes.h"
 #include "image/convert_lanes.h"
-#include "pipeline/stages.h"
+#include "pipeline/variants.h"
 
 /* Where the fragments of a packet lie in tile memory. */
 struct lom_places {

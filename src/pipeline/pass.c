@@ -6,6 +6,7 @@
 #include "pipeline/device.h"
 #include "pipeline/record.h"
 #include "pipeline/tally.h"
+#include "pipeline/samples.h"
 
 static lom_rect or_whole(lom_rect rect, lom_rect whole)
 {

@@ -2,6 +2,7 @@
  * its shader say of them: the stage runs once more for these three, and a row is a function of the vertex alone. */
 #include "pipeline/project.h"
 #include "pipeline/record.h"
+#include "pipeline/variants.h"
 
 const char lom_attributes_note[] = "attributes";
 

@@ -1,6 +1,7 @@
 /* The two ends of tile memory. In: clear values or the attachments' texels. Out: after the pass, the attachments'
  * texels. Tile memory holds blocks of 2x2 pixels, rows of blocks from the top; attachments are rows of pixels. */
 #include "pipeline/device.h"
+#include "pipeline/variants.h"
 
 /* What of a tile lies inside the attachments, in their pixels. */
 struct part {

@@ -3,6 +3,8 @@
 #include "pipeline/device.h"
 #include "pipeline/record.h"
 #include "pipeline/tally.h"
+#include "pipeline/variants.h"
+#include "pipeline/samples.h"
 
 static void run_chunks(void *context, int worker)
 {

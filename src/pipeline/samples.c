@@ -8,6 +8,8 @@
  *
  * Invariant: a tile's samples are those that were left, whichever passes, of whatever draws, lie between. */
 #include "pipeline/device.h"
+#include "pipeline/variants.h"
+#include "pipeline/samples.h"
 
 static const struct lom_sample_offset centre[] = { { 0, 0 } };
 static const struct lom_sample_offset two[] = { { 4, 4 }, { -4, -4 } };

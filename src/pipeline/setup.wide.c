@@ -6,6 +6,7 @@
  * remember it. Triangles that fit a 4x4 window get their exact coverage here, and the empty ones end here. */
 #include "lanes/pair_products.h"
 #include "pipeline/record.h"
+#include "pipeline/variants.h"
 
 struct vertices { /* one corner of LOM_LANES triangles */
     lom_int x, y;

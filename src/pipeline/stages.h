@@ -202,55 +202,6 @@ struct lom_rectangle {
     bool streams;                  /* texels and pitch are whole cache lines, and nobody reads them soon */
 };
 
-/* The stages of one variant. */
-struct lom_stages {
-    /* The smallest and the largest of `count` >= 1 indices. */
-    void (*find_extremes)(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);
-    /* Writes index - base for each of them. */
-    void (*rebase_indices)(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);
-    /* Shades the chunk's vertices: rows, clip positions and outcodes of vertex_count vertices. */
-    void (*shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk);
-    /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are three row
-     * numbers a triangle; the third is the provoking vertex. */
-    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count);
-    /* Draws the chunk's triangles of one tile. */
-    void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
-    /* Shades what is left in the queue. */
-    void (*flush)(struct lom_tile *tile);
-    /* The paint of a constant draw. */
-    void (*find_paint)(const struct lom_pass *pass, struct lom_draw *draw);
-    /* A rectangle of a plane of tile memory, or one value, to an attachment. */
-    void (*store_rectangle)(const struct lom_rectangle *rectangle, const uint32_t *memory);
-    void (*fill_rectangle)(const struct lom_rectangle *rectangle, uint32_t value);
-    /* `count` words of tile memory, a multiple of 16. */
-    void (*fill_words)(uint32_t *to, uint32_t value, size_t count);
-    /* Two rows of pixels as blocks of tile memory. */
-    void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
-    /* The means of the samples of colour attachment i of a tile, into its image, where flags are set. */
-    void (*find_means)(const struct lom_pass *pass, const struct lom_tile *tile, int i);
-};
-
-/* NULL where the variant is not built. */
-const struct lom_stages *lom_stages_of(int variant);
-
-#define LOM_DECLARE_STAGES(name, variant)                                                                              \
-    void lom_find_extremes_##variant(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);              \
-    void lom_rebase_indices_##variant(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);          \
-    void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
-    void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners,           \
-                              size_t count);                                                                           \
-    void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
-                              size_t count);                                                                           \
-    void lom_flush_##variant(struct lom_tile *tile);                                                                   \
-    void lom_find_paint_##variant(const struct lom_pass *pass, struct lom_draw *draw);                                 \
-    void lom_store_rectangle_##variant(const struct lom_rectangle *rectangle, const uint32_t *memory);                 \
-    void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
-    void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
-    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
-    void lom_find_means_##variant(const struct lom_pass *pass, const struct lom_tile *tile, int i);
-LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
-LOM_DECLARE_STAGES(, 4_recorded)
-
 /* Room for `rows` vertex rows in the chunk (rows, clip, codes). */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
 /* Raises room to what the chunk has needed. */
@@ -298,22 +249,5 @@ void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t co
 void lom_load_whole_tile(struct lom_tile *tile);
 /* The clear values to the attachments that do not keep their texels; memory is scratch. */
 void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
-
-/* ---- several samples a pixel (samples.c) ---- */
-
-/* The positions of 1, 2, 4, 8 or 16 samples; NULL for other numbers. */
-const struct lom_sample_offset *lom_sample_offsets(int samples);
-/* Room in the pass's textures that keep samples, for a grid as the pass's; the bytes that its tiles need besides. */
-bool lom_lay_samples(lom_device *device, struct lom_pass *pass);
-/* Bytes of the largest image of an attachment: of a worker's scratch. */
-size_t lom_scratch_bytes(const struct lom_pass *pass);
-/* Where the tile's images are; its first samples; and, when the pass ends, its texels, from the samples if it was `touched`. */
-void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *memory);
-void lom_begin_samples(struct lom_pass *pass, struct lom_tile *tile);
-void lom_end_samples(struct lom_pass *pass, struct lom_tile *tile, bool touched);
-/* The texels of a texture are new: all its samples are they. Likewise of the attachments that a pass writes in which it has
- * another number of samples than they keep. */
-void lom_forget_samples(lom_texture *texture);
-void lom_forget_other_samples(const struct lom_pass *pass);
 
 #endif

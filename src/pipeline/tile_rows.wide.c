@@ -4,6 +4,7 @@
 #include <lom/lanes.h>
 
 #include "pipeline/stages.h"
+#include "pipeline/variants.h"
 
 /* Two pixels side by side; rows of attachments are aligned to a pixel. */
 typedef uint64_t __attribute__((may_alias, aligned(4))) pair;

@@ -1,6 +1,7 @@
 /* The stages of each variant that is built: 4, 8 and 16 lanes, on x86-64 the 8 and 16 lowered to the baseline
  * instructions, and the 4 that record. */
 #include "pipeline/stages.h"
+#include "pipeline/variants.h"
 
 #define STAGES(name, variant)                                                                                          \
     [LOM_SLOT_##variant] = { lom_find_extremes_##variant, lom_rebase_indices_##variant,  lom_shade_vertices_##variant, \

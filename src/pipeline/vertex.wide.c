@@ -2,6 +2,7 @@
  * varyings, distances}, its clip position and its outcode. Invariant: a row is a function of the vertex alone. */
 #include "pipeline/project.h"
 #include "pipeline/record.h"
+#include "pipeline/variants.h"
 
 /* Signed comparison of numbers with the highest bit turned over is unsigned comparison of the numbers. */
 static const int32_t turned = INT32_MIN;

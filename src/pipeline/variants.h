@@ -1,0 +1,56 @@
+/* The stages as functions of each variant: what whoever runs them calls, and the wide files define. */
+#ifndef LOM_PIPELINE_VARIANTS_H
+#define LOM_PIPELINE_VARIANTS_H
+
+#include "pipeline/stages.h"
+
+/* The stages of one variant. */
+struct lom_stages {
+    /* The smallest and the largest of `count` >= 1 indices. */
+    void (*find_extremes)(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);
+    /* Writes index - base for each of them. */
+    void (*rebase_indices)(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);
+    /* Shades the chunk's vertices: rows, clip positions and outcodes of vertex_count vertices. */
+    void (*shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk);
+    /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are three row
+     * numbers a triangle; the third is the provoking vertex. */
+    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count);
+    /* Draws the chunk's triangles of one tile. */
+    void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
+    /* Shades what is left in the queue. */
+    void (*flush)(struct lom_tile *tile);
+    /* The paint of a constant draw. */
+    void (*find_paint)(const struct lom_pass *pass, struct lom_draw *draw);
+    /* A rectangle of a plane of tile memory, or one value, to an attachment. */
+    void (*store_rectangle)(const struct lom_rectangle *rectangle, const uint32_t *memory);
+    void (*fill_rectangle)(const struct lom_rectangle *rectangle, uint32_t value);
+    /* `count` words of tile memory, a multiple of 16. */
+    void (*fill_words)(uint32_t *to, uint32_t value, size_t count);
+    /* Two rows of pixels as blocks of tile memory. */
+    void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
+    /* The means of the samples of colour attachment i of a tile, into its image, where flags are set. */
+    void (*find_means)(const struct lom_pass *pass, const struct lom_tile *tile, int i);
+};
+
+/* NULL where the variant is not built. */
+const struct lom_stages *lom_stages_of(int variant);
+
+#define LOM_DECLARE_STAGES(name, variant)                                                                              \
+    void lom_find_extremes_##variant(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);              \
+    void lom_rebase_indices_##variant(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);          \
+    void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
+    void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners,           \
+                              size_t count);                                                                           \
+    void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
+                              size_t count);                                                                           \
+    void lom_flush_##variant(struct lom_tile *tile);                                                                   \
+    void lom_find_paint_##variant(const struct lom_pass *pass, struct lom_draw *draw);                                 \
+    void lom_store_rectangle_##variant(const struct lom_rectangle *rectangle, const uint32_t *memory);                 \
+    void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
+    void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
+    void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
+    void lom_find_means_##variant(const struct lom_pass *pass, const struct lom_tile *tile, int i);
+LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
+LOM_DECLARE_STAGES(, 4_recorded)
+
+#endif
