@@ -27,7 +27,7 @@ LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .r
 LOM_SHADER(cut, place_cut, show_values, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1,
            .clip_distances = 1)
 LOM_SHADER(whole, place_values, show_all, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 2),
-           .differentiates = 1, .flat = LOM_VARYINGS(1, 1), .reads_position = true, .colors = 1)
+           .differentiates = LOM_VARYINGS(0, 1), .flat = LOM_VARYINGS(1, 1), .reads_position = true, .colors = 1)
 
 static void show_some(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
@@ -36,7 +36,8 @@ static void show_some(lom_fragment *out, const lom_varyings *in, const void *uni
 }
 
 LOM_SHADER(holed, place_values, show_some, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 2),
-           .differentiates = 1, .flat = LOM_VARYINGS(1, 1), .reads_position = true, .colors = 1, .discards = true)
+           .differentiates = LOM_VARYINGS(0, 1), .flat = LOM_VARYINGS(1, 1), .reads_position = true, .colors = 1,
+           .discards = true)
 
 /* ---- the rule ---- */
 

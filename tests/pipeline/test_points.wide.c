@@ -29,8 +29,8 @@ static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms
 
 LOM_SHADER(counted, place, count, .attributes = 2, .varyings = 1, .reads = LOM_VARYINGS(0, 1), .colors = 1)
 LOM_SHADER(disc, place, count, .attributes = 2, .varyings = 1, .reads = LOM_VARYINGS(0, 1), .colors = 1, .round = true)
-LOM_SHADER(shown, place, show, .attributes = 2, .varyings = 1, .reads = LOM_VARYINGS(0, 1), .differentiates = 1,
-           .reads_position = true, .colors = 1)
+LOM_SHADER(shown, place, show, .attributes = 2, .varyings = 1, .reads = LOM_VARYINGS(0, 1),
+           .differentiates = LOM_VARYINGS(0, 1), .reads_position = true, .colors = 1)
 LOM_SHADER(plain, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 
 static lom_draw_desc points_of(const lom_shader *shader, const vertex *v, size_t n)
