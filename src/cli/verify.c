@@ -28,7 +28,7 @@ static const lom_option options[] = {
     { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "DIR", 0, 0,
       "write the pictures that fail, as DIR/LINE-SCENE.png (floats: .pfm)" },
     { "cache", 0, LOM_OPTION_TEXT, offsetof(struct values, cache), "DIR", 0, 0,
-      "keep pictures that are right as DIR/HASH.png; those that fail have them beside them in --output" },
+      "keep right pictures as DIR/HASH.png, to stand beside those that fail in --output" },
     { "junit", 0, LOM_OPTION_TEXT, offsetof(struct values, junit), "FILE", 0, 0,
       "write JUnit's XML, with the pictures of --output attached" },
     { "threads", 0, LOM_OPTION_INTEGER, offsetof(struct values, threads), "N", 1, 256,
