@@ -25,7 +25,8 @@ void lom_note(lom_note_kind kind, const char *name, const void *object, const vo
         return;
     }
     n->items[n->count++] = (struct lom_note){ kind, name, object, n->row_count, count };
-    memcpy(n->rows + n->row_count, rows, count * sizeof *n->rows);
+    if (count > 0) /* else there may be no rows yet */
+        memcpy(n->rows + n->row_count, rows, count * sizeof *n->rows);
     n->row_count += count;
 }
 
