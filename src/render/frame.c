@@ -178,9 +178,12 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
     lom_image *traced = placed && renderer->reference != NULL ? lom_draw_reference(f, &failed) : NULL;
     bool drawn = placed && renderer->reference == NULL && draw_stages(f, out->stage, &failed);
     struct moment start = look_at_clock(renderer);
-    bool done = lom_check_device(renderer->device, &failed) && put_out(f, drawn, traced, out, &failed);
+    const bool whole = lom_check_device(renderer->device, &failed); /* and not abandoned */
+    bool done = whole && put_out(f, drawn, traced, out, &failed);
     if (drawn || traced != NULL)
         out->stage[sizeof stages / sizeof stages[0]] = time_since(renderer, &start, "output");
+    if (!whole)
+        lom_free_image(traced);
     out->shallow_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) - f->wave_steps : 0;
     out->counters = subtract(lom_device_counters(renderer->device), before);
     if (f->abandoned)

@@ -294,7 +294,7 @@ static void clipping_leaves_vertices_inside_as_they_are(void)
         int pieces = lom_clip_triangle(&pass, &chunk, corner, CODE_GUARD, fan);
         bool kept = false;
         for (int i = 0; i < 3 * pieces; i++)
-            kept |= fan[0][i] == 0;
+            kept |= fan[i / 3][i % 3] == 0;
         CHECK(kept && memcmp(before, chunk.rows, 2 * sizeof before[0]) == 0, "round %d: %a, %a, w %a in %d x %d: %s",
               round, (double)p[0], (double)p[1], (double)p[3], pass.viewport.width, pass.viewport.height,
               kept ? "moved" : "cut");
