@@ -58,13 +58,13 @@ static const struct row {
 } rows[LOM_TARGETS] = {
     [LOM_TARGET_COLOR] = { "picture", ALWAYS, DRAWN, COLOR, .keeps = true },
     [LOM_TARGET_DEPTH] = { "depth", ALWAYS, DRAWN, DEPTH, .keeps = true },
-    [LOM_TARGET_REFRACTION] = { "refraction", FOR_WATER, REFRACTED, COLOR },
-    [LOM_TARGET_REFRACTION_DEPTH] = { "refraction depth", FOR_WATER, REFRACTED, DEPTH },
+    [LOM_TARGET_REFRACTION] = { "refraction", FOR_WATER, REFRACTED, COLOR, .keeps = false },
+    [LOM_TARGET_REFRACTION_DEPTH] = { "refraction depth", FOR_WATER, REFRACTED, DEPTH, .keeps = false },
     [LOM_TARGET_REFLECTION] = { "reflection", FOR_WATER, REFLECTED, COLOR, .keeps = true },
     [LOM_TARGET_REFLECTION_DEPTH] = { "reflection depth", FOR_WATER, REFLECTED, DEPTH, is_planar,
-                                      LOM_TARGET_REFRACTION_DEPTH },
-    [LOM_TARGET_MASK] = { "mask", FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION },
-    [LOM_TARGET_SPRAY] = { "spray", FOR_SPRAY, DRAWN, LAYER },
+                                      LOM_TARGET_REFRACTION_DEPTH, .keeps = false },
+    [LOM_TARGET_MASK] = { "mask", FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION, .keeps = false },
+    [LOM_TARGET_SPRAY] = { "spray", FOR_SPRAY, DRAWN, LAYER, .keeps = false },
 };
 
 /* What each target is to be for a frame of this size; width 0: the scene needs none. */

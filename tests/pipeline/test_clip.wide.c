@@ -6,6 +6,7 @@
 
 #include "base/reserve.h"
 #include "pipeline/project.h"
+#include "pipeline/variants.h"
 
 enum { SIZE = 96, MAX_CONDITIONS = 13 };
 
