@@ -130,6 +130,10 @@ long __wrap_sysconf(int name);
 int __real_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set);
 int __wrap_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set);
 
+/* Called by a sanitizer of memory before it has begun. */
+#ifdef __clang__
+__attribute__((no_sanitize("memory")))
+#endif
 long __wrap_sysconf(int name)
 {
     if (!answer.other)
