@@ -66,8 +66,11 @@ static bool draw_opaque(struct frame *f, lom_error *error)
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
     pass.label = "scene";
+    const struct lom_window shown = lom_window_of(&f->crop, f->width, f->height);
+    struct lom_scene_view part = f->view;
+    part.window = &shown;
     lom_begin_pass(r->device, &pass);
-    lom_draw_scene(r, &f->view);
+    lom_draw_scene(r, &part);
     return lom_end_pass(r->device);
 }
 

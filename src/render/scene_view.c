@@ -122,16 +122,39 @@ static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const 
     return u;
 }
 
-static struct lom_culler culler_of(const struct lom_scene_view *view)
+struct lom_window lom_window_of(const lom_rect *part, int width, int height)
 {
-    lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
+    const int first[2] = { part->x, height - part->y - part->height }, count[2] = { part->width, part->height };
+    const int size[2] = { width, height };
+    struct lom_window window;
+    for (int i = 0; i < 2; i++) {
+        window.low[i] = 2.0 * (first[i] - 1) / size[i] - 1;
+        window.high[i] = 2.0 * (first[i] + count[i] + 1) / size[i] - 1;
+    }
+    return window;
+}
+
+lom_mat4 lom_zoom_to(const struct lom_window *window, const lom_mat4 *projection)
+{
+    lom_mat4 zoom = lom_identity();
+    for (int i = 0; i < 2; i++) {
+        zoom.m[i][i] = 2 / (window->high[i] - window->low[i]);
+        zoom.m[i][3] = -(window->high[i] + window->low[i]) / (window->high[i] - window->low[i]);
+    }
+    return lom_multiply(&zoom, projection);
+}
+
+static struct lom_culler culler_of(const struct lom_scene_view *view, const struct lom_window *window)
+{
+    lom_mat4 projection = window != NULL ? lom_zoom_to(window, &view->projection) : view->projection;
+    lom_mat4 clip_from_world = lom_multiply(&projection, &view->view);
     return (struct lom_culler){ lom_view_frustum(&clip_from_world, false), view->plane, view->eye };
 }
 
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
     struct lom_view_uniform uniform = view_uniform(renderer, view);
-    struct lom_culler culler = culler_of(view);
+    struct lom_culler culler = culler_of(view, view->window);
     lom_draw_ground(renderer, view, &culler, &uniform);
     lom_draw_entities(renderer, view, &culler, &uniform);
     if (view->sky)
@@ -140,6 +163,6 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
-    struct lom_culler culler = culler_of(view);
+    struct lom_culler culler = culler_of(view, NULL);
     return lom_shows_ground(&renderer->ground, &culler) || lom_shows_entities(renderer, &culler);
 }

@@ -17,9 +17,15 @@ struct lom_caustics {
 /* What draws are of, in records. */
 enum { LOM_OBJECT_TERRAIN = 1, LOM_OBJECT_WATER = 2, LOM_OBJECT_ENTITY = 16 };
 
+/* A part of a view, in normalised device coordinates: left and bottom, right and top. */
+struct lom_window {
+    double low[2], high[2];
+};
+
 /* How a pass looks at the scene. */
 struct lom_scene_view {
     lom_mat4 projection, view;
+    const struct lom_window *window; /* what lies outside of it need not be drawn; NULL: all of the view is */
     lom_vec3 eye;
     double plane[4]; /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
     bool mirrored;   /* front faces are clockwise */
@@ -35,8 +41,12 @@ struct lom_culler {
 };
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
 
-/* Draws terrain, entities and sky into the pass that has begun; what is outside the view or behind the plane costs
- * nothing. */
+/* What a picture of width x height shows in a part of its pixels, and a pixel around it. */
+struct lom_window lom_window_of(const lom_rect *part, int width, int height);
+/* Clip coordinates in which the window is what -1..1 was. */
+lom_mat4 lom_zoom_to(const struct lom_window *window, const lom_mat4 *projection);
+/* Draws terrain, entities and sky into the pass that has begun; what is outside the view and its window or behind the
+ * plane costs nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
 /* Whether any of it but the sky would be drawn. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Proves on the demo scene, small: one hash for every lane width and thread count; a crop is the cut-out of the whole; a
-# frame alone is the frame of a run; water out of view costs no pass; cameras on the
+# frame alone is the frame of a run; a crop leaves out what it does not show; water out of view costs no pass; cameras on the
 # water's plane draw. That each step of the water shows is proved by tests/golden.
 . "$(dirname "$0")/render.sh"
 scene=assets/scenes/lake.toml
@@ -12,6 +12,11 @@ frame_alone a_frame_alone_is_the_frame_of_a_run
 
 [ "$(hash --set quality.scissor=false)" = "$(hash)" ] && why= || why='the scissor changes the picture'
 verdict the_scissor_changes_no_byte "$why"
+
+triangles() { draw --stats - --hash "$@" | sed -n 's/.*"triangles": \([0-9]*\).*/\1/p'; }
+all=$(triangles) part=$(triangles --crop 0,60,8,8)
+[ "$part" -gt 0 ] && [ $((part * 2)) -lt "$all" ] && why= || why="$part triangles for 8x8 pixels, $all for the frame"
+verdict a_crop_submits_what_it_shows "$why"
 
 away=$("$lom" plan $scene --size 160x90 --set camera.pitch=60)
 case $away in *'*  reflection'* | *'*  water'*) why=$away ;; *'reflection'*'left out'*) why= ;; *) why=$away ;; esac

@@ -5,10 +5,6 @@
 #include "render/frame.h"
 #include "water/water_models.h"
 
-/* The part of the view that a picture shows, in normalised device coordinates: left, right, bottom, top. */
-struct lom_window {
-    double low[2], high[2];
-};
 extern const struct lom_window lom_whole_view;
 
 /* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there

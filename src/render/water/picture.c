@@ -139,7 +139,10 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     lom_begin_pass(r->device, &pass);
     if (is_shown && samples <= 1 && step->width == f->width && step->height == f->height)
         copy_scene(f, view);
-    lom_draw_scene(r, view);
+    const struct lom_window shown = lom_window_of(&scissor, step->width, step->height);
+    struct lom_scene_view part = *view;
+    part.window = &shown;
+    lom_draw_scene(r, &part);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
     size_t seen;
     return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error));

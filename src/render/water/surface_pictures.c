@@ -31,17 +31,6 @@ static void set_picture(struct lom_picture_uniform *out, const struct frame *f, 
     out->shift[1] = (float)((window->high[1] - 1) / height);
 }
 
-/* Clip coordinates in which the window is what -1..1 was. */
-static lom_mat4 zoom_to(const struct lom_window *window, const lom_mat4 *projection)
-{
-    lom_mat4 zoom = lom_identity();
-    for (int i = 0; i < 2; i++) {
-        zoom.m[i][i] = 2 / (window->high[i] - window->low[i]);
-        zoom.m[i][3] = -(window->high[i] + window->low[i]) / (window->high[i] - window->low[i]);
-    }
-    return lom_multiply(&zoom, projection);
-}
-
 /* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it.
  * False where it does not meet the surface, or does not pass. */
 static bool bend_ray(const struct surface *surface, const struct frame *f, double x, double y, double out[2])
@@ -128,7 +117,7 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
     struct lom_scene_view view = f->view;
     const struct lom_waves_uniform *waves = &surface->uniforms.waves;
     struct lom_window window = bent_window(surface, f);
-    view.projection = zoom_to(&window, &f->view.projection);
+    view.projection = lom_zoom_to(&window, &f->view.projection);
     clip_at(&view, f, f->below ? 1 : -1, f->below ? -(double)waves->lowest : (double)waves->highest);
     if (!lom_shows_scene(r, &view)) {
         lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", f->below ? "the sky" : "water");
