@@ -23,8 +23,9 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     const struct lom_photon_uniforms *u = uniforms;
     lom_float x = u->corner[0] + in->x * u->cell, z = u->corner[1] + in->y * u->cell, zero = { 0 };
     struct lom_footprint f = { lom_splat(u->cell), zero, zero, lom_splat(u->cell) };
-    struct lom_wave_shift shift = lom_displace(&u->waves, x, z, &f);
-    struct lom_wave_slopes slopes = lom_find_slopes(&u->waves, x, z, &f);
+    struct lom_wave_shift shift;
+    struct lom_wave_slopes slopes;
+    LOM_WIDE(lom_find_waves_lanes)(&u->waves, &x, &z, &f, &shift, &slopes);
     lom_float3 n = lom_wave_normal(&slopes), sun = lom_uniform3(u->to_light), ray;
     lom_mask passes = lom_refract3(lom_scale3(sun, lom_splat(-1.0f)), n, lom_splat(u->eta), &ray);
     lom_float3 p = { x + shift.dx, u->waves.level + shift.h, z + shift.dz };

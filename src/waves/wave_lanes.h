@@ -115,6 +115,10 @@ void LOM_WIDE(lom_displace_lanes)(const struct lom_waves_uniform *waves, const l
                                   const struct lom_footprint *f, struct lom_wave_shift *shift);
 void LOM_WIDE(lom_find_slopes_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
                                      const struct lom_footprint *f, struct lom_wave_slopes *slopes);
+/* Both, bit for bit: the sine and cosine of a trochoid are found once. */
+void LOM_WIDE(lom_find_waves_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
+                                    const struct lom_footprint *f, struct lom_wave_shift *shift,
+                                    struct lom_wave_slopes *slopes);
 
 LOM_INLINE struct lom_wave_shift lom_displace(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                                               const struct lom_footprint *f)

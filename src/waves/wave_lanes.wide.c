@@ -18,6 +18,26 @@ static lom_float phase_change(const struct lom_trochoid_uniform *t, const struct
     return lom_max(lom_abs(t->kx * f->ax + t->kz * f->az), lom_abs(t->kx * f->bx + t->kz * f->bz));
 }
 
+/* A trochoid at a rest position: what a footprint leaves of it, and the sine and cosine of its angle times that; they are
+ * found where anything is left. */
+struct trochoid {
+    lom_float weight, sine, cosine;
+    bool is_seen;
+};
+
+static struct trochoid find_trochoid(const struct lom_trochoid_uniform *t, lom_float x, lom_float z,
+                                     const struct lom_footprint *f)
+{
+    struct trochoid found = { wave_weight(phase_change(t, f)), { 0 }, { 0 }, false };
+    found.is_seen = lom_any(found.weight > 0.0f);
+    if (!found.is_seen)
+        return found;
+    lom_float angle = t->kx * x + t->kz * z + t->phase;
+    found.sine = lom_sin(angle) * found.weight;
+    found.cosine = lom_cos(angle) * found.weight;
+    return found;
+}
+
 /* What is looked up of the region: 0 outside. */
 struct shallow_place {
     lom_float s, t, lod;
@@ -81,54 +101,51 @@ static lom_float surf_foam(const struct lom_surf_uniform *u, const struct surf_w
     return w->breaking * lom_max(behind, ahead);
 }
 
-static struct lom_wave_shift find_shift(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
-                                        const struct lom_footprint *f)
+static void add_trochoid_shift(const struct lom_trochoid_uniform *t, const struct trochoid *found,
+                               struct lom_wave_shift *p)
 {
-    struct lom_wave_shift p = { { 0 }, { 0 }, { 0 } };
-    for (int i = 0; i < waves->trochoid_count; i++) {
-        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
-        lom_float weight = wave_weight(phase_change(t, f));
-        if (!lom_any(weight > 0.0f))
-            continue;
-        lom_float angle = t->kx * x + t->kz * z + t->phase, s = lom_sin(angle) * weight;
-        p.h = p.h + t->amplitude * (lom_cos(angle) * weight);
-        p.dx = p.dx - t->across_x * s;
-        p.dz = p.dz - t->across_z * s;
-    }
+    if (!found->is_seen)
+        return;
+    p->h = p->h + t->amplitude * found->cosine;
+    p->dx = p->dx - t->across_x * found->sine;
+    p->dz = p->dz - t->across_z * found->sine;
+}
+
+/* What all others add to the shift of the trochoids. */
+static void add_other_shifts(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                             const struct lom_footprint *f, struct lom_wave_shift *p)
+{
     if (waves->shallow.surface != NULL) {
         struct shallow_place at = shallow_place_of(&waves->shallow, x, z, f);
         lom_float height = lom_sample(waves->shallow.surface, at.s, at.t, at.lod).x;
-        p.h = p.h + lom_select(at.inside, height, (lom_float){ 0 });
+        p->h = p->h + lom_select(at.inside, height, (lom_float){ 0 });
     }
     if (waves->surf.waves != NULL) {
         struct surf_wave w = find_surf(&waves->surf, x, z);
-        p.h = p.h + w.amplitude * w.height * surf_weight(&w, f);
+        p->h = p->h + w.amplitude * w.height * surf_weight(&w, f);
     }
     for (int i = 0; i < waves->cascade_count; i++) {
         const struct lom_cascade_uniform *c = &waves->cascade[i];
         lom_float4 d =
             lom_sample(c->displacement, x * c->inverse_length + c->shift[0], z * c->inverse_length + c->shift[1],
                        lom_wave_lod(c->displacement, f, c->inverse_length));
-        p.dx = p.dx + d.x;
-        p.h = p.h + d.y;
-        p.dz = p.dz + d.z;
+        p->dx = p->dx + d.x;
+        p->h = p->h + d.y;
+        p->dz = p->dz + d.z;
     }
-    return p;
 }
 
-static void add_trochoid_slopes(const struct lom_trochoid_uniform *t, lom_float x, lom_float z,
-                                const struct lom_footprint *f, struct lom_wave_slopes *w)
+static void add_trochoid_slopes(const struct lom_trochoid_uniform *t, const struct trochoid *found,
+                                struct lom_wave_slopes *w)
 {
-    lom_float weight = wave_weight(phase_change(t, f));
     float kxa = t->kx * t->amplitude, kza = t->kz * t->amplitude;
-    lom_float lost = 0.5f * (1.0f - weight * weight);
+    lom_float lost = 0.5f * (1.0f - found->weight * found->weight);
     w->vxx = w->vxx + kxa * kxa * lost;
     w->vzz = w->vzz + kza * kza * lost;
     w->vxz = w->vxz + kxa * kza * lost;
-    if (!lom_any(weight > 0.0f))
+    if (!found->is_seen)
         return;
-    lom_float angle = t->kx * x + t->kz * z + t->phase;
-    lom_float s = lom_sin(angle) * weight, c = lom_cos(angle) * weight;
+    lom_float s = found->sine, c = found->cosine;
     w->sx = w->sx - kxa * s;
     w->sz = w->sz - kza * s;
     w->xx = w->xx - t->across_x * t->kx * c;
@@ -235,34 +252,62 @@ static void add_river_slopes(const struct lom_river_uniform *river, lom_float x,
     w->vzz = w->vzz + hidden;
 }
 
-static struct lom_wave_slopes find_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
-                                          const struct lom_footprint *f)
+/* What all others add to the slopes of the trochoids; their foam. */
+static void add_other_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
+                             const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
+    if (waves->foam_threshold > 0)
+        w->foam = trochoid_foam(waves, x, z, f);
+    if (waves->surf.waves != NULL)
+        add_surf_slopes(waves, x, z, f, w);
+    for (int i = 0; i < waves->cascade_count; i++)
+        add_cascade_slopes(&waves->cascade[i], x, z, f, w);
+    if (waves->shallow.surface != NULL)
+        add_shallow_slopes(&waves->shallow, x, z, f, w);
+    if (waves->river.field != NULL)
+        add_river_slopes(&waves->river, x, z, f, w);
+}
+
+/* Both, the one, or the other: what is NULL is not asked for. */
+LOM_INLINE void find(const struct lom_waves_uniform *waves, lom_float x, lom_float z, const struct lom_footprint *f,
+                     struct lom_wave_shift *shift, struct lom_wave_slopes *slopes)
+{
+    struct lom_wave_shift p = { { 0 }, { 0 }, { 0 } };
     struct lom_wave_slopes w;
     memset(&w, 0, sizeof w);
-    for (int i = 0; i < waves->trochoid_count; i++)
-        add_trochoid_slopes(&waves->trochoid[i], x, z, f, &w);
-    if (waves->foam_threshold > 0)
-        w.foam = trochoid_foam(waves, x, z, f);
-    if (waves->surf.waves != NULL)
-        add_surf_slopes(waves, x, z, f, &w);
-    for (int i = 0; i < waves->cascade_count; i++)
-        add_cascade_slopes(&waves->cascade[i], x, z, f, &w);
-    if (waves->shallow.surface != NULL)
-        add_shallow_slopes(&waves->shallow, x, z, f, &w);
-    if (waves->river.field != NULL)
-        add_river_slopes(&waves->river, x, z, f, &w);
-    return w;
+    for (int i = 0; i < waves->trochoid_count; i++) {
+        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
+        struct trochoid found = find_trochoid(t, x, z, f);
+        if (shift != NULL)
+            add_trochoid_shift(t, &found, &p);
+        if (slopes != NULL)
+            add_trochoid_slopes(t, &found, &w);
+    }
+    if (shift != NULL) {
+        add_other_shifts(waves, x, z, f, &p);
+        *shift = p;
+    }
+    if (slopes != NULL) {
+        add_other_slopes(waves, x, z, f, &w);
+        *slopes = w;
+    }
 }
 
 void LOM_WIDE(lom_displace_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
                                   const struct lom_footprint *f, struct lom_wave_shift *shift)
 {
-    *shift = find_shift(waves, *x, *z, f);
+    find(waves, *x, *z, f, shift, NULL);
 }
 
 void LOM_WIDE(lom_find_slopes_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
                                      const struct lom_footprint *f, struct lom_wave_slopes *slopes)
 {
-    *slopes = find_slopes(waves, *x, *z, f);
+    find(waves, *x, *z, f, NULL, slopes);
+}
+
+void LOM_WIDE(lom_find_waves_lanes)(const struct lom_waves_uniform *waves, const lom_float *x, const lom_float *z,
+                                    const struct lom_footprint *f, struct lom_wave_shift *shift,
+                                    struct lom_wave_slopes *slopes)
+{
+    find(waves, *x, *z, f, shift, slopes);
 }

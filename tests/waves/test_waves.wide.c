@@ -1,5 +1,5 @@
 /* Proves of the surface of trochoids at every width: slopes are the derivatives of the displacement, crests never loop,
- * what a filter takes from the slopes it adds to their variance, phases stay exact after years, and bounds hold. */
+ * both are the same found together or apart, what a filter takes from the slopes it adds to their variance, phases stay exact after years, and bounds hold. */
 #include "check.h"
 
 #include "water/surface.h"
@@ -61,6 +61,24 @@ static void slopes_are_derivatives_of_the_displacement(void)
         CHECK(near(difference(e.dz, w.dz, step), s.xz[0], 2e-3), "zx %g", s.xz[0]);
         lom_float3 normal = lom_wave_normal(&s);
         CHECK(near(lom_dot3(normal, normal)[0], 1, 1e-6) && normal.y[0] > 0, "normal %g", normal.y[0]);
+    }
+}
+
+/* Footprints of nothing, of single waves and of all of them, which leave some of the waves. */
+static void found_together_or_apart_waves_are_the_same(void)
+{
+    struct lom_waves_uniform waves = waves_at(0.8, 0.7, 12, 3.5);
+    waves.foam_threshold = 0.9f;
+    waves.foam_window = 2;
+    for (int i = 0; i < 400; i++) {
+        lom_float x = lom_splat(0.37f * (float)i - 20), z = lom_splat(11 - 0.21f * (float)i);
+        lom_float size = lom_splat(0.05f * (float)(i % 200)), zero = { 0 };
+        struct lom_footprint f = { size, zero, zero, size };
+        struct lom_wave_shift p = lom_displace(&waves, x, z, &f), q;
+        struct lom_wave_slopes s = lom_find_slopes(&waves, x, z, &f), w;
+        LOM_WIDE(lom_find_waves_lanes)(&waves, &x, &z, &f, &q, &w);
+        CHECK(memcmp(&p, &q, sizeof p) == 0, "another place of %d", i);
+        CHECK(memcmp(&s, &w, sizeof s) == 0, "other slopes of %d", i);
     }
 }
 
@@ -231,6 +249,7 @@ static void a_mesh_is_that_of_its_frame_alone(void)
 int main(int argc, char **argv)
 {
     RUN(slopes_are_derivatives_of_the_displacement);
+    RUN(found_together_or_apart_waves_are_the_same);
     RUN(w1_crests_never_loop);
     RUN(w3_foam_is_a_share);
     RUN(w2_no_height_is_flat);

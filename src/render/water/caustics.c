@@ -40,6 +40,7 @@ static struct lom_photon_uniforms photon_uniforms(const struct frame *f, const d
                                      .eta = (float)(1 / f->scene->water.optics.index),
                                      .bed = r->water.bed,
                                      .bed_base = (float)(t->base - f->view.eye.y) };
+    u.waves.foam_threshold = 0; /* photons read no foam, which is the dearest of what is found with the slopes */
     struct lom_light_uniform light = lom_scene_light(f->scene);
     const int texels[2] = { lom_texture_width(r->water.bed), lom_texture_height(r->water.bed) };
     memcpy(u.to_light, light.to_light, sizeof u.to_light);
