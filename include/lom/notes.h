@@ -26,16 +26,25 @@ typedef enum lom_note_kind {
 /* Adds a note of `count` rows of four floats, copied, when this thread watches; else does nothing. name: not copied. */
 void lom_note(lom_note_kind kind, const char *name, const void *object, const void *rows, size_t count);
 
-/* LOM_NAME_AS(name, x): the same under another name. */
+/* LOM_NAME_AS(name, x): the same under another name. LOM_NAME_BY(text, x): under the name that a string holds, which must
+ * last as long as the record; NULL: not at all. */
 #ifdef LOM_RECORD
 #define LOM_NAME_AS(name, x)                                                                                           \
     do {                                                                                                               \
         __typeof__(x) lom_named = (x);                                                                                 \
         lom_note(LOM_NOTE_VALUE, #name, NULL, &lom_named, sizeof lom_named / sizeof(lom_float));                       \
     } while (0)
+#define LOM_NAME_BY(text, x)                                                                                           \
+    do {                                                                                                               \
+        const char *lom_name = (text);                                                                                 \
+        __typeof__(x) lom_named = (x);                                                                                 \
+        if (lom_name != NULL)                                                                                          \
+            lom_note(LOM_NOTE_VALUE, lom_name, NULL, &lom_named, sizeof lom_named / sizeof(lom_float));                \
+    } while (0)
 #define LOM_NAME_VALUE(x) LOM_NAME_AS(x, x)
 #else
 #define LOM_NAME_AS(name, x) ((void)sizeof(x))
+#define LOM_NAME_BY(text, x) ((void)sizeof(x))
 #define LOM_NAME_VALUE(x)    ((void)sizeof(x))
 #endif
 

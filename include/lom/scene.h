@@ -96,6 +96,45 @@ typedef struct lom_light {
     size_t key_count; /* 0: a sun that stands still */
 } lom_light;
 
+/* ---- [[lamp]] ---- */
+
+typedef struct lom_lamp_key { /* [[lamp.key]]; times rise strictly from key to key */
+    bool present;
+    double time; /* seconds */
+    lom_vec3 position, direction;
+    double intensity;
+} lom_lamp_key;
+
+typedef enum lom_lamp_kind {
+    LOM_LAMP_POINT,   /* light to all sides of its position */
+    LOM_LAMP_SPOT,    /* within a cone about its direction */
+    LOM_LAMP_INFINITE /* from everywhere against its direction, with the same strength at every place */
+} lom_lamp_kind;
+
+/* A light beside the sun. At d metres its colours are multiplied by 1 / (attenuation[0] + attenuation[1] d +
+ * attenuation[2] d^2), within the cone of a spot by max(-L.D, 0)^exponent too. */
+typedef struct lom_lamp {
+    bool present;
+    const char *name;   /* NULL when it has none; unique in the scene */
+    lom_lamp_kind kind; /* follows from which of position, direction and cutoff the file gives */
+    lom_vec3 position;  /* metres; in the followed entity's coordinates when it follows one */
+    lom_vec3 direction; /* unit vector, the way the light travels */
+    double ambient[3], diffuse[3], specular[3]; /* linear, each multiplied by intensity */
+    double intensity;
+    double attenuation[3]; /* constant, linear 1/m, quadratic 1/m^2; not all 0. The file's range is worked into it */
+    double range;          /* metres, as in the file; 0: none */
+    double reach;          /* metres from which there is no light; 0: where no colour is above 1/1000 */
+    double cutoff;         /* radians from the middle of the cone to its edge: to pi / 2, or pi: light to all sides */
+    double softness;       /* radians inside the edge over which light begins; at most cutoff */
+    double exponent;
+    bool on;
+    lom_interpolation interpolation; /* between the keys */
+    lom_lamp_key *keys;
+    size_t key_count;   /* 0: it does not change */
+    const char *follow; /* name of an entity, or NULL */
+    size_t followed;    /* 1 + its index; 0: none */
+} lom_lamp;
+
 /* ---- [haze] ---- */
 
 /* Air that scatters: of a colour at the end of a path, exp(-optical depth) is left, and the air's colour fills the
@@ -181,6 +220,8 @@ typedef struct lom_entity_place {
 /* ---- [quality]: the dials ---- */
 
 typedef enum lom_shading { LOM_SHADING_PHONG, LOM_SHADING_GOURAUD, LOM_SHADING_FLAT } lom_shading;
+/* What a surface makes of a light: Lambert's cosine with Phong's or Blinn's highlight, or tones by thresholds. */
+typedef enum lom_reflection { LOM_REFLECTION_PHONG, LOM_REFLECTION_BLINN_PHONG, LOM_REFLECTION_TOON } lom_reflection;
 typedef enum lom_texture_filter {
     LOM_TEXTURE_TRILINEAR,
     LOM_TEXTURE_BILINEAR, /* linear within the nearest level */
@@ -207,6 +248,8 @@ typedef struct lom_quality {
     lom_impostor_rule impostors;
     lom_impostor_dials impostor;
     lom_shading shading;
+    lom_reflection reflection;
+    double toon_thresholds[3], toon_tones[3]; /* cosines that rise, and what is reflected from each on */
     lom_texture_filter texture_filter;
     int anisotropy;          /* probes a sample of ground and entities, at most; 1 to 16 */
     lom_filtering filtering; /* of 8-bit textures, targets too */
@@ -215,6 +258,7 @@ typedef struct lom_quality {
     double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale; /* the same of the refraction picture */
     lom_reference_quality reference;
+    bool lamp_tiles;        /* lamps are looked at only near where they reach; changes no byte */
     bool scissor;           /* pictures are drawn only where lookups can reach; changes no byte */
     double terrain_error;   /* pixels that terrain may be off where it is drawn coarser; 0: full density */
     bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
@@ -230,6 +274,8 @@ typedef struct lom_scene {
     lom_output output;
     lom_camera camera;
     lom_light light;
+    lom_lamp *lamps; /* [[lamp]] */
+    size_t lamp_count;
     lom_haze haze;       /* clear air when given is 0 */
     lom_terrain terrain; /* there is none when given is 0 */
     lom_sky_params sky;
@@ -267,6 +313,9 @@ const char *const *lom_scene_files(const lom_scene *scene, size_t *count);
 lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time);
 /* The light at a time: azimuth, elevation, colour and intensity go straight from key to key. */
 lom_light lom_scene_light_at(const lom_scene *scene, double time);
+/* A lamp at a time, with what its keys say of position, direction and intensity; what it follows is left out. Smooth as
+ * of the camera; a direction between keys is turned to unit length, and is the lamp's own where they cancel. */
+lom_lamp lom_scene_lamp_at(const lom_lamp *lamp, double time);
 /* An entity at a time; smooth as of the camera. */
 lom_entity_place lom_scene_entity_at(const lom_entity *entity, double time);
 /* The way sunlight travels from where the sun stands. */

@@ -13,11 +13,6 @@ static double draw(struct numbers *numbers)
     return lom_random_uniform(numbers->key, numbers->counter++);
 }
 
-static lom_vec3 product(lom_vec3 a, lom_vec3 b)
-{
-    return (lom_vec3){ a.x * b.x, a.y * b.y, a.z * b.z };
-}
-
 enum { TENTATIVE = 1 << 20 }; /* encounters before the path is given up: where steps are lost to rounding */
 enum meeting { LEFT, MET, GIVEN_UP };
 

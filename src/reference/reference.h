@@ -86,6 +86,21 @@ void lom_free_placed(lom_reference *reference);
 /* Shading (shade.c): the light that an opaque surface sends back along a ray. */
 lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                        double time);
+/* Reflection (reflect.c): sun, ambient light and lamps at a place. */
+struct lom_incident {
+    lom_vec3 to_light, light; /* the sun's, as it comes there */
+    lom_vec3 ambient, ground; /* on what faces up and down */
+};
+struct lom_facing {
+    lom_vec3 place, normal, to_eye, albedo;
+    double depth; /* metres of water above */
+};
+lom_vec3 lom_reflect_light(const lom_reference *reference, const struct lom_incident *in,
+                           const struct lom_ray_material *m, const struct lom_facing *at);
+/* Beer and Lambert: what is left behind a path of this length. */
+lom_vec3 lom_transmitted(const double absorption[3], double path);
+/* What of a lamp's colours comes to a place (lamps.c), the unit vector to it and how far it is (1e300: at infinity). */
+double lom_lamp_share_at(const struct lom_placed_lamp *lamp, lom_vec3 place, lom_vec3 *to_lamp, double *distance);
 /* What lies behind everything. */
 lom_vec3 lom_sky_light(const lom_reference *reference, lom_vec3 direction);
 

@@ -1,12 +1,7 @@
-/* What an opaque surface sends back along a ray. In: a hit. Out: radiance by Phong's reflection (1975) of the scene's
- * directional light and ambient light, the terrain with its layers; the sky in a direction. */
+/* What an opaque surface sends back along a ray. In: a hit. Out: radiance of the light that comes there (reflect.c), the
+ * terrain with its layers; the sky in a direction. */
 #include "base/numbers.h"
 #include "reference/reference.h"
-
-static lom_vec3 product(lom_vec3 a, lom_vec3 b)
-{
-    return (lom_vec3){ a.x * b.x, a.y * b.y, a.z * b.z };
-}
 
 static lom_vec3 mixed(lom_vec3 a, lom_vec3 b, double share)
 {
@@ -36,25 +31,13 @@ static struct point find_point(const lom_reference *reference, const struct lom_
 
 /* ---- light ---- */
 
-struct incident {
-    lom_vec3 to_light, light;
-    lom_vec3 ambient, ground; /* on what faces up and down */
-};
-
-/* Beer and Lambert: what is left behind a path of this length. */
-static lom_vec3 transmitted(const double absorption[3], double path)
-{
-    return (lom_vec3){ lom_double_exp(-absorption[0] * path), lom_double_exp(-absorption[1] * path),
-                       lom_double_exp(-absorption[2] * path) };
-}
-
 /* Light that has come through `depth` metres of water. The sun's beam is bent at the mean (level) surface; what enters
  * a horizontal area is kept, so across the beam it is light (1 - R) cos / cos', over the path depth / cos'. The ambient
  * light, from everywhere, loses 0.066 at the surface (C. Mobley, Light and Water, 1994, 4.2) and is followed straight
  * down. */
-static struct incident find_light(const lom_reference *reference, double depth)
+static struct lom_incident find_light(const lom_reference *reference, double depth)
 {
-    struct incident in = { reference->to_light, reference->light, reference->ambient, reference->ground_light };
+    struct lom_incident in = { reference->to_light, reference->light, reference->ambient, reference->ground_light };
     if (!(depth > 0))
         return in;
     const lom_reference_water *water = &reference->water;
@@ -66,9 +49,9 @@ static struct incident find_light(const lom_reference *reference, double depth)
         beam = (1 - lom_reference_fresnel(cosine, water->index)) * cosine / in.to_light.y;
         beam_path = depth / in.to_light.y;
     }
-    in.light = scaled(product(in.light, transmitted(water->absorption, beam_path)), beam);
-    in.ambient = scaled(product(in.ambient, transmitted(water->absorption, depth)), 1 - 0.066);
-    in.ground = scaled(product(in.ground, transmitted(water->absorption, depth)), 1 - 0.066);
+    in.light = scaled(product(in.light, lom_transmitted(water->absorption, beam_path)), beam);
+    in.ambient = scaled(product(in.ambient, lom_transmitted(water->absorption, depth)), 1 - 0.066);
+    in.ground = scaled(product(in.ground, lom_transmitted(water->absorption, depth)), 1 - 0.066);
     return in;
 }
 
@@ -110,22 +93,6 @@ static bool is_lit(const lom_reference *reference, lom_vec3 place, double depth,
         ray = (struct lom_ray){ along(place, to_light, length), reference->to_light };
     }
     return is_open(reference, &ray, 1e300);
-}
-
-/* ambient m.ambient + light (m.diffuse N.L + m.specular (R.E)^s), the first two terms times albedo; the ambient
- * light goes from the ground's to the sky's with the cosine to up. */
-static lom_vec3 reflect_light(const struct incident *in, const struct lom_ray_material *m, lom_vec3 normal,
-                              lom_vec3 to_eye, lom_vec3 albedo)
-{
-    double facing = dot(normal, in->to_light);
-    lom_vec3 ambient = along(in->ground, difference(in->ambient, in->ground), 0.5 + 0.5 * normal.y);
-    lom_vec3 textured =
-        sum(product(ambient, m->ambient), scaled(product(in->light, m->diffuse), lom_larger(facing, 0)));
-    lom_vec3 color = product(textured, albedo);
-    double mirrored = dot(lom_reference_mirror(scaled(in->to_light, -1), normal), to_eye);
-    if (facing > 0 && mirrored > 0)
-        color = sum(color, scaled(product(in->light, m->specular), lom_double_pow(mirrored, m->shininess)));
-    return color;
 }
 
 /* ---- terrain ---- */
@@ -226,23 +193,24 @@ lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray
 {
     struct point s = find_point(reference, hit);
     double depth = lom_water_above(reference, s.place, time);
-    struct incident in = find_light(reference, depth);
+    struct lom_incident in = find_light(reference, depth);
     if (dot(in.light, in.light) > 0 && !is_lit(reference, s.place, depth, in.to_light))
         in.light = (lom_vec3){ 0, 0, 0 };
     if (reference->cloud_count > 0)
         in.light = scaled(in.light, lom_cloud_shadow(reference, s.place, time));
-    lom_vec3 to_eye = scaled(ray->direction, -1);
+    struct lom_facing facing = { s.place, s.normal, scaled(ray->direction, -1), { 1, 1, 1 }, depth };
     uint32_t material = reference->opaque.triangles[hit->triangle].material;
     if (material == LOM_TERRAIN_MATERIAL) {
         s.normal = ground_facing(reference, s.place);
-        return reflect_light(&in, &reference->ground, ground_normal(reference, &s), to_eye,
-                             ground_color(reference, &s));
+        facing.normal = ground_normal(reference, &s);
+        facing.albedo = ground_color(reference, &s);
+        return lom_reflect_light(reference, &in, &reference->ground, &facing);
     }
     const struct lom_ray_material *m = &reference->materials[material];
-    lom_vec3 albedo = s.color;
+    facing.albedo = s.color;
     if (m->picture >= 0)
-        albedo = product(albedo, lom_sample_picture(&reference->pictures[m->picture].picture, s.u, s.v));
-    return reflect_light(&in, m, s.normal, to_eye, albedo);
+        facing.albedo = product(facing.albedo, lom_sample_picture(&reference->pictures[m->picture].picture, s.u, s.v));
+    return lom_reflect_light(reference, &in, m, &facing);
 }
 
 /* shading/gradient.h in double; d of unit length. */

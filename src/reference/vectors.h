@@ -27,6 +27,12 @@ static inline lom_vec3 along(lom_vec3 a, lom_vec3 b, double t)
     return (lom_vec3){ a.x + b.x * t, a.y + b.y * t, a.z + b.z * t };
 }
 
+/* Component by component. */
+static inline lom_vec3 product(lom_vec3 a, lom_vec3 b)
+{
+    return (lom_vec3){ a.x * b.x, a.y * b.y, a.z * b.z };
+}
+
 static inline double dot(lom_vec3 a, lom_vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -15,6 +15,7 @@ static const struct stage {
     bool (*run)(struct frame *f, lom_error *error);
     const char *name;
 } stages[] = {
+    { lom_prepare_lamps, "lamps" },    /* where each of them reaches */
     { lom_prepare_ground, "terrain" }, /* its levels of detail and its shadow */
     { lom_prepare_entities, "entity_shadow" },
     { lom_prepare_clouds, "cloud_light" }, /* their light */

@@ -12,7 +12,7 @@ enum { each_frame = 0 };
 
 const struct lom_key_row lom_key_rows[] = {
     { each_frame, "title output output.width output.height output.frames output.fps output.sample_shading output.white "
-                  "camera.* light.* haze.*" },
+                  "camera.* light.* lamp.* haze.*" },
     { LOM_PART_TARGETS, "output.format output.samples output.exposure output.curve" },
     { LOM_PART_TEXTURES | LOM_PART_TARGETS, "output.transfer" },
 
@@ -84,7 +84,8 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
     { LOM_PART_GROUND, "quality.ambient_occlusion" },
     { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
-                  "quality.impostor.* quality.shading quality.scissor quality.reference.* quality.terrain_error" },
+                  "quality.impostor.* quality.shading quality.reflection quality.toon_thresholds "
+                  "quality.toon_tones quality.lamp_tiles quality.scissor quality.reference.* quality.terrain_error" },
 };
 const size_t lom_key_row_count = sizeof lom_key_rows / sizeof *lom_key_rows;
 

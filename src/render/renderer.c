@@ -63,6 +63,7 @@ void lom_free_renderer(lom_renderer *renderer)
     lom_drop_made(renderer, LOM_PARTS_ALL);
     lom_free_rooms(renderer, LOM_PARTS_ALL);
     lom_free_textures(renderer);
+    lom_free_lamps(&renderer->lamps);
     lom_free_moment(&renderer->moment);
     lom_free_world(renderer->world);
     lom_close_device(renderer->device);

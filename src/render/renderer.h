@@ -6,6 +6,7 @@
 #include "render/clouds/clouds.h"
 #include "render/entities/entities.h"
 #include "render/ground/ground.h"
+#include "render/lamps.h"
 #include "render/sky.h"
 #include "render/spray/spray.h"
 #include "render/targets.h"
@@ -30,6 +31,7 @@ struct lom_renderer {
     struct lom_drawn_water water;
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
+    struct lom_drawn_lamps lamps;
     struct lom_targets targets, other_targets; /* of this frame; of the size before */
     char loaded[128];                          /* what the last change of the scene loaded */
     const lom_renderer *before;                /* while a scene is changed: what rooms may share; else NULL */

@@ -59,6 +59,7 @@ void lom_center_row(float out[4], const double row[4], lom_vec3 eye)
 struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_vec3 eye)
 {
     struct lom_light_uniform u = lom_scene_light(renderer->scene);
+    lom_set_lamps(&u, renderer, eye);
     lom_set_ground_light(&u, renderer, eye);
     lom_set_cloud_light(&u, renderer, eye);
     return u;
@@ -109,12 +110,26 @@ static struct lom_caustics_uniform caustics_uniform(const struct lom_caustics *c
                                           .lod_scale = (float)caustics->lod_scale };
 }
 
+static struct lom_reflection_uniform reflection_uniform(const lom_quality *quality)
+{
+    static const int models[] = { [LOM_REFLECTION_PHONG] = LOM_MODEL_PHONG,
+                                  [LOM_REFLECTION_BLINN_PHONG] = LOM_MODEL_BLINN_PHONG,
+                                  [LOM_REFLECTION_TOON] = LOM_MODEL_TOON };
+    struct lom_reflection_uniform u = { .model = models[quality->reflection] };
+    for (int i = 0; i < LOM_TONES; i++) {
+        u.threshold[i] = (float)quality->toon_thresholds[i];
+        u.tone[i] = (float)quality->toon_tones[i];
+    }
+    return u;
+}
+
 static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
     struct lom_view_uniform u = { .clip_from_offset = lom_round_matrix(&clip_from_offset),
                                   .light = lom_renderer_light(renderer, view->eye),
                                   .haze = lom_scene_haze(renderer->scene, view->eye.y, view->mirrored),
+                                  .reflection = reflection_uniform(&renderer->scene->quality),
                                   .caustics = caustics_uniform(&view->caustics, view->eye) };
     for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
         u.entity_shadow[i] = lom_entity_shadow_uniform(&renderer->entities.shadows[i], view->eye);

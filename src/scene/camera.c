@@ -1,6 +1,7 @@
-/* The camera, the light and the entities at a time. In: the scene's key frames and a time. Out: position, target and
+/* The camera, the light, the lamps and the entities at a time. In: the scene's key frames and a time. Out: position, target and
  * angle; direction and colour; position and rotation. Invariant: functions of the time alone. */
 #include "base/numbers.h"
+#include "scene/direction.h"
 #include "scene/key_frames.h"
 
 #include <lom/scene.h>
@@ -37,6 +38,26 @@ lom_light lom_scene_light_at(const lom_scene *scene, double time)
         light.color[i] = v[2 + i];
     light.intensity = v[5];
     return light;
+}
+
+lom_lamp lom_scene_lamp_at(const lom_lamp *lamp, double time)
+{
+    lom_lamp at = *lamp;
+    if (at.key_count == 0)
+        return at;
+    double v[7];
+    lom_follow_keys(&(struct lom_key_frames){ at.keys, sizeof *at.keys, at.key_count, offsetof(lom_lamp_key, time), 7,
+                                              at.interpolation == LOM_INTERPOLATION_SMOOTH },
+                    time, v);
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    at.position = (lom_vec3){ v[0], v[1], v[2] };
+    lom_vec3 direction = { v[3], v[4], v[5] };
+    if (lom_make_unit(&direction))
+        at.direction = direction;
+    at.intensity = v[6] > 0 ? v[6] : 0; /* a smooth curve may overshoot */
+    lom_leave_float_state(&state);
+    return at;
 }
 
 lom_vec3 lom_sunlight_direction(double azimuth, double elevation)

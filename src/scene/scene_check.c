@@ -49,6 +49,7 @@ static bool check_all_names(lom_scene *scene, const lom_key_check *root)
 {
     const struct named things[] = {
         NAMED("entity", "another entity has this name already.", scene->entities, scene->entity_count),
+        NAMED("lamp", "another lamp has this name already.", scene->lamps, scene->lamp_count),
         NAMED("cloud", "another cloud has this name already.", scene->cloud, scene->cloud_count),
         NAMED("spray", "another emitter has this name already.", scene->sprays, scene->spray_count),
     };
@@ -108,6 +109,14 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     if (camera->follow != NULL && camera->followed == 0) {
         const lom_key_check table = table_of(root, "camera");
         return table.fail(&table, "follow", "no entity has this name.");
+    }
+    for (size_t i = 0; i < scene->lamp_count; i++) {
+        lom_lamp *lamp = &scene->lamps[i];
+        lamp->followed = lamp->follow == NULL ? 0 : find_entity(scene, lamp->follow);
+        if (lamp->follow != NULL && lamp->followed == 0) {
+            const lom_key_check at = root->element(root, "lamp", i);
+            return at.fail(&at, "follow", "no entity has this name.");
+        }
     }
     for (size_t i = 0; i < scene->shallow.body_count; i++) {
         lom_shallow_body *body = &scene->shallow.bodies[i];

@@ -136,6 +136,15 @@ static const lom_key quality[] = {
     { "impostor", LOM_KEY_TABLE, AT(lom_quality, impostor), .table = &lom_impostor_keys },
     { "shading", LOM_KEY_CHOICE, AT(lom_quality, shading), .choices = { "phong", "gouraud", "flat" },
       .text = "Light for each fragment, for each vertex, or for each face." },
+    { "reflection", LOM_KEY_CHOICE, AT(lom_quality, reflection), .choices = { "phong", "blinn_phong", "toon" },
+      .text = "What ground and entities make of light: Lambert's cosine with the highlight of Phong, from the mirrored "
+              "light, or of Blinn, from the vector halfway to the eye; or a few tones (docs/lighting.md)." },
+    { "toon_thresholds", LOM_KEY_NUMBER, AT(lom_quality, toon_thresholds), 3, .maximum = 1,
+      .initial = { 0.1, 0.45, 0.8 },
+      .text = "Cosines between normal and light from which `toon` gives each of its tones; below the first there is "
+              "none." },
+    { "toon_tones", LOM_KEY_NUMBER, AT(lom_quality, toon_tones), 3, .maximum = 1000, .initial = { 0.3, 0.65, 1 },
+      .text = "The tones, in parts of the light." },
     { "texture_filter", LOM_KEY_CHOICE, AT(lom_quality, texture_filter),
       .choices = { "trilinear", "bilinear", "nearest" }, .text = "How textures are sampled." },
     { "anisotropy", LOM_KEY_INTEGER, AT(lom_quality, anisotropy), .minimum = 1, .maximum = 16, .initial = { 1 },
@@ -156,6 +165,10 @@ static const lom_key quality[] = {
       .initial = { 1 }, .text = "Size of the reflection's picture, in parts of the output's, along each axis." },
     { "refraction_scale", LOM_KEY_NUMBER, AT(lom_quality, refraction_scale), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 1 }, .text = "The same of the refraction's picture." },
+    { "lamp_tiles", LOM_KEY_BOOL, AT(lom_quality, lamp_tiles), .initial = { 1 },
+      .text =
+          "Look at each lamp only on the squares of ground that its light reaches. Changes time alone: off gives the "
+          "same bytes." },
     { "scissor", LOM_KEY_BOOL, AT(lom_quality, scissor), .initial = { 1 },
       .text =
           "Draw these pictures only where the water can look them up. Changes time alone: off gives the same bytes." },
@@ -174,9 +187,17 @@ static const lom_key quality[] = {
     { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion),
       .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
 };
+static bool check_quality(void *members, const lom_key_check *check)
+{
+    const double *t = ((const lom_quality *)members)->toon_thresholds;
+    return (t[0] <= t[1] && t[1] <= t[2]) ||
+           check->fail(check, "toon_thresholds", "the thresholds of tones rise from the first to the last.");
+}
+
 static const lom_key_table quality_table = { .size = sizeof(lom_quality),
                                              .keys = quality,
                                              .key_count = COUNT(quality),
+                                             .check = check_quality,
                                              .text = "The dials that trade accuracy for time." };
 
 static const lom_key root[] = {
@@ -184,6 +205,8 @@ static const lom_key root[] = {
     { "output", LOM_KEY_TABLE, AT(lom_scene, output), .table = &output_table },
     { "camera", LOM_KEY_TABLE, AT(lom_scene, camera), .table = &lom_camera_keys },
     { "light", LOM_KEY_TABLE, AT(lom_scene, light), .table = &lom_light_keys },
+    { "lamp", LOM_KEY_TABLES, AT(lom_scene, lamps), .table = &lom_lamp_keys, .length_offset = AT(lom_scene, lamp_count),
+      .text = "Lights beside the sun." },
     { "haze", LOM_KEY_TABLE, AT(lom_scene, haze), .table = &haze_table },
     { "sky", LOM_KEY_TABLE, AT(lom_scene, sky), .table = &lom_sky_keys },
     { "terrain", LOM_KEY_TABLE, AT(lom_scene, terrain), .table = &lom_terrain_keys },

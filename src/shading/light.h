@@ -25,6 +25,8 @@ struct lom_light_uniform {
     float ground_scale[2], ground_shift[2]; /* its coordinates are (x, z) ground_scale + ground_shift */
     float ground_height;                    /* of the offsets' origin over the base, metres */
     float ground_sharpness;                 /* 1 / metres from dark to light */
+    const struct lom_lamps_uniform *lamps;  /* beside it (shading/lamp.h); NULL: none */
+    float lamp_shift[3];                    /* of the offsets' origin from the lamps': the eye of the frame */
 };
 
 /* The share of the light that passes terrain: all above the shadow's height, none so far below it as the edge is high.
@@ -51,19 +53,24 @@ LOM_INLINE lom_float lom_light_share(const struct lom_light_uniform *light, lom_
     return share * (1.0f - light->shadow_strength * (1.0f - through));
 }
 
-/* Phong's specular term max(R.E, 0)^shininess of the light, R its reflection; 0 where the light is behind the surface
- * and where R.E is not above 0, for a shininess of 0 too. */
-LOM_INLINE lom_float lom_phong_specular(const struct lom_light_uniform *light, lom_float3 normal, lom_float3 to_eye,
-                                        float shininess)
+/* Phong's specular term max(R.E, 0)^exponent of a light, R its reflection; 0 where the light is behind the surface and
+ * where R.E is not above 0, for an exponent of 0 too. */
+LOM_INLINE lom_float lom_phong_highlight(lom_float3 normal, lom_float3 to_light, lom_float3 to_eye, lom_float exponent)
 {
-    lom_float3 to_light = lom_uniform3(light->to_light);
     lom_float facing = lom_dot3(normal, to_light);
     lom_float3 reflected = lom_sub3(lom_scale3(normal, 2.0f * facing), to_light);
     lom_float cosine = lom_max(lom_dot3(reflected, to_eye), (lom_float){ 0 });
     lom_mask shines = (facing > 0.0f) & (cosine > 0.0f);
     if (!lom_any(shines))
         return (lom_float){ 0 };
-    return lom_select(shines, lom_pow(cosine, lom_splat(shininess)), (lom_float){ 0 });
+    return lom_select(shines, lom_pow(cosine, exponent), (lom_float){ 0 });
+}
+
+/* The same of the directional light. */
+LOM_INLINE lom_float lom_phong_specular(const struct lom_light_uniform *light, lom_float3 normal, lom_float3 to_eye,
+                                        float shininess)
+{
+    return lom_phong_highlight(normal, lom_uniform3(light->to_light), to_eye, lom_splat(shininess));
 }
 
 /* max(N.L, 0) */

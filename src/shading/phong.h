@@ -1,5 +1,5 @@
-/* Phong's reflection over lanes: ambient + light (diffuse N.L + specular (R.E)^s), for what is opaque in a scene, and the
- * air in front of it. The ambient light is a hemisphere's: a mix of the sky's and the ground's by the cosine between
+/* Reflection over lanes: ambient + light (diffuse N.L + specular (R.E)^s) of the sun and of each lamp, by Phong's model or
+ * another (reflection.h), for what is opaque in a scene, and the air in front of it. The ambient light is a hemisphere's: a mix of the sky's and the ground's by the cosine between
  * the normal and up. */
 #ifndef LOM_SHADING_PHONG_H
 #define LOM_SHADING_PHONG_H
@@ -15,16 +15,17 @@ struct lom_lit {
 void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
                                 lom_float *share);
 
-/* sky: the share of the sky that the place sees. One function a width, so that no shader has a copy. */
+/* sky: the share of the sky that the place sees. exponent: of the highlight; NULL: the material's shininess. One function a
+ * width, so that no shader has a copy. */
 void LOM_WIDE(lom_phong_light_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
                                      const lom_float3 *offset, const lom_float3 *normal, const lom_float *sky,
-                                     struct lom_lit *lit);
+                                     const lom_float *exponent, struct lom_lit *lit);
 
 LOM_INLINE struct lom_lit lom_phong_light(const struct lom_view_uniform *view, const struct lom_material_uniform *m,
                                           lom_float3 offset, lom_float3 normal, lom_float sky)
 {
     struct lom_lit lit;
-    LOM_WIDE(lom_phong_light_lanes)(view, m, &offset, &normal, &sky, &lit);
+    LOM_WIDE(lom_phong_light_lanes)(view, m, &offset, &normal, &sky, NULL, &lit);
     return lit;
 }
 

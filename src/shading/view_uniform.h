@@ -9,6 +9,14 @@ struct lom_material_uniform {
     const lom_texture *texture; /* multiplies ambient and diffuse; NULL: white */
 };
 
+/* How surfaces reflect (shading/reflection.h): a model, and the thresholds and tones of the toon model. */
+enum { LOM_MODEL_PHONG, LOM_MODEL_BLINN_PHONG, LOM_MODEL_TOON };
+enum { LOM_TONES = 3 };
+struct lom_reflection_uniform {
+    int model;
+    float threshold[LOM_TONES], tone[LOM_TONES];
+};
+
 /* The sunlight that waves focus on what is below the level: a map over x and z. */
 struct lom_caustics_uniform {
     const lom_texture *map; /* NULL: none */
@@ -33,6 +41,7 @@ struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_offset;
     struct lom_light_uniform light;
     struct lom_haze_uniform haze;
+    struct lom_reflection_uniform reflection;
     float plane[4]; /* clip distance 0 is plane . (offset, 1); (0, 0, 0, 1) keeps everything */
     struct lom_caustics_uniform caustics;
     struct lom_shadow_map_uniform entity_shadow[LOM_ENTITY_SHADOWS];

@@ -1,5 +1,5 @@
-/* A world at a time. In: the key frames of its light, camera and entities. Out: light, camera, and where the entities
- * are. Invariant: a function of the time alone. */
+/* A world at a time. In: the key frames of its light, camera, entities and lamps. Out: light, camera, and where the
+ * entities and the lamps are. Invariant: a function of the time alone. */
 #include "scene/scene_light.h"
 #include "world/world.h"
 
@@ -42,7 +42,7 @@ bool lom_world_at(const struct lom_world *world, double time, struct lom_moment 
     moment->scene.light = lom_scene_light_at(world->scene, time);
     moment->to_light = lom_to_light(&moment->scene.light);
     moment->camera = lom_scene_camera_at(world->scene, time);
-    bool done = place_all(world, moment, first, error);
+    bool done = place_all(world, moment, first, error) && lom_place_lamps(world, moment, error);
     lom_leave_float_state(&state);
     if (!done && first)
         lom_free_moment(moment);
@@ -53,11 +53,16 @@ void lom_free_moment(struct lom_moment *moment)
 {
     lom_release(moment->placements);
     moment->placements = NULL;
+    lom_release(moment->lamps);
+    moment->lamps = NULL;
+    moment->lamp_count = moment->lamp_capacity = 0;
 }
 
 bool lom_world_moves(const struct lom_world *world)
 {
     bool moves = world->scene->light.key_count != 0;
+    for (size_t i = 0; i < world->scene->lamp_count; i++)
+        moves = moves || world->scene->lamps[i].key_count != 0;
     for (size_t i = 0; i < world->entity_count; i++)
         moves = moves || world->entities[i].entity->key_count != 0;
     return moves;

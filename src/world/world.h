@@ -100,21 +100,34 @@ struct lom_placement {
     lom_box bounds; /* in the world */
 };
 
+/* A lamp that shines. */
+struct lom_placed_lamp {
+    const lom_lamp *lamp;                       /* the scene's */
+    lom_vec3 position;                          /* in the world */
+    lom_vec3 direction;                         /* unit: the way its light travels */
+    double ambient[3], diffuse[3], specular[3]; /* times its intensity */
+    double reach;                               /* metres; no less than 1e300: it has no end */
+};
+
 struct lom_moment {
     double time;
     lom_scene scene;   /* the world's, its light that of the time; the entities' tables are as in the file */
     lom_vec3 to_light; /* unit: from the scene to the sun */
     lom_camera_view camera;
     struct lom_placement *placements; /* one an entity of the world */
+    struct lom_placed_lamp *lamps;    /* those that shine, in the scene's order */
+    size_t lamp_count, lamp_capacity;
 };
 
 /* The world at a time in seconds, from the time alone. The moment is zero at first, or one of the same world before:
- * then nothing is allocated. False on failure: an entity whose matrix is singular, or memory. Freed with
+ * then nothing is allocated but for lamps that are more than before. False on failure: an entity whose matrix is singular, or memory. Freed with
  * lom_free_moment, also after a failure. */
 bool lom_world_at(const struct lom_world *world, double time, struct lom_moment *moment, lom_error *error);
 void lom_free_moment(struct lom_moment *moment);
-/* Whether the light or a visible entity has key frames: what does not move is the same at all times. */
+/* Whether the light, a lamp or a visible entity has key frames: what does not move is the same at all times. */
 bool lom_world_moves(const struct lom_world *world);
+/* Its lamps (lamps.c), once its entities are placed. False without memory. */
+bool lom_place_lamps(const struct lom_world *world, struct lom_moment *moment, lom_error *error);
 /* An entity at a place; false when its matrix is singular. */
 bool lom_place_entity(const struct lom_world_entity *entity, lom_vec3 position, lom_vec3 rotation,
                       struct lom_placement *placement, lom_error *error);

@@ -34,6 +34,20 @@ static const struct base bases[] = {
       "[sky]\npattern = \"sky_%s.png\"\n[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
       "[entity.material]\nspecular = 0.5\n[[entity.key]]\ntime = 0\n[[entity.key]]\ntime = 1\nposition = [1, 1, "
       "1]\n[quality]\nterrain_shadows = true\nentity_shadows = 64\nambient_occlusion = true\n" },
+    { "lamps",
+      "lamp.0.name lamp.0.position lamp.0.direction lamp.0.ambient lamp.0.diffuse lamp.0.specular lamp.0.intensity "
+      "lamp.0.attenuation "
+      "lamp.0.reach lamp.0.cutoff lamp.0.softness lamp.0.exponent lamp.0.on lamp.0.follow lamp.0.interpolation "
+      "lamp.0.key "
+      "quality.lamp_tiles quality.reflection quality.toon_thresholds quality.toon_tones",
+      VIEW TERRAIN
+      "[terrain.material]\nspecular = 0.5\n[quality]\nreflection = \"toon\"\n"
+      "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
+      "[[lamp]]\nname = \"a\"\nposition = [0, 4, 3]\ndirection = [0, -1, 0.1]\ncutoff = 60\nsoftness = 20\n"
+      "exponent = 2\nattenuation = [1, 0.1, 0.05]\nreach = 30\n[[lamp.key]]\ntime = 0\n"
+      "[[lamp.key]]\ntime = 1\nposition = [1, 4, 2]\n[[lamp]]\nname = \"b\"\nposition = [2, 3, 2]\n"
+      "range = 7\n[[lamp]]\ndirection = [1, -1, 1]\ndiffuse = 0.1\n" },
+    { "ranges", "lamp.0.range lamp.0.position", VIEW TERRAIN "[[lamp]]\nposition = [0, 4, 3]\nrange = 7\n" },
     { "tone", "output.exposure output.curve output.white", "curve = \"reinhard\"\n" VIEW TERRAIN },
     { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
       "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "
