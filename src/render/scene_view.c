@@ -181,3 +181,9 @@ bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *
     struct lom_culler culler = culler_of(view, NULL);
     return lom_shows_ground(&renderer->ground, &culler) || lom_shows_entities(renderer, &culler);
 }
+
+bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    struct lom_culler culler = culler_of(view, NULL);
+    return lom_shows_ground(&renderer->ground, &culler);
+}

@@ -48,8 +48,9 @@ lom_mat4 lom_zoom_to(const struct lom_window *window, const lom_mat4 *projection
 /* Draws terrain, entities and sky into the pass that has begun; what is outside the view and its window or behind the
  * plane costs nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
-/* Whether any of it but the sky would be drawn. */
+/* Whether any of it but the sky would be drawn; whether any of the terrain would. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
+bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view *view);
 
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* The same for places less the eye, with the shadows of clouds and terrain that the frame has made. */

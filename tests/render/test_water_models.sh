@@ -1,7 +1,7 @@
 #!/bin/sh
 # Proves of each model of water, on a small pool among hills: one hash for every lane width and thread count; a
-# crop is the cut-out of the whole; a frame alone is the frame of a run; the scissor of the pictures that it looks up
-# changes no byte; and no pass runs that the picture cannot show. The models differ, from each other and from below.
+# crop is the cut-out of the whole; a frame alone is the frame of a run; the scissor of the pictures that it looks up, and what
+# they begin with, change no byte; and no pass runs that the picture cannot show. The models differ, from each other and from below.
 . "$(dirname "$0")/render.sh"
 scene=$folder/pool.toml
 pool_heights
@@ -45,6 +45,15 @@ for model in tinted planar normal_map displaced marched; do
     why=$(plan --set camera.pitch=70 | grep -E '^\*  (reflection|refraction)')
     verdict no_water_in_view_costs_no_pass_$model "$why"
 done
+
+# Rays that are not bent see behind the surface what the frame shows there, unless the bed has a light of its own.
+triangles() { draw --stats - --hash --set camera.pitch=-40 "$@" | sed -n 's/.*"triangles": \([0-9]*\),.*/\1/p'; }
+model=normal_map why=
+again='--set water.optics.caustics=1'
+[ "$(hash $again)" = "$(hash $again --set quality.scissor=false)" ] || why='a bed in caustics is copied from one without'
+copied=$(triangles) drawn=$(triangles $again)
+[ $((copied - drawn)) = 1 ] || why="$copied triangles and $drawn: the copy is two of them, photons are one"
+verdict what_the_frame_shows_behind_the_surface_is_copied "$why"
 
 # Schlick's approximation is near the exact reflectance, the mix of the reference works is not, in each of them.
 for model in normal_map displaced marched; do

@@ -116,7 +116,14 @@ static void copy_scene(struct frame *f, const struct lom_scene_view *view)
                                           .vertex_count = 4,
                                           .topology = LOM_TRIANGLE_STRIP,
                                           .depth_compare = LOM_COMPARE_ALWAYS,
-                                          .scissor = f->crop });
+                                          .scissor = f->water });
+}
+
+/* Copying costs a look at every pixel of the water, and pays where there is ground to be copied. */
+static bool can_copy(const struct frame *f, const struct lom_scene_view *view, const lom_step *step)
+{
+    return f->scene->quality.scissor && f->scene->output.samples <= 1 && step->width == f->width &&
+           step->height == f->height && lom_shows_terrain(f->renderer, view);
 }
 
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
@@ -124,10 +131,9 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
                       lom_error *error)
 {
     lom_renderer *r = f->renderer;
-    const int samples = f->scene->output.samples;
     lom_pass_desc pass = { .color = { color },
                            .depth = depth,
-                           .samples = samples,
+                           .samples = f->scene->output.samples,
                            .per_sample = f->scene->output.sample_shading,
                            .scissor = scissor };
     pass.label = view->mirrored ? "reflection" : "refraction";
@@ -137,7 +143,7 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->height = lom_texture_height(color);
     step->scissor = scissor;
     lom_begin_pass(r->device, &pass);
-    if (is_shown && samples <= 1 && step->width == f->width && step->height == f->height)
+    if (is_shown && can_copy(f, view, step))
         copy_scene(f, view);
     const struct lom_window shown = lom_window_of(&scissor, step->width, step->height);
     struct lom_scene_view part = *view;

@@ -111,6 +111,12 @@ static bool draw_mirrored(struct surface *surface, struct frame *f, lom_error *e
                             error);
 }
 
+/* Whether the frame shows what is behind the surface as a picture of it would: no ray is bent, and the bed is lit alike. */
+static bool is_shown(const struct surface *surface, const struct frame *f)
+{
+    return !surface->uniforms.bent && !f->below && f->view.caustics.map == NULL;
+}
+
 static bool draw_behind(struct surface *surface, struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
@@ -128,7 +134,8 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
     set_picture(&surface->uniforms.behind, f, &window, &clip, r->targets.of[LOM_TARGET_REFRACTION],
                 r->targets.of[LOM_TARGET_REFRACTION_DEPTH]);
     return lom_draw_picture(f, step, r->targets.of[LOM_TARGET_REFRACTION], r->targets.of[LOM_TARGET_REFRACTION_DEPTH],
-                            &view, nothing, lookups(f, &window, r->targets.of[LOM_TARGET_REFRACTION]), false, error);
+                            &view, nothing, lookups(f, &window, r->targets.of[LOM_TARGET_REFRACTION]),
+                            is_shown(surface, f), error);
 }
 
 bool lom_draw_surface_pictures(struct surface *surface, struct frame *f, lom_error *error)
