@@ -34,10 +34,10 @@ static double resolution(const struct lom_pass *pass, const float *const row[3])
     return r;
 }
 
-double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_triangle *t)
+double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_primitive *p)
 {
     const lom_draw_desc *desc = &chunk->draw->desc;
-    const float *const row[3] = { chunk->rows + t->row[0], chunk->rows + t->row[1], chunk->rows + t->row[2] };
+    const float *const row[3] = { chunk->rows + p->row[0], chunk->rows + p->row[1], chunk->rows + p->row[2] };
     double offset = steepest_slope(row) * desc->depth_bias_slope + resolution(pass, row) * desc->depth_bias;
     double limit = desc->depth_bias_clamp;
     if (limit > 0 && offset > limit)

@@ -7,32 +7,21 @@ struct span { /* tiles, inclusive */
     int x0, y0, x1, y1;
 };
 
-static inline struct span tiles_of(const struct lom_pass *pass, const lom_triangle *t)
+static inline struct span tiles_of(const struct lom_pass *pass, const lom_primitive *p)
 {
     int shift = __builtin_ctz((unsigned)pass->tile);
-    struct lom_bounds b = lom_bounds_of(t);
+    struct lom_bounds b = lom_bounds_of(p);
     return (struct span){ (b.left - pass->tile_x0) >> shift, (b.top - pass->tile_y0) >> shift,
                           (b.right - pass->tile_x0) >> shift, (b.bottom - pass->tile_y0) >> shift };
 }
 
-/* The least and the greatest number of a tile that a triangle may touch; false when there is none. */
-static bool find_range(const struct lom_pass *pass, struct lom_chunk *chunk)
+void lom_add_primitive(const struct lom_pass *pass, struct lom_chunk *chunk, const lom_primitive *primitive)
 {
-    const int32_t *tile = chunk->assembly->tile;
-    int32_t low = INT32_MAX, high = -1;
-    for (size_t i = 0; i < chunk->triangle_count; i++) {
-        int32_t first = tile[i], last = tile[i];
-        if (tile[i] == SEVERAL_TILES) {
-            struct span s = tiles_of(pass, &chunk->triangles[i]);
-            first = s.y0 * pass->tiles_x + s.x0;
-            last = s.y1 * pass->tiles_x + s.x1;
-        }
-        low = first < low ? first : low;
-        high = last > high ? last : high;
-    }
-    chunk->tile_low = low;
-    chunk->tile_count = high < 0 ? 0 : high - low + 1;
-    return high >= 0;
+    struct span s = tiles_of(pass, primitive);
+    int32_t first = s.y0 * pass->tiles_x + s.x0, last = s.y1 * pass->tiles_x + s.x1;
+    chunk->assembly->tile[chunk->triangle_count] = first == last ? first : SEVERAL_TILES;
+    chunk->primitives[chunk->triangle_count++] = *primitive;
+    lom_widen_tiles(chunk, first, last);
 }
 
 /* Counts the triangles of each tile, into first[tile + 2]; returns the sum. */
@@ -46,7 +35,7 @@ static size_t count_triangles(const struct lom_pass *pass, const struct lom_chun
             first[tile[i] - low + 2]++;
             continue;
         }
-        struct span s = tiles_of(pass, &chunk->triangles[i]);
+        struct span s = tiles_of(pass, &chunk->primitives[i]);
         for (int y = s.y0; y <= s.y1; y++)
             for (int x = s.x0; x <= s.x1; x++)
                 first[y * pass->tiles_x + x - low + 2]++;
@@ -66,7 +55,7 @@ static void list_triangles(const struct lom_pass *pass, const struct lom_chunk *
             list[first[tile[i] - low + 1]++] = (uint32_t)i;
             continue;
         }
-        struct span s = tiles_of(pass, &chunk->triangles[i]);
+        struct span s = tiles_of(pass, &chunk->primitives[i]);
         for (int y = s.y0; y <= s.y1; y++)
             for (int x = s.x0; x <= s.x1; x++)
                 list[first[y * pass->tiles_x + x - low + 1]++] = (uint32_t)i;
@@ -75,9 +64,9 @@ static void list_triangles(const struct lom_pass *pass, const struct lom_chunk *
 
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
-    if (!find_range(pass, chunk))
+    if (chunk->tile_high < 0)
         return;
-    size_t tiles = (size_t)chunk->tile_count;
+    size_t tiles = (size_t)(chunk->tile_high - chunk->tile_low) + 1;
     if (!lom_reserve(&chunk->tile_first, &chunk->tile_first_capacity, tiles + 2, sizeof(uint32_t), NULL)) {
         chunk->failed = true;
         return;

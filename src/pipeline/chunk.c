@@ -6,65 +6,6 @@
 
 enum { GROUP = 16 }; /* triangles that are looked at together: a whole number of packets at every width */
 
-enum { PADDING = 16 }; /* rows: the vertex stage writes whole packets; as many hold the pieces of a triangle */
-
-static void raise_to(size_t *most, size_t needed, size_t part)
-{
-    if (needed > *most)
-        *most = needed + needed / part;
-}
-
-static size_t larger(size_t a, size_t b)
-{
-    return a > b ? a : b;
-}
-
-/* A chunk keeps at most as many triangles as it has, and a few more of those that are cut; how many tiles they touch
- * changes with every view, so there is room for half more. */
-void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const struct lom_chunk *chunk)
-{
-    enum { FEW = 64 };
-    size_t vertices = chunk->row_count + 2 * PADDING, tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    raise_to(&room->corners, 3 * chunk->count, FEW);
-    raise_to(&room->rows, vertices * (size_t)chunk->draw->row_floats, FEW);
-    raise_to(&room->vertices, vertices, FEW);
-    raise_to(&room->triangles, larger(chunk->count, chunk->triangle_count) + 1, FEW);
-    raise_to(&room->tiles, tiles + 2, FEW);
-    if (chunk->tile_count > 0)
-        raise_to(&room->listed, chunk->tile_first[chunk->tile_count], 2);
-}
-
-/* The arrays of a chunk that begins, as long at least as any before: frames that resemble those before them ask for no
- * memory, whichever chunk has which triangles. */
-static bool make_room(const struct lom_room *room, struct lom_chunk *chunk)
-{
-    struct lom_assembly *assembly = chunk->assembly;
-    size_t needed = chunk->vertex_count + PADDING, vertices = larger(needed, room->vertices);
-    size_t rows = larger(needed * (size_t)chunk->draw->row_floats, room->rows);
-    size_t triangles = larger(chunk->count + 1, room->triangles);
-    return lom_renew(&chunk->rows, &chunk->rows_capacity, rows, sizeof(float), NULL) &&
-           lom_renew(&assembly->clip, &assembly->clip_capacity, vertices * 4, sizeof(float), NULL) &&
-           lom_renew(&assembly->codes, &assembly->codes_capacity, vertices, sizeof(uint16_t), NULL) &&
-           lom_renew(&chunk->triangles, &chunk->triangles_capacity, triangles, sizeof(lom_triangle), NULL) &&
-           lom_renew(&assembly->tile, &assembly->tile_capacity, triangles, sizeof(int32_t), NULL) &&
-           lom_renew(&chunk->tile_first, &chunk->tile_first_capacity, room->tiles, sizeof(uint32_t), NULL) &&
-           lom_renew(&chunk->tile_list, &chunk->tile_list_capacity, room->listed, sizeof(uint32_t), NULL);
-}
-
-bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)
-{
-    struct lom_assembly *assembly = chunk->assembly;
-    size_t padded = rows + PADDING;
-    if (!lom_reserve(&chunk->rows, &chunk->rows_capacity, padded * (size_t)chunk->draw->row_floats, sizeof(float),
-                     NULL) ||
-        !lom_reserve(&assembly->clip, &assembly->clip_capacity, padded * 4, sizeof(float), NULL) ||
-        !lom_reserve(&assembly->codes, &assembly->codes_capacity, padded, sizeof(uint16_t), NULL)) {
-        chunk->failed = true;
-        return false;
-    }
-    return true;
-}
-
 /* The index at a place of the draw's index buffer, or the place itself; UINT32_MAX for the restart index. */
 static uint32_t index_at(const lom_draw_desc *desc, size_t place)
 {
@@ -193,8 +134,8 @@ static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high
 static bool list_vertices(const struct lom_room *room, struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_renew(&assembly->vertex_list, &assembly->vertex_list_capacity, larger(3 * chunk->count, room->corners),
-                   sizeof(uint32_t), NULL))
+    if (!lom_renew(&assembly->vertex_list, &assembly->vertex_list_capacity,
+                   lom_larger_size(3 * chunk->count, room->corners), sizeof(uint32_t), NULL))
         return false;
     chunk->vertex_count = 0;
     for (size_t i = 0; i < 3 * chunk->count; i++) {
@@ -223,8 +164,8 @@ static bool choose_vertices(const struct lom_room *room, struct lom_chunk *chunk
     uint32_t low, high;
     struct lom_assembly *assembly = chunk->assembly;
     size_t corners = 3 * chunk->count;
-    if (!lom_renew(&assembly->corners, &assembly->corners_capacity, larger(corners, room->corners), sizeof(uint32_t),
-                   NULL))
+    if (!lom_renew(&assembly->corners, &assembly->corners_capacity, lom_larger_size(corners, room->corners),
+                   sizeof(uint32_t), NULL))
         return false;
     chunk->has_gaps = false;
     chunk->needed = NULL;
@@ -376,11 +317,12 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->triangle_count = 0;
     chunk->triangles_clipped = chunk->vertices_shaded = 0;
     chunk->any_code = 0;
-    chunk->tile_count = 0;
+    chunk->tile_low = INT32_MAX;
+    chunk->tile_high = -1;
     bool sprites = chunk->draw->sprites;
     const struct lom_room *room = &pass->device->room;
     chunk->failed =
-        !(sprites ? lom_choose_sprites(room, chunk) : choose_vertices(room, chunk)) || !make_room(room, chunk);
+        !(sprites ? lom_choose_sprites(room, chunk) : choose_vertices(room, chunk)) || !lom_make_room(room, chunk);
     if (chunk->failed)
         return;
     chunk->row_count = chunk->vertex_count;

@@ -13,17 +13,17 @@ enum { PART_WIDTH = LOM_LANES > 4 ? 4 : 2, PART_HEIGHT = LOM_LANES > 8 ? 4 : 2 }
 
 /* Where the parts of LOM_LANES pixels lie that cover what the tile has of a triangle's bounds. They begin at the
  * bounds, not at a multiple of their size, so that a small triangle has few; but end within the tile. */
-LOM_INLINE lom_int find_parts(const struct lom_tile *tile, lom_int first, lom_int state)
+LOM_INLINE lom_int find_parts(const struct lom_tile *tile, lom_int from, lom_int to, lom_int state)
 {
-    lom_int left = (first & 0xffff) - tile->x, top = (lom_int)((lom_uint)first >> 16) - tile->y;
-    lom_int last = lom_splat_int(tile->edge - 1), zero = { 0 };
-    lom_int right = lom_min_int(left + (state & 255), last), bottom = lom_min_int(top + (state >> 8 & 255), last);
+    lom_int left = (from & 0xffff) - tile->x, top = (from >> 16) - tile->y;
+    lom_int end = lom_splat_int(tile->edge - 1), zero = { 0 };
+    lom_int right = lom_min_int((to & 0xffff) - tile->x, end), bottom = lom_min_int((to >> 16) - tile->y, end);
     lom_int x = lom_max_int(left, zero) & ~1, y = lom_max_int(top, zero) & ~1;
     lom_int columns = (right - x) / PART_WIDTH + 1, rows = (bottom - y) / PART_HEIGHT + 1;
     lom_mask moves = (state >> TRIANGLE_KIND & 3) != TRIANGLE_WINDOW; /* a window has its place */
     x = lom_select_int(moves, lom_min_int(x, tile->edge - columns * PART_WIDTH), x);
     y = lom_select_int(moves, lom_min_int(y, tile->edge - rows * PART_HEIGHT), y);
-    return (x & 255) | (y & 255) << 8 | (columns & 255) << 16 | rows << 24;
+    return x | y << 8 | columns << 16 | rows << 24;
 }
 
 /* The top-left rule, as bias_of. */
@@ -41,37 +41,82 @@ LOM_INLINE lom_int reach_lanes(const struct lom_pass *pass, lom_int step)
     return most << (SUBPIXEL_BITS - 4);
 }
 
-/* LOM_LANES slots; the records' words are those of lom_triangle. */
-static void fill_packet(struct lom_tile *tile, int first)
+/* The vertices of LOM_LANES triangles: places less that of the tile's first pixel in units, depths. */
+struct corners {
+    lom_int x[3], y[3];
+    lom_float depth[3];
+};
+
+/* Leaves 1/w where the fragment stage looks for it. */
+LOM_INLINE struct corners load_corners(struct lom_tile *tile, const lom_int row[3], int first)
+{
+    const lom_rect *viewport = &tile->pass->viewport;
+    const int32_t x = (tile->x - viewport->x) * SUBPIXELS + SUBPIXELS / 2,
+                  y = (tile->y - viewport->y) * SUBPIXELS + SUBPIXELS / 2;
+    struct corners c;
+    for (int k = 0; k < 3; k++) {
+        lom_float4 header = lom_gather_rows(tile->chunk->rows, row[k]);
+        c.x[k] = lom_as_int(header.x) - x;
+        c.y[k] = lom_as_int(header.y) - y;
+        c.depth[k] = header.z;
+        if (SLOTS_BY_WORD)
+            lom_store(tile->list.value + (LIST_ONE_OVER_W + k) * SLOT_PITCH + first, header.w);
+    }
+    return c;
+}
+
+/* Edge functions 1 and 2, positive inside: their steps over SUBPIXELS as pairs, and they themselves at the tile's first
+ * pixel. Both edges have vertex 0. A small triangle with pixels in the tile reaches less than 2^14 units beyond the first or
+ * the last of them, so that all factors are below 2^15. */
+struct slot_edges {
+    lom_int area, pair1, pair2, start1, start2;
+};
+
+LOM_INLINE struct slot_edges find_slot_edges(const struct corners *c)
+{
+    lom_int ux = c->x[1] - c->x[0], uy = c->y[1] - c->y[0], vx = c->x[2] - c->x[0], vy = c->y[2] - c->y[0];
+    lom_int area = lom_dot_pairs(lom_make_pair(ux, uy), lom_make_pair(vy, -vx)), turned = area >> 31;
+    lom_int from = lom_make_pair(-c->x[0], -c->y[0]);
+    struct slot_edges e = { .area = (area ^ turned) - turned,
+                            .pair1 = lom_make_pair((vy ^ turned) - turned, (vx ^ ~turned) - ~turned),
+                            .pair2 = lom_make_pair((uy ^ ~turned) - ~turned, (ux ^ turned) - turned) };
+    e.start1 = lom_dot_pairs(from, e.pair1);
+    e.start2 = lom_dot_pairs(from, e.pair2);
+    return e;
+}
+
+/* LOM_LANES slots; the words are those of lom_primitive. */
+static void fill_packet(struct lom_tile *tile, int number)
 {
     float *slots = tile->list.slots;
-    const float *words = (const float *)(const void *)tile->chunk->triangles;
-    lom_int at = lom_load_int((const int32_t *)tile->list.number + first) * (int32_t)(sizeof(lom_triangle) / 4);
-    const float unit = 1.0f / SUBPIXELS; /* steps are multiples of 256, and below 2^14 over it */
-    lom_float4 step = lom_gather_rows(words, at), plane = lom_gather_rows(words + 4, at);
-    lom_float4 start = lom_gather_rows(words + 8, at), last = lom_gather_rows(words + 12, at);
-    lom_int dx1 = lom_bounded_to_int(step.x * unit), dy1 = lom_bounded_to_int(step.y * unit);
-    lom_int dx2 = lom_bounded_to_int(step.z * unit), dy2 = lom_bounded_to_int(step.w * unit);
-    lom_int pair1 = lom_make_pair(dx1, dy1), pair2 = lom_make_pair(dx2, dy2);
-    lom_int corner = lom_as_int(start.w), state = lom_as_int(last.w), area = lom_as_int(start.x);
-    lom_int to_tile = lom_make_pair(tile->x - (corner & 0xfffe), tile->y - (corner >> 16 & 0xfffe));
-    lom_int start1 = lom_as_int(start.y) + (lom_dot_pairs(to_tile, pair1) << SUBPIXEL_BITS);
-    lom_int start2 = lom_as_int(start.z) + (lom_dot_pairs(to_tile, pair2) << SUBPIXEL_BITS);
-    lom_int bias1 = bias_lanes(dx1, dy1), bias2 = bias_lanes(dx2, dy2), bias0 = bias_lanes(-dx1 - dx2, -dy1 - dy2);
+    const float *words = (const float *)(const void *)tile->chunk->primitives;
+    lom_int at = lom_load_int((const int32_t *)tile->list.number + number) * (int32_t)(sizeof(lom_primitive) / 4);
+    lom_int first, last;
+    lom_float4 head = lom_gather_rows(words, at);
+    lom_gather_pairs((const int32_t *)words + 4, at, &first, &last);
+    const lom_int row[3] = { lom_as_int(head.x), lom_as_int(head.y), lom_as_int(head.z) };
+    struct corners c = load_corners(tile, row, number);
+    struct slot_edges e = find_slot_edges(&c);
+    lom_int dx1 = e.pair1 << 16, dx2 = e.pair2 << 16, dy1 = e.pair1 >> 16, dy2 = e.pair2 >> 16; /* or of their signs */
+    lom_int dx0 = -(dx1 >> 16) - (dx2 >> 16), dy0 = -dy1 - dy2;
+    lom_int bias1 = bias_lanes(dx1, dy1), bias2 = bias_lanes(dx2, dy2), bias0 = bias_lanes(dx0, dy0);
     if (tile->pass->samples > 1) { /* pixels of which a sample may be inside: pack_samples.wide.c sees which */
-        bias1 += reach_lanes(tile->pass, pair1);
-        bias2 += reach_lanes(tile->pass, pair2);
-        bias0 += reach_lanes(tile->pass, lom_make_pair(-dx1 - dx2, -dy1 - dy2));
+        bias1 += reach_lanes(tile->pass, e.pair1);
+        bias2 += reach_lanes(tile->pass, e.pair2);
+        bias0 += reach_lanes(tile->pass, lom_make_pair(dx0, dy0));
     }
-    lom_float z0 = plane.y, z1 = z0 + plane.z, z2 = z0 + plane.w;
-    store_slots(slots, SLOT_STEP1, first,
-                (lom_float4){ lom_as_float(pair1), lom_as_float(pair2), lom_as_float(start1), lom_as_float(start2) });
-    store_slots(slots, SLOT_AREA, first, (lom_float4){ start.x, plane.x, z0, lom_min(lom_min(z0, z1), z2) });
-    store_slots(slots, SLOT_DEPTH1, first, (lom_float4){ plane.z, plane.w, lom_max(lom_max(z0, z1), z2), last.w });
-    store_slots(slots, SLOT_COVER1, first,
-                (lom_float4){ lom_as_float(start1 + bias1), lom_as_float(start2 + bias2),
-                              lom_as_float(area + bias0 + bias1 + bias2),
-                              lom_as_float(find_parts(tile, corner, state)) });
+    const lom_float z0 = c.depth[0], z1 = z0 + (c.depth[1] - z0), z2 = z0 + (c.depth[2] - z0);
+    store_slots(
+        slots, SLOT_STEP1, number,
+        (lom_float4){ lom_as_float(e.pair1), lom_as_float(e.pair2), lom_as_float(e.start1), lom_as_float(e.start2) });
+    store_slots(slots, SLOT_AREA, number,
+                (lom_float4){ lom_as_float(e.area), 1.0f / lom_to_float(e.area), z0, lom_min(lom_min(z0, z1), z2) });
+    store_slots(slots, SLOT_DEPTH1, number,
+                (lom_float4){ c.depth[1] - z0, c.depth[2] - z0, lom_max(lom_max(z0, z1), z2), head.w });
+    store_slots(slots, SLOT_COVER1, number,
+                (lom_float4){ lom_as_float(e.start1 + bias1), lom_as_float(e.start2 + bias2),
+                              lom_as_float(e.area + bias0 + bias1 + bias2),
+                              lom_as_float(find_parts(tile, first, last, lom_as_int(head.w))) });
 }
 
 void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile)
@@ -209,7 +254,7 @@ LOM_INLINE int32_t *cover_parts(struct lom_tile *tile, const struct frame *frame
 
 static int32_t *cover_cut(struct lom_tile *tile, const struct frame *frame, int slot, bool tests, int32_t *to)
 {
-    struct lom_bounds bounds = lom_bounds_of(&tile->chunk->triangles[tile->list.number[slot]]);
+    struct lom_bounds bounds = lom_bounds_of(&tile->chunk->primitives[tile->list.number[slot]]);
     struct slot_depth depth = find_slot_depth(tile->list.slots, slot);
     return cover_parts(tile, frame, slot, &bounds, tests ? &depth : NULL, to);
 }

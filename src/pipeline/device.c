@@ -62,7 +62,7 @@ lom_device *lom_open_device(const lom_device_desc *desc)
 static void free_chunk(struct lom_chunk *chunk)
 {
     lom_release(chunk->rows);
-    lom_release(chunk->triangles);
+    lom_release(chunk->primitives);
     lom_release(chunk->tile_first);
     lom_release(chunk->tile_list);
 }

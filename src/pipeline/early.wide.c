@@ -15,7 +15,7 @@ static void scale_distances(const struct lom_chunk *chunk, const lom_triangle *t
 {
     double product[3], largest = 0, scale;
     for (int k = 0; k < 3; k++) {
-        const float *row = chunk->rows + t->row[k];
+        const float *row = chunk->rows + t->primitive.row[k];
         product[k] = (double)row[offset] * row[ROW_HEADER - 1]; /* exact */
         double size = product[k] < 0 ? -product[k] : product[k];
         largest = size > largest ? size : largest;
@@ -35,7 +35,7 @@ void LOM_WIDE(lom_test_distances)(const struct lom_tile *tile, const lom_triangl
                                   lom_mask *inside)
 {
     double x1 = t->step_x1, y1 = t->step_y1, x2 = t->step_x2, y2 = t->step_y2;
-    for (uint32_t clip = t->state >> TRIANGLE_CLIP; clip != 0; clip &= clip - 1) {
+    for (uint32_t clip = t->primitive.state >> TRIANGLE_CLIP; clip != 0; clip &= clip - 1) {
         float d[3];
         scale_distances(tile->chunk, t, tile->draw->distance_offset + __builtin_ctz(clip), d);
         lom_float sum = l[0] * d[0] + l[1] * d[1] + l[2] * d[2];
@@ -50,7 +50,8 @@ __attribute__((noinline)) void LOM_WIDE(lom_offset_depth)(const struct lom_tile 
                                                           lom_float *z)
 {
     double scale = tile->pass->depth_scale;
-    lom_double one = lom_splat_double(1), sum = lom_widen(*z) + lom_depth_offset(tile->pass, tile->chunk, t);
+    lom_double one = lom_splat_double(1),
+               sum = lom_widen(*z) + lom_depth_offset(tile->pass, tile->chunk, &t->primitive);
     sum = lom_select_double(sum > 0.0, lom_select_double(sum < 1.0, sum, one), one - 1.0);
     if (scale != 0)
         sum = ((sum * scale + LOM_NEAREST) - LOM_NEAREST) / scale;
@@ -64,7 +65,7 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
     const lom_triangle *t = at->triangle;
     lom_mask covered = *mask;
     lom_float z = { 0 };
-    if (t->state >> TRIANGLE_CLIP != 0)
+    if (t->primitive.state >> TRIANGLE_CLIP != 0)
         LOM_WIDE(lom_test_distances)(tile, t, l, &covered);
     if (tile->depth != NULL || draw->queues_depth)
         z = interpolate_depth(&at->depth, l);

@@ -6,6 +6,8 @@
  * rows where a mixed one picks them, with the same arithmetic. */
 #include "pipeline/run_shader.h"
 
+#include <lom/lanes_mathematics.h>
+
 struct rows { /* the vertices of the packet's triangles */
     const float *base;
     int32_t row[3][LOM_LANES]; /* of each triangle */
@@ -25,9 +27,9 @@ static void find_rows(const struct lom_chunk *chunk, const struct lom_packet *pa
     rows->which = packet->which;
     rows->triangles = packet->triangles;
     for (int i = 0; i < packet->triangles; i++) {
-        const lom_triangle *t = &chunk->triangles[packet->triangle[i]];
+        const lom_primitive *p = &chunk->primitives[packet->triangle[i]];
         for (int k = 0; k < 3; k++)
-            rows->row[k][i] = (int32_t)t->row[k];
+            rows->row[k][i] = (int32_t)p->row[k];
     }
     for (int i = packet->triangles; (i & 3) != 0; i++)
         for (int k = 0; k < 3; k++)
@@ -65,25 +67,50 @@ static struct weights find_weights(const struct lom_packet *packet, const struct
     return p;
 }
 
-/* The steps of the weights l1 and l2, a pixel right and down: the steps of the edge functions over the area. */
-static void find_steps(const struct lom_chunk *chunk, const struct lom_packet *packet, lom_float4 *step)
+/* The steps of the weights l1 and l2 of lines, a pixel right and down. */
+static void find_line_steps(const struct lom_chunk *chunk, const struct lom_packet *packet, lom_float4 *step)
 {
-    enum { WORDS = sizeof(lom_triangle) / sizeof(float), INVERSE_AREA = 4 };
-    const float *words = (const float *)(const void *)chunk->triangles;
+    float steps[LOM_LANES][4];
     int32_t row[LOM_LANES] = { 0 };
-    for (int i = 0; i < packet->triangles; i++)
-        row[i] = packet->triangle[i] * WORDS;
-    *step = lom_pick_rows(words, row, packet->triangles, packet->which);
-    lom_float inverse = lom_pick_rows(words + INVERSE_AREA, row, packet->triangles, packet->which).x;
-    *step = (lom_float4){ step->x * inverse, step->y * inverse, step->z * inverse, step->w * inverse };
+    for (int i = 0; i < packet->triangles; i++) {
+        lom_triangle t;
+        lom_find_line(chunk, &chunk->primitives[packet->triangle[i]], &t);
+        steps[i][0] = t.step_x1 * t.inverse_area;
+        steps[i][1] = t.step_y1 * t.inverse_area;
+        steps[i][2] = steps[i][3] = 0;
+        row[i] = 4 * i;
+    }
+    *step = lom_gather_rows(steps[0], lom_gather_int(row, packet->which));
+}
+
+/* The same of triangles: the steps of the edge functions over the area, as lom_find_triangle has them; double holds the
+ * area. */
+static void find_steps(const struct rows *rows, lom_float4 *step)
+{
+    lom_int x[3], y[3];
+    for (int k = 0; k < 3; k++) {
+        lom_float4 header = load_rows(rows, k, 0);
+        x[k] = lom_as_int(header.x) - (k > 0 ? x[0] : lom_splat_int(0));
+        y[k] = lom_as_int(header.y) - (k > 0 ? y[0] : lom_splat_int(0));
+    }
+    lom_float area = lom_narrow(lom_to_double(x[1]) * lom_to_double(y[2]) - lom_to_double(y[1]) * lom_to_double(x[2]));
+    lom_mask turned = area < 0.0f;
+    lom_float inverse = 1.0f / lom_abs(area), scale = lom_splat(SUBPIXELS);
+    *step = (lom_float4){ lom_to_float((y[2] ^ turned) - turned) * scale * inverse,
+                          lom_to_float((x[2] ^ ~turned) - ~turned) * scale * inverse,
+                          lom_to_float((y[1] ^ ~turned) - ~turned) * scale * inverse,
+                          lom_to_float((x[1] ^ turned) - turned) * scale * inverse };
 }
 
 /* d(b)/dx from b = l_i/w_i / sum: (d(l_i)/dx / w_i - b d(sum)/dx) / sum. */
-static void find_slopes(const struct lom_chunk *chunk, const struct lom_packet *packet, const struct weights *p,
-                        lom_varyings *in)
+static void find_slopes(const struct lom_chunk *chunk, const struct lom_packet *packet, const struct rows *rows,
+                        const struct weights *p, lom_varyings *in)
 {
     lom_float4 step;
-    find_steps(chunk, packet, &step);
+    if (chunk->draw->lines)
+        find_line_steps(chunk, packet, &step);
+    else
+        find_steps(rows, &step);
     lom_float a = step.x * p->one_over_w[1], b = step.z * p->one_over_w[2];
     lom_float sum_x = a + b - (step.x + step.z) * p->one_over_w[0];
     in->dx[0] = (a - p->b1 * sum_x) / p->sum;
@@ -138,8 +165,8 @@ static void copy_flat_varyings(const lom_shader *shader, const struct lom_chunk 
 {
     const float *row[LOM_LANES];
     for (int i = 0; i < packet->triangles; i++) {
-        const lom_triangle *t = &chunk->triangles[packet->triangle[i]];
-        row[i] = chunk->rows + t->row[t->state >> TRIANGLE_PROVOKING & 3] + ROW_HEADER;
+        const lom_primitive *p = &chunk->primitives[packet->triangle[i]];
+        row[i] = chunk->rows + p->row[p->state >> TRIANGLE_PROVOKING & 3] + ROW_HEADER;
     }
     for (uint32_t flat = shader->flat & ((UINT32_C(1) << shader->varyings) - 1); flat != 0; flat &= flat - 1) {
         int v = __builtin_ctz(flat);
@@ -159,7 +186,7 @@ static void find_position(const struct lom_tile *tile, const struct lom_packet *
     in->z = packet->depth;
     in->w = 1.0f / p->sum;
     for (int i = 0; i < packet->triangles; i++)
-        front[i] = -(int32_t)(tile->chunk->triangles[packet->triangle[i]].state >> TRIANGLE_FRONT & 1);
+        front[i] = -(int32_t)(tile->chunk->primitives[packet->triangle[i]].state >> TRIANGLE_FRONT & 1);
     in->front = spread(packet, front);
 }
 
@@ -210,7 +237,7 @@ static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const
         struct weights p = find_weights(packet, &rows, shader->quads);
         interpolate_varyings(shader, &rows, &p, &in);
         if (shader->differentiates != 0)
-            find_slopes(chunk, packet, &p, &in);
+            find_slopes(chunk, packet, &rows, &p, &in);
         if (shader->flat != 0)
             copy_flat_varyings(shader, chunk, packet, &in);
         if (shader->reads_position)
@@ -224,7 +251,7 @@ static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const
 LOM_INLINE bool has_facet(const struct lom_tile *tile, const struct lom_packet *packet)
 {
     return packet->triangles == 1 && !tile->pass->one_by_one &&
-           lom_kind_of(&tile->chunk->triangles[packet->triangle[0]]) != TRIANGLE_WINDOW;
+           lom_kind_of(&tile->chunk->primitives[packet->triangle[0]]) != TRIANGLE_WINDOW;
 }
 
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet)

@@ -8,7 +8,7 @@
 #include "pipeline/slots.h"
 
 /* Words of a triangle's values; then, for each varying that is read, VALUE_WORDS. */
-enum { ONE_OVER_W = 0, FACING = 3, STEPS = 4, VALUES = LIST_HEADER };
+enum { ONE_OVER_W = LIST_ONE_OVER_W, FACING = 3, STEPS = 4, VALUES = LIST_HEADER };
 enum { VALUE = 0, DELTA1, DELTA2, LOWEST, HIGHEST, VALUE_WORDS = LIST_VALUE };
 
 /* ---- from values to varyings ---- */
@@ -104,23 +104,25 @@ static float greater(float a, float b)
     return a > b ? a : b;
 }
 
-static void fill_facet(struct lom_tile *tile, const lom_triangle *t)
+static void fill_facet(struct lom_tile *tile, const lom_primitive *p)
 {
     const lom_shader *shader = tile->draw->desc.shader;
     float *to = tile->facet.value;
     const float *row[3], *provoking;
-    int32_t front = -(int32_t)(t->state >> TRIANGLE_FRONT & 1);
-    tile->facet.triangle = t;
+    int32_t front = -(int32_t)(p->state >> TRIANGLE_FRONT & 1);
+    lom_triangle t;
+    lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    tile->facet.primitive = p;
     for (int k = 0; k < 3; k++) {
-        row[k] = tile->chunk->rows + t->row[k] + ROW_HEADER;
+        row[k] = tile->chunk->rows + p->row[k] + ROW_HEADER;
         to[ONE_OVER_W + k] = row[k][-1];
     }
-    provoking = row[t->state >> TRIANGLE_PROVOKING & 3];
+    provoking = row[p->state >> TRIANGLE_PROVOKING & 3];
     memcpy(&to[FACING], &front, sizeof front);
-    to[STEPS] = t->step_x1 * t->inverse_area;
-    to[STEPS + 1] = t->step_y1 * t->inverse_area;
-    to[STEPS + 2] = t->step_x2 * t->inverse_area;
-    to[STEPS + 3] = t->step_y2 * t->inverse_area;
+    to[STEPS] = t.step_x1 * t.inverse_area;
+    to[STEPS + 1] = t.step_y1 * t.inverse_area;
+    to[STEPS + 2] = t.step_x2 * t.inverse_area;
+    to[STEPS + 3] = t.step_y2 * t.inverse_area;
     to += VALUES;
     uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
     for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, to += VALUE_WORDS) {
@@ -140,11 +142,11 @@ static void fill_facet(struct lom_tile *tile, const lom_triangle *t)
 
 void LOM_WIDE(lom_shade_facet)(struct lom_tile *tile, const struct lom_packet *packet)
 {
-    const lom_triangle *t = &tile->chunk->triangles[packet->triangle[0]];
+    const lom_primitive *p = &tile->chunk->primitives[packet->triangle[0]];
     const lom_shader *shader = tile->draw->desc.shader;
     lom_varyings in;
-    if (tile->facet.triangle != t)
-        fill_facet(tile, t);
+    if (tile->facet.primitive != p)
+        fill_facet(tile, p);
     struct values values = { tile->facet.value, { 0 }, true };
     if (shader->reads != 0 || shader->reads_position)
         find_varyings(&values, shader, packet, shader->quads, &in);
@@ -205,28 +207,31 @@ static void fill_varyings(struct lom_tile *tile, const struct vertex_rows *v, in
     }
 }
 
-/* LOM_LANES slots; the records' words are those of lom_triangle. */
+/* The steps of the weights: those of the edge functions over the area, both of which are in the slots. */
+static void fill_steps(struct lom_list *list, int slot)
+{
+    const float *from = list->slots + slot;
+    lom_float scale = lom_splat(SUBPIXELS), inverse = lom_load(from + SLOT_INVERSE * SLOT_PITCH);
+    for (int i = 0; i < 2; i++) {
+        lom_int pair = lom_load_int((const int32_t *)from + (SLOT_STEP1 + i) * SLOT_PITCH);
+        store_value(list, STEPS + 2 * i, slot, lom_to_float(pair << 16 >> 16) * scale * inverse);
+        store_value(list, STEPS + 2 * i + 1, slot, lom_to_float(pair >> 16) * scale * inverse);
+    }
+}
+
+/* LOM_LANES slots; the words are those of lom_primitive. 1/w is there already. */
 static void fill_packet(struct lom_tile *tile, int slot)
 {
     struct lom_list *list = &tile->list;
-    const lom_shader *shader = tile->draw->desc.shader;
-    const float *words = (const float *)(const void *)tile->chunk->triangles;
-    lom_int at = lom_load_int((const int32_t *)list->number + slot) * (int32_t)(sizeof(lom_triangle) / 4);
-    lom_float4 last = lom_gather_rows(words + 12, at);
+    const float *words = (const float *)(const void *)tile->chunk->primitives;
+    lom_int at = lom_load_int((const int32_t *)list->number + slot) * (int32_t)(sizeof(lom_primitive) / 4);
+    lom_float4 last = lom_gather_rows(words, at);
     struct vertex_rows v = { .row = { lom_as_int(last.x), lom_as_int(last.y), lom_as_int(last.z) } };
     lom_int state = lom_as_int(last.w), provoking = state >> TRIANGLE_PROVOKING & 3;
     v.provoking = lom_select_int(provoking == 0, v.row[0], lom_select_int(provoking == 1, v.row[1], v.row[2]));
-    for (int k = 0; k < 3; k++)
-        store_value(list, ONE_OVER_W + k, slot, lom_gather_rows(tile->chunk->rows, v.row[k]).w);
     store_value(list, FACING, slot, lom_as_float(-(state >> TRIANGLE_FRONT & 1)));
-    if (shader->differentiates != 0) {
-        lom_float4 step = lom_gather_rows(words, at);
-        lom_float inverse = lom_gather_rows(words + 4, at).x;
-        store_value(list, STEPS, slot, step.x * inverse);
-        store_value(list, STEPS + 1, slot, step.y * inverse);
-        store_value(list, STEPS + 2, slot, step.z * inverse);
-        store_value(list, STEPS + 3, slot, step.w * inverse);
-    }
+    if (tile->draw->desc.shader->differentiates != 0)
+        fill_steps(list, slot);
     fill_varyings(tile, &v, slot);
 }
 

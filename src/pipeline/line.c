@@ -21,9 +21,9 @@ static struct extent bound(int32_t a, int32_t b, int width, int origin, int firs
     return (struct extent){ low > first ? low : first, high < last ? high : last };
 }
 
-/* The record of a line; false where it covers nothing. */
+/* The pixels of a line; false where it covers nothing. */
 static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, const float *from, const float *to,
-                   lom_triangle *t)
+                   lom_primitive *p)
 {
     const lom_rect *s = &draw->scissor;
     int32_t a[2], b[2];
@@ -36,15 +36,24 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
     struct extent down = bound(a[1], b[1], steep ? 1 : width, pass->viewport.y, s->y, s->y + s->height - 1);
     if ((x == 0 && y == 0) || across.low > across.high || down.low > down.high)
         return false;
-    t->step_x1 = (float)(x * SUBPIXELS); /* below 2^32, of 24 bits: exact */
-    t->step_y1 = (float)(y * SUBPIXELS);
-    t->inverse_area = (float)(1.0 / (double)(x * x + y * y));
-    t->depth[0] = from[2];
-    t->depth[1] = t->depth[2] = to[2] - from[2];
-    t->first = (uint32_t)across.low | (uint32_t)down.low << 16;
-    t->large.right = across.high;
-    t->large.bottom = down.high;
+    p->first = (uint32_t)across.low | (uint32_t)down.low << 16;
+    p->last = (uint32_t)across.high | (uint32_t)down.high << 16;
     return true;
+}
+
+void lom_find_line(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t)
+{
+    const float *from = chunk->rows + primitive->row[0], *to = chunk->rows + primitive->row[1];
+    int32_t a[2], b[2];
+    memcpy(a, from, sizeof a);
+    memcpy(b, to, sizeof b);
+    int64_t x = (int64_t)b[0] - a[0], y = (int64_t)b[1] - a[1];
+    float depth = to[2] - from[2];
+    *t = (lom_triangle){ .primitive = *primitive,
+                         .step_x1 = (float)(x * SUBPIXELS), /* below 2^32, of 24 bits: exact */
+                         .step_y1 = (float)(y * SUBPIXELS),
+                         .inverse_area = (float)(1.0 / (double)(x * x + y * y)),
+                         .depth = { from[2], depth, depth } };
 }
 
 /* Appends the record of the line between two rows, unless it is outside or covers nothing. */
@@ -63,23 +72,18 @@ static void add(const struct lom_pass *pass, struct lom_chunk *chunk, const uint
     a = assembly->codes[end[0]] & distances;
     b = assembly->codes[end[1]] & distances;
     const uint32_t row[2] = { (uint32_t)(end[0] * pitch), (uint32_t)(end[1] * pitch) };
-    lom_triangle t = { .row = { row[0], row[1], row[1] },
-                       .state = TRIANGLE_NONE << TRIANGLE_KIND | 1u << TRIANGLE_FRONT | 1u << TRIANGLE_PROVOKING |
-                                (a | b) << TRIANGLE_CLIP };
-    if ((a & b) != 0 || !set_up(pass, draw, chunk->rows + row[0], chunk->rows + row[1], &t))
-        return;
-    assembly->tile[chunk->triangle_count] = lom_tile_of(pass, &t);
-    chunk->triangles[chunk->triangle_count++] = t;
+    lom_primitive p = { .row = { row[0], row[1], row[1] },
+                        .state = TRIANGLE_NONE << TRIANGLE_KIND | 1u << TRIANGLE_FRONT | 1u << TRIANGLE_PROVOKING |
+                                 (a | b) << TRIANGLE_CLIP };
+    if ((a & b) == 0 && set_up(pass, draw, chunk->rows + row[0], chunk->rows + row[1], &p))
+        lom_add_primitive(pass, chunk, &p);
 }
 
 void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_reserve(&chunk->triangles, &chunk->triangles_capacity, chunk->count, sizeof(lom_triangle), NULL) ||
-        !lom_reserve(&assembly->tile, &assembly->tile_capacity, chunk->count, sizeof(int32_t), NULL)) {
-        chunk->failed = true;
+    if (!lom_reserve_primitives(chunk, chunk->count))
         return;
-    }
     for (size_t i = 0; i < chunk->count && !chunk->failed; i++)
         if (assembly->corners[3 * i] != NO_VERTEX)
             add(pass, chunk, assembly->corners + 3 * i);

@@ -10,17 +10,16 @@ enum { AHEAD = 8 }; /* triangles: half of them lie in another core's cache, some
 /* Edge functions of a triangle that fits a window are below 2^24: exact in float. */
 static void raster_window(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
-    int left = (int)(t->first & 0xfffe) - tile->x, top = (int)(t->first >> 16 & 0xfffe) - tile->y;
+    int left = (int)(t->primitive.first & 0xfffe) - tile->x, top = (int)(t->primitive.first >> 16 & 0xfffe) - tile->y;
     struct part at = { t, number, memory_index(tile, left, top), 0, find_depth(t) };
     for (; at.part < PARTS; at.part++) {
-        uint32_t bits = (t->state & 0xffff) >> at.part * LOM_LANES & ((1u << LOM_LANES) - 1);
+        uint32_t bits = (t->primitive.state & 0xffff) >> at.part * LOM_LANES & ((1u << LOM_LANES) - 1);
         if (bits == 0)
             continue;
         lom_float x = lom_to_float(lane_x(at.part)), y = lom_to_float(lane_y(at.part));
-        lom_float e1 = x * t->step_x1 + y * t->step_y1 + (float)t->small.start[0];
-        lom_float e2 = x * t->step_x2 + y * t->step_y2 + (float)t->small.start[1];
-        lom_float l[3] = { ((float)t->small.area - e1 - e2) * t->inverse_area, e1 * t->inverse_area,
-                           e2 * t->inverse_area };
+        lom_float e1 = x * t->step_x1 + y * t->step_y1 + (float)t->start[0];
+        lom_float e2 = x * t->step_x2 + y * t->step_y2 + (float)t->start[1];
+        lom_float l[3] = { ((float)t->area - e1 - e2) * t->inverse_area, e1 * t->inverse_area, e2 * t->inverse_area };
         lom_mask covered = lom_mask_of_bits(bits);
         LOM_WIDE(lom_emit)(tile, &at, &covered, l, false);
     }
@@ -46,21 +45,21 @@ static void find_small_edges(const struct lom_tile *tile, const lom_triangle *t,
     for (int i = 1; i < 3; i++) {
         e[i].dx = lom_int_of(i == 1 ? t->step_x1 : t->step_x2);
         e[i].dy = lom_int_of(i == 1 ? t->step_y1 : t->step_y2);
-        e[i].start = t->small.start[i - 1] - e[i].dx * x - e[i].dy * y;
+        e[i].start = t->start[i - 1] - e[i].dx * x - e[i].dy * y;
     }
     e[0].dx = -(e[1].dx + e[2].dx);
     e[0].dy = -(e[1].dy + e[2].dy);
-    e[0].start = t->small.area - e[1].start - e[2].start;
+    e[0].start = t->area - e[1].start - e[2].start;
     for (int i = 0; i < 3; i++)
         e[i].bias = bias_of(e[i].dx, e[i].dy);
 }
 
 static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
-    struct lom_bounds b = lom_bounds_of(t);
+    struct lom_bounds b = lom_bounds_of(&t->primitive);
     struct window_range r = windows_of(tile, &b);
     struct small_edge e[3];
-    bool cut = t->state >> TRIANGLE_CUT & 1;
+    bool cut = t->primitive.state >> TRIANGLE_CUT & 1;
     find_small_edges(tile, t, &b, e);
     struct part at = { t, number, 0, 0, find_depth(t) };
     for (; at.part < PARTS; at.part++) {
@@ -90,16 +89,6 @@ static bool packs(const struct lom_draw *draw)
     return !draw->constant && !draw->biased && !draw->desc.shader->quads && !draw->desc.per_sample;
 }
 
-/* Whether a triangle may be drawn with others: its windows are few, else they are mostly packets by themselves. The parts
- * that cover.wide.c makes of it are less than 4 pixels wider and higher than it is. */
-static bool is_packed(const lom_triangle *t)
-{
-    int width = (int)(t->state & 255) + 1, height = (int)(t->state >> 8 & 255) + 1;
-    lom_triangle_kind kind = lom_kind_of(t);
-    return t->state >> TRIANGLE_CLIP == 0 &&
-           (kind == TRIANGLE_WINDOW || (kind == TRIANGLE_SMALL && (width + 4) * (height + 4) <= LIST_PIXELS));
-}
-
 /* Whether a fragment that fails the depth test now fails it after its shader, too: the shader leaves its depth as it is, and
  * what the draw's own fragments write until then does not let it pass. */
 static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *draw)
@@ -109,13 +98,16 @@ static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *dr
            !tile->pass->one_by_one && tile->pass->samples == 1;
 }
 
-static void raster_alone(struct lom_tile *tile, const lom_triangle *t, int32_t number)
+static void raster_alone(struct lom_tile *tile, int32_t number)
 {
+    lom_triangle found;
+    const lom_triangle *t = &found;
+    lom_find_triangle(tile->pass, tile->chunk, &tile->chunk->primitives[number], &found);
     if (tile->pass->samples > 1) {
         LOM_WIDE(lom_raster_sampled)(tile, t, number);
         return;
     }
-    switch (lom_kind_of(t)) {
+    switch (lom_kind_of(&t->primitive)) {
     case TRIANGLE_WINDOW:
         raster_window(tile, t, number);
         break;
@@ -149,7 +141,7 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
-    tile->facet.triangle = NULL;
+    tile->facet.primitive = NULL;
     tile->tests_early =
         tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
     tile->rejects_early = rejects_early(tile, draw);
@@ -161,16 +153,15 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
         return;
     }
     for (size_t i = folded; i < count; i++) {
-        const lom_triangle *t = &chunk->triangles[list[i]];
-        __builtin_prefetch(&chunk->triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]]);
-        if (together && is_packed(t)) {
+        __builtin_prefetch(&chunk->primitives[list[i + AHEAD < count ? i + AHEAD : count - 1]]);
+        if (together && (chunk->primitives[list[i]].state >> TRIANGLE_LISTED & 1) != 0) {
             packed->number[packed->triangles++] = list[i];
             if (packed->triangles == LIST_TRIANGLES)
                 LOM_WIDE(lom_drain_list)(tile, false);
             continue;
         }
         LOM_WIDE(lom_drain_list)(tile, true);
-        raster_alone(tile, t, (int32_t)list[i]);
+        raster_alone(tile, (int32_t)list[i]);
     }
     LOM_WIDE(lom_drain_list)(tile, true);
 }

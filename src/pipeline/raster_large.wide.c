@@ -144,17 +144,17 @@ static void shade_large_window(struct lom_tile *tile, const struct large *g, int
 }
 
 /* Whether the draw's paint goes to every pixel that the triangle covers. */
-static bool fills(const struct lom_tile *tile, const lom_triangle *t)
+static bool fills(const struct lom_tile *tile, const lom_primitive *p)
 {
-    return tile->draw->constant && tile->draw->paint.fills && !tile->tests_early && t->state >> TRIANGLE_CLIP == 0;
+    return tile->draw->constant && tile->draw->paint.fills && !tile->tests_early && p->state >> TRIANGLE_CLIP == 0;
 }
 
 /* Whether a covered part goes to the fragment stage as it is. */
-static bool shades(const struct lom_tile *tile, const lom_triangle *t)
+static bool shades(const struct lom_tile *tile, const lom_primitive *p)
 {
     const struct lom_draw *draw = tile->draw;
     return !draw->constant && draw->desc.shader->fragment[draw->variant] != NULL && tile->depth == NULL &&
-           !draw->queues_depth && !draw->biased && t->state >> TRIANGLE_CLIP == 0 && !tile->pass->one_by_one;
+           !draw->queues_depth && !draw->biased && p->state >> TRIANGLE_CLIP == 0 && !tile->pass->one_by_one;
 }
 
 /* False when the triangle does not touch the tile. */
@@ -162,16 +162,16 @@ static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struc
 {
     const struct lom_draw *draw = tile->draw;
     g->triangle = t;
-    g->bounds = lom_bounds_of(t);
+    g->bounds = lom_bounds_of(&t->primitive);
     g->depth = find_depth(t);
-    g->cut = t->state >> TRIANGLE_CUT & 1;
+    g->cut = t->primitive.state >> TRIANGLE_CUT & 1;
     g->edges = lom_find_edges(tile, t);
     for (int i = 0; i < 3; i++)
         if (reduce_edge(&g->edges, i, tile->edge, &g->k[i]) == EDGE_OUTSIDE)
             return false;
-    g->needs_weights = t->state >> TRIANGLE_CLIP != 0 || tile->depth != NULL || !draw->constant;
-    g->fills = fills(tile, t);
-    g->shades = shades(tile, t);
+    g->needs_weights = t->primitive.state >> TRIANGLE_CLIP != 0 || tile->depth != NULL || !draw->constant;
+    g->fills = fills(tile, &t->primitive);
+    g->shades = shades(tile, &t->primitive);
     for (int part = 0; part < PARTS && g->needs_weights; part++) {
         lom_double x = lom_to_double(lane_x(part)), y = lom_to_double(lane_y(part));
         g->offset[0][part] = x * (double)g->edges.dx[1] + y * (double)g->edges.dy[1];
@@ -222,9 +222,9 @@ static struct lom_bounds inside_attachments(const struct lom_tile *tile)
 }
 
 /* Whether the bounds, cut by the scissor, hold all of b. */
-static bool holds(const lom_triangle *t, const struct lom_bounds *b)
+static bool holds(const lom_primitive *p, const struct lom_bounds *b)
 {
-    struct lom_bounds outer = lom_bounds_of(t);
+    struct lom_bounds outer = lom_bounds_of(p);
     return outer.left <= b->left && outer.top <= b->top && outer.right >= b->right && outer.bottom >= b->bottom;
 }
 
@@ -246,13 +246,20 @@ static struct sides find_sides(const struct lom_tile *tile, const struct lom_edg
     return sides;
 }
 
+static struct lom_edges find_edges(const struct lom_tile *tile, const lom_primitive *p)
+{
+    lom_triangle t;
+    lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    return lom_find_edges(tile, &t);
+}
+
 /* Whether two triangles share an edge, each on its side of it, and have all pixels of b inside their other edges. Their
  * functions of that edge are each other's negative, so a pixel is inside one of them exactly: every pixel of b is
  * covered once. */
 static bool cover_together(const struct lom_tile *tile, const struct lom_edges *e, unsigned whole,
-                           const lom_triangle *u, const struct lom_bounds *b)
+                           const lom_primitive *u, const struct lom_bounds *b)
 {
-    struct lom_edges f = lom_find_edges(tile, u);
+    struct lom_edges f = find_edges(tile, u);
     unsigned others = find_sides(tile, &f, b).whole;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -262,23 +269,23 @@ static bool cover_together(const struct lom_tile *tile, const struct lom_edges *
     return false;
 }
 
-static bool is_foldable(const struct lom_tile *tile, const lom_triangle *t, const struct lom_bounds *b)
+static bool is_foldable(const struct lom_tile *tile, const lom_primitive *p, const struct lom_bounds *b)
 {
-    return lom_kind_of(t) == TRIANGLE_LARGE && fills(tile, t) && holds(t, b);
+    return lom_kind_of(p) == TRIANGLE_LARGE && fills(tile, p) && holds(p, b);
 }
 
 size_t LOM_WIDE(lom_fold)(struct lom_tile *tile, const uint32_t *list, size_t count)
 {
-    const lom_triangle *triangles = tile->chunk->triangles;
+    const lom_primitive *primitives = tile->chunk->primitives;
     struct lom_bounds b = inside_attachments(tile);
     int pixels = (b.right - b.left + 1) * (b.bottom - b.top + 1);
     size_t done = 0;
-    while (done < count && is_foldable(tile, &triangles[list[done]], &b)) {
-        struct lom_edges e = lom_find_edges(tile, &triangles[list[done]]);
+    while (done < count && is_foldable(tile, &primitives[list[done]], &b)) {
+        struct lom_edges e = find_edges(tile, &primitives[list[done]]);
         struct sides sides = find_sides(tile, &e, &b);
         bool pair = sides.whole != 7 && sides.empty == 0;
-        if (pair && (done + 1 == count || !is_foldable(tile, &triangles[list[done + 1]], &b) ||
-                     !cover_together(tile, &e, sides.whole, &triangles[list[done + 1]], &b)))
+        if (pair && (done + 1 == count || !is_foldable(tile, &primitives[list[done + 1]], &b) ||
+                     !cover_together(tile, &e, sides.whole, &primitives[list[done + 1]], &b)))
             break;
         if (sides.empty == 0)
             LOM_WIDE(lom_fill_tile)(tile, pixels);

@@ -34,12 +34,12 @@ static void find_line(const struct lom_tile *tile, const lom_triangle *t, int32_
 {
     const lom_rect *viewport = &tile->pass->viewport;
     int32_t a[2], b[2];
-    memcpy(a, tile->chunk->rows + t->row[0], sizeof a);
-    memcpy(b, tile->chunk->rows + t->row[1], sizeof b);
+    memcpy(a, tile->chunk->rows + t->primitive.row[0], sizeof a);
+    memcpy(b, tile->chunk->rows + t->primitive.row[1], sizeof b);
     int64_t x = (int64_t)b[0] - a[0], y = (int64_t)b[1] - a[1];
     g->record = t;
     g->number = number;
-    g->bounds = lom_bounds_of(t);
+    g->bounds = lom_bounds_of(&t->primitive);
     g->depth = find_depth(t);
     g->steep = (y < 0 ? -y : y) > (x < 0 ? -x : x);
     g->width = tile->draw->desc.line_width;
@@ -134,7 +134,7 @@ static void emit_samples(struct lom_tile *tile, const struct part *at, lom_mask 
     lom_mask lanes[LOM_MAX_SAMPLES];
     lom_float depth[LOM_MAX_SAMPLES];
     struct lom_fragments f = { .triangle = lom_splat_int(at->number), .l = { l[0], l[1], l[2] } };
-    if (at->triangle->state >> TRIANGLE_CLIP != 0)
+    if (at->triangle->primitive.state >> TRIANGLE_CLIP != 0)
         LOM_WIDE(lom_test_distances)(tile, at->triangle, l, &covered);
     if (tile->depth != NULL || draw->queues_depth)
         f.depth = interpolate_depth(&at->depth, l);
@@ -178,7 +178,9 @@ void LOM_WIDE(lom_raster_lines)(struct lom_tile *tile, const uint32_t *list, siz
 {
     for (size_t i = 0; i < count; i++) {
         struct line g;
-        find_line(tile, &tile->chunk->triangles[list[i]], (int32_t)list[i], &g);
+        lom_triangle t;
+        lom_find_line(tile->chunk, &tile->chunk->primitives[list[i]], &t);
+        find_line(tile, &t, (int32_t)list[i], &g);
         struct window_range w = windows_of(tile, &g.bounds);
         int first = g.steep ? w.y0 : w.x0, last = g.steep ? w.y1 : w.x1;
         for (int along = first; along <= last; along += 4) {

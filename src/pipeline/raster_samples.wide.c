@@ -66,10 +66,10 @@ static bool find_triangle(const struct lom_tile *tile, const lom_triangle *t, in
     const struct lom_pass *pass = tile->pass;
     g->triangle = t;
     g->number = number;
-    g->bounds = lom_bounds_of(t);
+    g->bounds = lom_bounds_of(&t->primitive);
     g->depth = find_depth(t);
-    g->cut = t->state >> TRIANGLE_CUT & 1;
-    g->large = lom_kind_of(t) == TRIANGLE_LARGE;
+    g->cut = t->primitive.state >> TRIANGLE_CUT & 1;
+    g->large = lom_kind_of(&t->primitive) == TRIANGLE_LARGE;
     g->samples = pass->samples;
     g->edges = lom_find_edges(tile, t);
     for (int i = 0; i < 3; i++) {
@@ -245,7 +245,7 @@ static void raster_part(struct lom_tile *tile, const struct sampled *g, const st
     struct lom_fragments f;
     lom_float depth[LOM_MAX_SAMPLES];
     cover(tile, g, at, full, &c);
-    if (g->triangle->state >> TRIANGLE_CLIP != 0)
+    if (g->triangle->primitive.state >> TRIANGLE_CLIP != 0)
         cut_by_distances(tile, g, at, &c);
     if (!lom_any(c.any))
         return;

@@ -21,7 +21,7 @@ static enum shape shape_of(const struct lom_draw *draw)
 
 /* A sprite over one tile. */
 struct sprite {
-    const lom_triangle *record;
+    lom_triangle record;
     enum shape shape;
     float half; /* of a point's side */
     struct lom_bounds bounds;
@@ -39,17 +39,18 @@ static float centre(int pixel, int origin, int32_t middle)
     return (float)((pixel - origin) * SUBPIXELS + SUBPIXELS / 2 - middle) * (1.0f / SUBPIXELS);
 }
 
-static void begin_sprite(const struct lom_tile *tile, const lom_triangle *t, struct sprite *sprite)
+static void begin_sprite(const struct lom_tile *tile, const lom_primitive *p, struct sprite *sprite)
 {
     const lom_shader *shader = tile->draw->desc.shader;
-    const float *row = tile->chunk->rows + t->row[0];
+    const float *row = tile->chunk->rows + p->row[0];
+    const lom_triangle *t = &sprite->record;
     lom_varyings *in = &sprite->in;
     int32_t middle[2];
     memcpy(middle, row, sizeof middle);
-    sprite->record = t;
+    lom_find_sprite(tile->chunk, p, &sprite->record);
     sprite->shape = shape_of(tile->draw);
     sprite->half = row[tile->draw->axis_offset];
-    sprite->bounds = lom_bounds_of(t);
+    sprite->bounds = lom_bounds_of(p);
     sprite->x = centre(tile->x, tile->pass->viewport.x, middle[0]);
     sprite->y = centre(tile->y, tile->pass->viewport.y, middle[1]);
     for (int part = 0; part < PARTS; part++)
@@ -91,8 +92,8 @@ static void begin_strip(struct sprite *sprite, int y)
     for (int part = 0; part < PARTS; part++) {
         lom_float y_away = lom_to_float(lane_y(part)) + (sprite->y + (float)y);
         sprite->y_away[part] = y_away;
-        sprite->down[part][0] = y_away * sprite->record->step_y1;
-        sprite->down[part][1] = y_away * sprite->record->step_y2;
+        sprite->down[part][0] = y_away * sprite->record.step_y1;
+        sprite->down[part][1] = y_away * sprite->record.step_y2;
     }
 }
 
@@ -132,8 +133,8 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
 /* The window at (x, y) of the tile. */
 static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, int y, bool shades)
 {
-    const lom_triangle *t = sprite->record;
-    bool cut = t->state >> TRIANGLE_CUT & 1;
+    const lom_triangle *t = &sprite->record;
+    bool cut = t->primitive.state >> TRIANGLE_CUT & 1;
     for (int part = 0; part < PARTS; part++) {
         lom_float x_away = sprite->x_away[part] + (float)x;
         lom_float p = x_away * t->step_x1 + sprite->down[part][0], q = x_away * t->step_x2 + sprite->down[part][1];
@@ -158,15 +159,15 @@ static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, i
 
 void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, size_t count)
 {
-    const lom_triangle *triangles = tile->chunk->triangles;
+    const lom_primitive *primitives = tile->chunk->primitives;
     const lom_shader *shader = tile->draw->desc.shader;
     bool shades = shader->fragment[tile->draw->variant] != NULL;
     struct sprite sprite;
     LOM_RECORD_HOOK(lom_record_sprites, tile);
     for (size_t i = 0; i < count; i++) {
-        const lom_triangle *ahead = &triangles[list[i + AHEAD < count ? i + AHEAD : count - 1]];
+        const lom_primitive *ahead = &primitives[list[i + AHEAD < count ? i + AHEAD : count - 1]];
         __builtin_prefetch(ahead);
-        begin_sprite(tile, &triangles[list[i]], &sprite);
+        begin_sprite(tile, &primitives[list[i]], &sprite);
         struct window_range r = windows_of(tile, &sprite.bounds);
         for (int y = r.y0; y <= r.y1; y += 4) {
             begin_strip(&sprite, y);
@@ -182,7 +183,7 @@ void LOM_WIDE(lom_raster_sprites)(struct lom_tile *tile, const uint32_t *list, s
 LOM_INLINE lom_mask cover_place(const struct sprite *sprite, int x, int y, int part,
                                 struct lom_sample_offset from_centre, lom_float st[2])
 {
-    const lom_triangle *t = sprite->record;
+    const lom_triangle *t = &sprite->record;
     lom_float right = lom_to_float(lane_x(part)) + (sprite->x + (float)x + (float)from_centre.x * (1.0f / 16));
     lom_float down = lom_to_float(lane_y(part)) + (sprite->y + (float)y + (float)from_centre.y * (1.0f / 16));
     lom_float p = st[0] = right * t->step_x1 + down * t->step_y1, q = st[1] = right * t->step_x2 + down * t->step_y2;
@@ -214,7 +215,7 @@ static void shade_samples(struct lom_tile *tile, struct sprite *sprite, int x, i
 static void cover_samples(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part, lom_int pixel,
                           lom_mask covered[LOM_MAX_SAMPLES], lom_float st[LOM_MAX_SAMPLES][2])
 {
-    const bool cut = sprite->record->state >> TRIANGLE_CUT & 1;
+    const bool cut = sprite->record.primitive.state >> TRIANGLE_CUT & 1;
     lom_mask allowed = cut ? inside_bounds(tile, &sprite->bounds, x, y, part) : lom_splat_int(-1), placed;
     lom_float depth[LOM_MAX_SAMPLES];
     placed = cover_place(sprite, x, y, part, (struct lom_sample_offset){ 0, 0 }, sprite->in.st) & allowed;
@@ -257,7 +258,7 @@ void LOM_WIDE(lom_raster_sprite_samples)(struct lom_tile *tile, const uint32_t *
 {
     for (size_t i = 0; i < count; i++) {
         struct sprite sprite;
-        begin_sprite(tile, &tile->chunk->triangles[list[i]], &sprite);
+        begin_sprite(tile, &tile->chunk->primitives[list[i]], &sprite);
         struct window_range r = windows_of(tile, &sprite.bounds);
         for (int y = r.y0; y <= r.y1; y += 4)
             for (int x = r.x0; x <= r.x1; x += 4)

@@ -136,8 +136,8 @@ static void tell_bins(lom_device *device, const struct lom_chunk *chunk)
 {
     const struct lom_pass *pass = &device->pass;
     const lom_listener *listener = &device->recorder->listener;
-    for (int i = 0; i < chunk->tile_count; i++) {
-        int number = chunk->tile_low + i;
+    for (int number = chunk->tile_low; number <= chunk->tile_high; number++) {
+        int i = number - chunk->tile_low;
         lom_rect tile = { pass->tile_x0 + number % pass->tiles_x * pass->tile,
                           pass->tile_y0 + number / pass->tiles_x * pass->tile, pass->tile, pass->tile };
         if (chunk->tile_first[i + 1] != chunk->tile_first[i])

@@ -54,7 +54,7 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
 /* Whether a chunk has a list for a tile, which may be empty. */
 static bool reaches(const struct lom_chunk *chunk, int number)
 {
-    return number >= chunk->tile_low && number - chunk->tile_low < chunk->tile_count;
+    return number >= chunk->tile_low && number <= chunk->tile_high;
 }
 
 /* Brings a chunk's list of the tile near: another core may have written it. */

@@ -1,6 +1,5 @@
 /* Stage 3 of 7: setup. In: triangles of projected vertices, in order. Out: a record for each that may cover a pixel
- * centre. LOM_LANES triangles at a time, in exact integers (large areas in double, which holds them exactly); records
- * leave by rows of four words, transposed.
+ * centre. LOM_LANES triangles at a time, in exact integers (large areas in double, which holds them exactly).
  *
  * Invariant: the record is the same for every order of the three vertices; only facing and the provoking vertex
  * remember it. Triangles that fit a 4x4 window get their exact coverage here, and the empty ones end here. */
@@ -10,14 +9,12 @@
 
 struct vertices { /* one corner of LOM_LANES triangles */
     lom_int x, y;
-    lom_int row;   /* where its row begins (a multiple of 4), plus 1 for the provoking vertex */
-    lom_int depth; /* bits of a float, which only moves until the record is written */
+    lom_int row; /* where its row begins (a multiple of 4), plus 1 for the provoking vertex */
 };
 
 struct packet {
     struct vertices v[3];
     lom_int x0, y0, x1, y1; /* bounds of the vertices, in units */
-    lom_float area;         /* |twice the area|, correctly rounded */
     lom_int sign;           /* of the area of v[0], v[1], v[2] in their order: 1, -1, or 0 */
     lom_int left, top, right, bottom, kind, cut, clip;
     lom_mask alive, front, small;
@@ -29,26 +26,22 @@ struct edge_lanes {
     lom_int ex[3], ey[3];           /* along the edge, so that the inside is positive */
 };
 
+/* Where the rows of LOM_LANES triangles' corners begin, as the corners lie: three a triangle. */
+LOM_INLINE void find_rows(const struct lom_chunk *chunk, const uint32_t *corners, int32_t rows[3 * LOM_LANES])
+{
+    for (int i = 0; i < 3 * LOM_LANES; i += LOM_LANES)
+        lom_store_int(rows + i, lom_load_int((const int32_t *)corners + i) * (int32_t)chunk->draw->row_floats);
+}
+
 /* Corner k of LOM_LANES triangles, without where its row is. */
-LOM_INLINE void load_corner(const struct lom_chunk *chunk, const uint32_t *corners, int k, struct vertices *v)
+LOM_INLINE void load_corner(const struct lom_chunk *chunk, const int32_t *row, int k, struct vertices *v)
 {
     const float *rows[LOM_LANES];
-    size_t pitch = (size_t)chunk->draw->row_floats;
     for (int i = 0; i < LOM_LANES; i++)
-        rows[i] = chunk->rows + corners[3 * i + k] * pitch;
+        rows[i] = chunk->rows + row[3 * i + k];
     lom_float4 header = lom_load_rows(rows, 0);
     v->x = lom_as_int(header.x);
     v->y = lom_as_int(header.y);
-    v->depth = lom_as_int(header.z);
-}
-
-/* Where the corners' rows are: for the packets that culling leaves. */
-LOM_INLINE void find_rows(const struct lom_chunk *chunk, const uint32_t *corners, struct packet *p)
-{
-    for (int k = 0; k < 3; k++) {
-        lom_int number = lom_gather_int((const int32_t *)corners + k, lom_lane_index() * 3);
-        p->v[k].row = number * (int32_t)chunk->draw->row_floats + (k == 2 ? 1 : 0);
-    }
 }
 
 /* The bounds of the vertices in units, and which triangles have edge functions in int32. */
@@ -62,26 +55,24 @@ LOM_INLINE void measure(struct packet *p)
     p->small = (p->x1 - p->x0 < SMALL_EXTENT) & (p->y1 - p->y0 < SMALL_EXTENT);
 }
 
-/* Twice the area of v[0], v[1], v[2], positive clockwise on the screen (y down): its sign, and its size rounded once.
- * Of small triangles, whose differences are below SMALL_EXTENT = 2^14. */
-LOM_INLINE void find_area(struct packet *p)
+/* The sign of twice the area of v[0], v[1], v[2], positive clockwise on the screen (y down), of small triangles, whose
+ * differences are below SMALL_EXTENT = 2^14. */
+LOM_INLINE void find_sign(struct packet *p)
 {
     const struct vertices *v = p->v;
     lom_int ax = v[1].x - v[0].x, ay = v[1].y - v[0].y, bx = v[2].x - v[0].x, by = v[2].y - v[0].y;
     lom_int area = lom_dot_pairs(lom_make_pair(ax, ay), lom_make_pair(by, -bx));
     p->sign = ((area > 0) & 1) | (area < 0);
-    p->area = lom_abs(lom_to_float(area));
 }
 
 /* The same where it does not fit int32; exact in double. */
-static __attribute__((noinline)) void find_large_area(struct packet *p)
+static __attribute__((noinline)) void find_large_sign(struct packet *p)
 {
     const struct vertices *v = p->v;
     for (int i = 0; i < LOM_LANES; i++) {
         double area = (double)(v[1].x[i] - v[0].x[i]) * (v[2].y[i] - v[0].y[i]) -
                       (double)(v[1].y[i] - v[0].y[i]) * (v[2].x[i] - v[0].x[i]);
         p->sign[i] = (area > 0) - (area < 0);
-        p->area[i] = (float)__builtin_fabs(area);
     }
 }
 
@@ -89,9 +80,9 @@ static __attribute__((noinline)) void find_large_area(struct packet *p)
 LOM_INLINE void cull(const struct lom_draw *draw, struct packet *p)
 {
     if (lom_all(p->small))
-        find_area(p);
+        find_sign(p);
     else
-        find_large_area(p);
+        find_large_sign(p);
     p->front = draw->desc.front_clockwise ? p->sign > 0 : p->sign < 0;
     p->alive &= p->sign != 0;
     if (draw->desc.cull == LOM_CULL_BACK)
@@ -116,7 +107,6 @@ LOM_INLINE void order(struct packet *p, int a, int b)
     exchange(swap, &u->x, &v->x);
     exchange(swap, &u->y, &v->y);
     exchange(swap, &u->row, &v->row);
-    exchange(swap, &u->depth, &v->depth);
     p->sign = (p->sign ^ swap) - swap;
 }
 
@@ -212,74 +202,93 @@ static lom_int crossing_distances(const struct lom_chunk *chunk, const uint32_t 
     return lom_load_int(crossing);
 }
 
-/* The third row of the record: the area and the edge functions, or where a large triangle ends; and the first pixel. */
-LOM_INLINE lom_float4 pack_edges(const struct packet *p, const struct edge_lanes *e)
+/* Whether triangles may be drawn with others: their windows are few, else they are mostly packets by themselves. The parts
+ * that cover.wide.c makes of one are less than 4 pixels wider and higher than it is. */
+LOM_INLINE lom_mask are_listed(const struct packet *p)
 {
-    lom_mask large = p->kind == TRIANGLE_LARGE;
-    lom_int area = e->start[0] + e->start[1] + e->start[2];
-    const lom_int exact[3] = { area, e->start[1], e->start[2] }, ends[3] = { p->right, p->bottom, { 0 } };
-    lom_int word[3];
-    for (int i = 0; i < 3; i++)
-        word[i] = lom_select_int(large, ends[i], exact[i]);
-    return (lom_float4){ lom_as_float(word[0]), lom_as_float(word[1]), lom_as_float(word[2]),
-                         lom_as_float(p->left | p->top << 16) };
+    lom_int width = (p->right - p->left + 1) & 127, height = (p->bottom - p->top + 1) & 127; /* of small triangles */
+    lom_mask few = (lom_mask)(lom_dot_pairs(width + 4, height + 4) <= LIST_PIXELS);
+    return ((p->kind == TRIANGLE_WINDOW) | ((p->kind == TRIANGLE_SMALL) & few)) & (p->clip == 0);
 }
 
-/* The last row: where the vertices' rows are, and the state. */
-LOM_INLINE lom_float4 pack_state(const struct packet *p, lom_int mask)
+LOM_INLINE lom_int pack_state(const struct packet *p, lom_int mask)
 {
-    lom_int extent = (p->right - p->left) | (p->bottom - p->top) << 8;
-    lom_int state = lom_select_int(p->kind == TRIANGLE_WINDOW, mask, extent & 0xffff);
+    lom_int state = lom_select_int(p->kind == TRIANGLE_WINDOW, mask, (lom_int){ 0 });
     lom_int provoking = (p->v[1].row & 1) | (p->v[2].row & 1) << 1;
-    state |= p->kind << TRIANGLE_KIND | (p->front & 1) << TRIANGLE_FRONT | (p->cut & 1) << TRIANGLE_CUT |
-             provoking << TRIANGLE_PROVOKING | p->clip << TRIANGLE_CLIP;
-    return (lom_float4){ lom_as_float(p->v[0].row & ~3), lom_as_float(p->v[1].row & ~3), lom_as_float(p->v[2].row & ~3),
-                         lom_as_float(state) };
+    return state | p->kind << TRIANGLE_KIND | (p->front & 1) << TRIANGLE_FRONT | (p->cut & 1) << TRIANGLE_CUT |
+           provoking << TRIANGLE_PROVOKING | (are_listed(p) & 1) << TRIANGLE_LISTED | p->clip << TRIANGLE_CLIP;
 }
 
-/* The tile of the first pixel, where the last pixel lies in it too. */
-LOM_INLINE lom_int find_tile(const struct lom_pass *pass, const struct packet *p)
+/* The tiles of the first and the last pixel. */
+struct tiles {
+    lom_int first, last;
+};
+
+LOM_INLINE struct tiles find_tiles(const struct lom_pass *pass, const struct packet *p)
 {
     int shift = __builtin_ctz((unsigned)pass->tile);
     lom_int left = (p->left - pass->tile_x0) >> shift, right = (p->right - pass->tile_x0) >> shift;
     lom_int top = (p->top - pass->tile_y0) >> shift, bottom = (p->bottom - pass->tile_y0) >> shift;
-    return lom_select_int((left == right) & (top == bottom), top * pass->tiles_x + left, lom_splat_int(SEVERAL_TILES));
+    return (struct tiles){ top * pass->tiles_x + left, bottom * pass->tiles_x + right };
 }
 
-/* Appends the lanes that are alive. The record of a lane that is not goes where the next one that is will be written.
- */
-static void append(const struct lom_pass *pass, struct lom_chunk *chunk, const struct packet *p,
-                   const struct edge_lanes *e, lom_int mask)
+/* Where the lanes that are alive go, each with what it has; narrow lanes have no permutation, and leave gaps that the next
+ * lane fills. */
+struct order {
+    lom_int which, place;
+};
+
+LOM_INLINE struct order find_order(lom_mask alive)
 {
-    enum { WORDS = sizeof(lom_triangle) / sizeof(float) };
-    int32_t place[LOM_LANES], tile[LOM_LANES], next = 0;
-    int32_t *tiles = chunk->assembly->tile + chunk->triangle_count;
-    uint32_t bits = lom_bits(p->alive);
-    lom_store_int(tile, find_tile(pass, p));
-    for (int i = 0; i < LOM_LANES; i++) {
-        place[i] = next;
-        tiles[next / WORDS] = tile[i];
-        next += (int32_t)(bits >> i & 1) * WORDS;
+    int32_t lanes[LOM_LANES];
+    if (LOM_LANES > 4) {
+        lom_compress((float *)lanes, alive, lom_as_float(lom_lane_index()));
+        return (struct order){ lom_load_int(lanes) & (LOM_LANES - 1), lom_lane_index() };
     }
-    lom_int at = lom_load_int(place);
-    float *to = (float *)(void *)(chunk->triangles + chunk->triangle_count);
-    lom_float scale = lom_splat(SUBPIXELS), z0 = lom_as_float(p->v[0].depth);
-    lom_scatter_rows(to, at,
-                     (lom_float4){ lom_to_float(-e->ey[1]) * scale, lom_to_float(e->ex[1]) * scale,
-                                   lom_to_float(-e->ey[2]) * scale, lom_to_float(e->ex[2]) * scale });
-    lom_scatter_rows(
-        to + 4, at,
-        (lom_float4){ 1.0f / p->area, z0, lom_as_float(p->v[1].depth) - z0, lom_as_float(p->v[2].depth) - z0 });
-    lom_scatter_rows(to + 8, at, pack_edges(p, e));
-    lom_scatter_rows(to + 12, at, pack_state(p, mask));
-    chunk->triangle_count += (size_t)(next / WORDS);
+    uint32_t bits = lom_bits(alive);
+    for (int i = 0, next = 0; i < LOM_LANES; next += (int)(bits >> i & 1), i++)
+        lanes[i] = next;
+    return (struct order){ lom_lane_index(), lom_load_int(lanes) };
 }
 
-static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, lom_mask alive)
+LOM_INLINE lom_float put(const struct order *order, lom_int x)
+{
+    return LOM_LANES > 4 ? lom_permute(lom_as_float(x), order->which) : lom_as_float(x);
+}
+
+/* Appends the lanes that are alive, and widens the range of tiles. Writes up to LOM_LANES records and half of another. */
+static void append(const struct lom_pass *pass, struct lom_chunk *chunk, const struct packet *p, lom_int mask,
+                   struct tiles *range)
+{
+    enum { WORDS = sizeof(lom_primitive) / sizeof(float) };
+    int32_t *tile = chunk->assembly->tile + chunk->triangle_count;
+    float *to = (float *)(void *)(chunk->primitives + chunk->triangle_count);
+    struct tiles tiles = find_tiles(pass, p);
+    range->first = lom_select_int(p->alive, lom_min_int(range->first, tiles.first), range->first);
+    range->last = lom_select_int(p->alive, lom_max_int(range->last, tiles.last), range->last);
+    lom_int only = lom_select_int(tiles.first == tiles.last, tiles.first, lom_splat_int(SEVERAL_TILES));
+    struct order order = find_order(p->alive);
+    lom_int at = order.place * WORDS;
+    lom_float first = put(&order, p->left | p->top << 16), last = put(&order, p->right | p->bottom << 16);
+    if (LOM_LANES > 4)
+        lom_store((float *)tile, put(&order, only));
+    for (int i = 0; i < LOM_LANES && LOM_LANES == 4; i++)
+        tile[order.place[i]] = only[i];
+    lom_scatter_rows(to + 4, at, (lom_float4){ first, last, first, last });
+    lom_scatter_rows(to, at,
+                     (lom_float4){ put(&order, p->v[0].row & ~3), put(&order, p->v[1].row & ~3),
+                                   put(&order, p->v[2].row & ~3), put(&order, pack_state(p, mask)) });
+    chunk->triangle_count += lom_count(p->alive);
+}
+
+static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, lom_mask alive,
+                          struct tiles *range)
 {
     struct packet p;
+    int32_t rows[3 * LOM_LANES];
+    find_rows(chunk, corners, rows);
     for (int k = 0; k < 3; k++)
-        load_corner(chunk, corners, k, &p.v[k]);
+        load_corner(chunk, rows, k, &p.v[k]);
     p.alive = alive;
     LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_SENT, &p.alive);
     measure(&p);
@@ -287,7 +296,8 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_FACES, &p.alive);
     if (!lom_any(p.alive))
         return;
-    find_rows(chunk, corners, &p);
+    for (int k = 0; k < 3; k++)
+        p.v[k].row = lom_gather_int(rows + k, lom_lane_index() * 3) + (k == 2 ? 1 : 0);
     order(&p, 0, 1);
     order(&p, 1, 2);
     order(&p, 0, 1);
@@ -295,35 +305,41 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     if (!lom_any(p.alive))
         return;
     LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_IN_BOUNDS, &p.alive);
-    struct edge_lanes e = find_edges(pass, &p);
-    lom_int mask = cover_window(&p, &e);
-    p.alive &= (p.kind != TRIANGLE_WINDOW) | (mask != 0);
+    lom_int mask = { 0 };
+    if (lom_any(p.alive & (p.kind == TRIANGLE_WINDOW))) {
+        struct edge_lanes e = find_edges(pass, &p);
+        mask = cover_window(&p, &e);
+        p.alive &= (p.kind != TRIANGLE_WINDOW) | (mask != 0);
+    }
     LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_DONE, &p.alive);
     p.clip = (lom_int){ 0 };
     if (chunk->any_code != 0)
         p.clip = crossing_distances(chunk, corners);
     if (lom_any(p.alive))
-        append(pass, chunk, &p, &e, mask);
+        append(pass, chunk, &p, mask, range);
+}
+
+static void widen_range(struct lom_chunk *chunk, const struct tiles *range)
+{
+    for (int i = 0; i < LOM_LANES; i++)
+        lom_widen_tiles(chunk, range->first[i], range->last[i]);
 }
 
 void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count)
 {
-    size_t room = chunk->triangle_count + count + 1; /* append writes one more */
-    struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_reserve(&chunk->triangles, &chunk->triangles_capacity, room, sizeof(lom_triangle), NULL) ||
-        !lom_reserve(&assembly->tile, &assembly->tile_capacity, room, sizeof(int32_t), NULL)) {
-        chunk->failed = true;
+    struct tiles range = { lom_splat_int(INT32_MAX), lom_splat_int(-1) };
+    if (!lom_reserve_primitives(chunk, chunk->triangle_count + count))
         return;
-    }
     for (size_t first = 0; first < count; first += LOM_LANES, corners += 3 * LOM_LANES) {
         size_t live = count - first;
         if (live >= LOM_LANES) {
-            set_up_packet(pass, chunk, corners, lom_splat_int(-1));
+            set_up_packet(pass, chunk, corners, lom_splat_int(-1), &range);
             continue;
         }
         uint32_t padded[3 * LOM_LANES];
         for (size_t i = 0; i < LOM_LANES; i++)
             memcpy(padded + 3 * i, corners + 3 * (i < live ? i : 0), 3 * sizeof padded[0]);
-        set_up_packet(pass, chunk, padded, lom_lane_index() < (int32_t)live);
+        set_up_packet(pass, chunk, padded, lom_lane_index() < (int32_t)live, &range);
     }
+    widen_range(chunk, &range);
 }

@@ -64,8 +64,8 @@ static bool is_sliver(const float *a, const float *b, float area)
     return u * v * (u + v) > size_of(area) * 0x1p18f;
 }
 
-/* The record of the sprite whose vertex has the row; false where it covers nothing. */
-static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, const float *row, lom_triangle *t)
+/* The pixels of the sprite whose vertex has the row; false where it covers nothing. */
+static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, const float *row, lom_primitive *p)
 {
     const float *a = row + draw->axis_offset, *b = a + 2;
     const lom_rect *s = &draw->scissor;
@@ -83,44 +83,35 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
     if (!(size_of(area) >= (draw->desc.topology == LOM_POINTS ? smallest_point : smallest_area)) || x.low > x.high ||
         y.low > y.high)
         return false;
-    t->step_x1 = b[1] / area;
-    t->step_y1 = -b[0] / area;
-    t->step_x2 = -a[1] / area;
-    t->step_y2 = a[0] / area;
-    t->depth[0] = row[2];
-    t->first = (uint32_t)x.low | (uint32_t)y.low << 16;
-    t->large.right = x.high;
-    t->large.bottom = y.high;
-    t->state = TRIANGLE_NONE << TRIANGLE_KIND;
+    p->first = (uint32_t)x.low | (uint32_t)y.low << 16;
+    p->last = (uint32_t)x.high | (uint32_t)y.high << 16;
+    p->state = TRIANGLE_NONE << TRIANGLE_KIND;
     if (x.cut || y.cut || is_sliver(a, b, area))
-        t->state |= 1u << TRIANGLE_CUT;
+        p->state |= 1u << TRIANGLE_CUT;
     return true;
 }
 
-int32_t lom_tile_of(const struct lom_pass *pass, const lom_triangle *t)
+void lom_find_sprite(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t)
 {
-    int shift = __builtin_ctz((unsigned)pass->tile);
-    struct lom_bounds b = lom_bounds_of(t);
-    int left = (b.left - pass->tile_x0) >> shift, right = (b.right - pass->tile_x0) >> shift;
-    int top = (b.top - pass->tile_y0) >> shift, bottom = (b.bottom - pass->tile_y0) >> shift;
-    return left == right && top == bottom ? top * pass->tiles_x + left : SEVERAL_TILES;
+    const float *row = chunk->rows + primitive->row[0], *a = row + chunk->draw->axis_offset, *b = a + 2;
+    float area = a[0] * b[1] - a[1] * b[0];
+    *t = (lom_triangle){ .primitive = *primitive,
+                         .step_x1 = b[1] / area,
+                         .step_y1 = -b[0] / area,
+                         .step_x2 = -a[1] / area,
+                         .step_y2 = a[0] / area,
+                         .depth = { row[2] } };
 }
 
 void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     const struct lom_draw *draw = chunk->draw;
-    struct lom_assembly *assembly = chunk->assembly;
     size_t pitch = (size_t)draw->row_floats;
-    if (!lom_reserve(&chunk->triangles, &chunk->triangles_capacity, chunk->vertex_count, sizeof(lom_triangle), NULL) ||
-        !lom_reserve(&assembly->tile, &assembly->tile_capacity, chunk->vertex_count, sizeof(int32_t), NULL)) {
-        chunk->failed = true;
+    if (!lom_reserve_primitives(chunk, chunk->vertex_count))
         return;
-    }
     for (size_t i = 0; i < chunk->vertex_count; i++) {
-        lom_triangle t = { .row = { (uint32_t)(i * pitch) } };
-        if (assembly->codes[i] != 0 || !set_up(pass, draw, chunk->rows + i * pitch, &t))
-            continue;
-        assembly->tile[chunk->triangle_count] = lom_tile_of(pass, &t);
-        chunk->triangles[chunk->triangle_count++] = t;
+        lom_primitive p = { .row = { (uint32_t)(i * pitch) } };
+        if (chunk->assembly->codes[i] == 0 && set_up(pass, draw, chunk->rows + i * pitch, &p))
+            lom_add_primitive(pass, chunk, &p);
     }
 }

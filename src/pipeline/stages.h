@@ -126,14 +126,14 @@ struct lom_chunk {
     const uint8_t *needed; /* the assembly's, or NULL: all */
 
     float *rows; /* vertex rows */
-    lom_triangle *triangles;
-    int tile_low, tile_count; /* the tiles that triangles lie in have numbers within tile_low + [0, tile_count) */
-    uint32_t *tile_first;     /* tile_count + 1: where the list of tile_low + i begins */
-    uint32_t *tile_list;      /* triangle numbers */
+    lom_primitive *primitives;
+    int tile_low, tile_high; /* the tiles that they lie in have numbers between these; none: tile_high < 0 */
+    uint32_t *tile_first;    /* one more than those: where the list of tile_low + i begins */
+    uint32_t *tile_list;     /* numbers of primitives */
     size_t row_count, triangle_count;
     unsigned any_code; /* all outcodes together */
     bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
-    size_t rows_capacity, triangles_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
+    size_t rows_capacity, primitives_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
     uint64_t triangles_clipped, vertices_shaded;
     bool failed; /* memory ran out */
 };
@@ -202,8 +202,15 @@ struct lom_rectangle {
     bool streams;                  /* texels and pitch are whole cache lines, and nobody reads them soon */
 };
 
+static inline size_t lom_larger_size(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
 /* Room for `rows` vertex rows in the chunk (rows, clip, codes). */
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
+/* Room in the arrays of a chunk that begins, whose vertex_count is known. */
+bool lom_make_room(const struct lom_room *room, struct lom_chunk *chunk);
 /* Raises room to what the chunk has needed. */
 void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const struct lom_chunk *chunk);
 
@@ -223,16 +230,31 @@ int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, cons
  * lines: a record for each that may cover a pixel. */
 bool lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t end[2], unsigned codes);
 void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk);
-/* The tile that holds all of a record, or SEVERAL_TILES. */
-int32_t lom_tile_of(const struct lom_pass *pass, const lom_triangle *t);
+/* Room for `count` primitives and the tiles that they lie in, and for what set-up writes past them. */
+bool lom_reserve_primitives(struct lom_chunk *chunk, size_t count);
+/* Appends one, for which there is room. */
+void lom_add_primitive(const struct lom_pass *pass, struct lom_chunk *chunk, const lom_primitive *primitive);
 /* Stages 1 and 3 of a chunk of sprites or points: which vertices it needs; a record for each that may cover a pixel centre. */
 bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk);
 void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk);
+/* The chunk has primitives in tiles with numbers between these. */
+static inline void lom_widen_tiles(struct lom_chunk *chunk, int32_t low, int32_t high)
+{
+    chunk->tile_low = low < chunk->tile_low ? low : chunk->tile_low;
+    chunk->tile_high = high > chunk->tile_high ? high : chunk->tile_high;
+}
+
 /* Stage 4: sorts the chunk's triangles into its bins. */
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 
 /* What a draw's depth bias adds to the depths of a triangle (draw->biased). */
-double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_triangle *t);
+double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_primitive *primitive);
+
+/* What a tile's stages need of a triangle or line; of a sprite or point; of a line (triangle.c, sprite.c, line.c). */
+void lom_find_triangle(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_primitive *primitive,
+                       lom_triangle *t);
+void lom_find_sprite(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t);
+void lom_find_line(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t);
 
 /* Tile memory from the clear values or the attachments, and to the attachments. */
 void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory);

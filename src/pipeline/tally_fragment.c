@@ -166,22 +166,22 @@ static float edge_distance(const lom_triangle *t, const struct lom_packet *packe
 /* Edge functions add up to twice the area in 1/65536 square pixels. */
 static float area_of(const lom_triangle *t)
 {
-    double twice = lom_kind_of(t) == TRIANGLE_LARGE ? 1 / (double)t->inverse_area : (double)t->small.area;
+    double twice = lom_kind_of(&t->primitive) == TRIANGLE_LARGE ? 1 / (double)t->inverse_area : (double)t->area;
     return (float)(twice / (2.0 * SUBPIXELS * SUBPIXELS));
 }
 
 /* Clipping appends its vertices to the chunk's rows. */
-static void find_made(const struct lom_tile *tile, const lom_triangle *t, int place, lom_tally *tally)
+static void find_made(const struct lom_tile *tile, const lom_primitive *p, int place, lom_tally *tally)
 {
     const struct lom_chunk *chunk = tile->chunk;
     const lom_rect *v = &tile->pass->viewport;
     int x, y;
     find_pixel(tile, place, &x, &y);
     for (int k = 0; k < 3; k++) {
-        if (t->row[k] / (uint32_t)tile->draw->row_floats < chunk->vertex_count)
+        if (p->row[k] / (uint32_t)tile->draw->row_floats < chunk->vertex_count)
             continue;
         int32_t at[2];
-        memcpy(at, chunk->rows + t->row[k], sizeof at);
+        memcpy(at, chunk->rows + p->row[k], sizeof at);
         int64_t dx = (int64_t)(x - v->x) * SUBPIXELS + SUBPIXELS / 2 - at[0];
         int64_t dy = (int64_t)(y - v->y) * SUBPIXELS + SUBPIXELS / 2 - at[1];
         tally->made++;
@@ -198,17 +198,19 @@ static void store(const struct lom_tile *tile, lom_tally *tally, int place, int 
 {
     const struct tally_worker *worker = worker_of(tile);
     const struct lom_packet *packet = worker->packet;
-    const lom_triangle *t = &tile->chunk->triangles[packet->triangle[packet->which[lane]]];
+    const lom_primitive *p = &tile->chunk->primitives[packet->triangle[packet->which[lane]]];
+    lom_triangle t;
+    lom_find_triangle(tile->pass, tile->chunk, p, &t);
     const lom_float l[3] = { packet->l[0], packet->l[1], packet->l[2] };
-    const struct depth_plane plane = find_depth(t);
+    const struct depth_plane plane = find_depth(&t);
     tally->is_stored = true;
     tally->object = tile->draw->desc.object;
     tally->depth = tile->draw->desc.shader->writes_depth ? worker->depth[lane] : interpolate_depth(&plane, l)[lane];
-    tally->edge = edge_distance(t, packet, lane);
-    tally->area = area_of(t);
+    tally->edge = edge_distance(&t, packet, lane);
+    tally->area = area_of(&t);
     tally->made = 0;
     tally->at_made = false;
-    find_made(tile, t, place, tally);
+    find_made(tile, p, place, tally);
     tally->is_mipped = worker->lookup != NULL;
     tally->asked = tally->is_mipped ? note_value(worker, worker->lookup, 3, lane) : 0;
     tally->level = tally->is_mipped ? note_value(worker, worker->lookup, 4, lane) : 0;

@@ -34,8 +34,10 @@ enum {
     LIST_TRIANGLES = 64, /* of which some may be left from the last time */
     LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
     SLOT_PITCH = LIST_TRIANGLES + 16,
-    SLOT_WORDS = 16, /* slots.h */
-    LIST_HEADER = 8, /* interpolate.wide.c */
+    SLOT_WORDS = 16,     /* slots.h */
+    LIST_ONE_OVER_W = 0, /* of the values: words of the vertices' 1/w, of the others before the varyings, of a varying
+                            (interpolate.wide.c) */
+    LIST_HEADER = 8,
     LIST_VALUE = 5
 };
 struct lom_list {
@@ -50,7 +52,7 @@ struct lom_list {
 
 /* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). */
 struct lom_facet {
-    const lom_triangle *triangle; /* whose they are; NULL: nobody's */
+    const lom_primitive *primitive; /* whose they are; NULL: nobody's */
     float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
 };
 
