@@ -47,8 +47,14 @@ lom_mat4 lom_look_at(lom_vec3 eye, lom_vec3 target, lom_vec3 up);
 lom_mat4 lom_perspective(double field_of_view, double aspect, double near_plane);
 /* Clip z in -w..w, -1 at near and 1 at far (OpenGL). */
 lom_mat4 lom_perspective_gl(double field_of_view, double aspect, double near_plane, double far_plane);
-/* Reversed depth, 1 at near, 0 at far. */
+/* Parallel rays along -z. Reversed depth, 1 at near, 0 at far, linear between them. */
 lom_mat4 lom_orthographic(double width, double height, double near_plane, double far_plane);
+/* Parallel rays at a slant: what lies a metre farther along -z is shown right metres further right and up metres further
+ * up, and the plane z = 0 where lom_orthographic shows it. With right = f cos a, up = f sin a the receding lines have the
+ * angle a and are f times as long as they are: f = 1 is a cavalier, f = 1/2 a cabinet projection; any pair is a shear.
+ * All zeros for a shear that is not finite. (J. Foley and others, Computer Graphics: Principles and Practice, 2nd ed.,
+ * 6.1.2.) */
+lom_mat4 lom_oblique(double width, double height, double near_plane, double far_plane, double right, double up);
 /* Mirror in the plane n.p = d, n of unit length. */
 lom_mat4 lom_mirror(lom_vec3 normal, double distance);
 /* False, and *inverse all zeros, when m is singular: a pivot within rounding of 0 after every row and column was
@@ -65,6 +71,24 @@ lom_vec3 lom_transform_direction(const lom_mat4 *m, lom_vec3 v);
 void lom_transform_clip(const lom_mat4 *m, lom_vec3 p, double clip[4]);
 /* Each element rounded once to float: what shaders multiply with. */
 lom_matrix_uniform lom_round_matrix(const lom_mat4 *m);
+
+/* ---- the rays of a view ---- */
+
+/* The rays that a picture of projection * view sees by, in world directions; the one through (x, y) in normalised device
+ * coordinates, with v = row (x, y, 1):
+ * perspective: from the eye along v, whose length along the view axis is 1;
+ * parallel: from eye + v, on the plane across the view axis through the eye, along `along`, whose length along the view
+ * axis is 1. */
+typedef struct lom_view_rays {
+    bool parallel; /* the projection's last row is (0, 0, 0, 1) */
+    double row[3][3];
+    lom_vec3 along, ahead; /* ahead: the view axis, of unit length */
+} lom_view_rays;
+/* projection: one of the above, or one zoomed to a part of it; view: a rotation, or a mirrored one, and a shift. */
+lom_view_rays lom_find_view_rays(const lom_mat4 *projection, const lom_mat4 *view);
+/* One of them: where it starts and its direction. */
+void lom_ray_through(const lom_mat4 *projection, const lom_mat4 *view, lom_vec3 eye, double x, double y,
+                     lom_vec3 *origin, lom_vec3 *direction);
 
 /* ---- boxes and the view frustum ---- */
 

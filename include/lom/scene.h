@@ -40,11 +40,19 @@ typedef struct lom_output {
 
 /* ---- [camera] ---- */
 
+typedef enum lom_projection {
+    LOM_PROJECTION_PERSPECTIVE,
+    LOM_PROJECTION_ORTHOGRAPHIC, /* parallel rays straight ahead */
+    LOM_PROJECTION_OBLIQUE /* parallel rays at a slant: what faces the camera keeps its shape, what recedes is drawn
+                                    along an angle */
+} lom_projection;
+
 typedef struct lom_camera_key { /* [[camera.key]]; times rise strictly from key to key */
     bool present;
     double time; /* seconds */
     lom_vec3 position, target;
     double field_of_view; /* radians, vertical */
+    double height;        /* metres of a parallel projection */
 } lom_camera_key;
 
 typedef enum lom_person {
@@ -56,10 +64,15 @@ typedef enum lom_interpolation { LOM_INTERPOLATION_LINEAR, LOM_INTERPOLATION_SMO
 
 typedef struct lom_camera {
     bool present;
-    lom_vec3 position, target, up;   /* up has unit length */
-    double yaw, pitch, roll;         /* radians, as in the file; the reader has worked them into target and up */
-    double field_of_view;            /* radians, vertical, 0.01 to 179 degrees */
-    double near_plane;               /* metres, above 0 */
+    lom_vec3 position, target, up; /* up has unit length */
+    double yaw, pitch, roll;       /* radians, as in the file; the reader has worked them into target and up */
+    double field_of_view;          /* radians, vertical, 0.01 to 179 degrees */
+    double near_plane;             /* metres, above 0 */
+    lom_projection projection;
+    double height;                   /* of parallel projections: metres that the picture is high */
+    double far_plane;                /* of parallel projections: metres, beyond near_plane */
+    double foreshortening;           /* oblique: length of receding lines in parts of their own, 0..4 */
+    double receding_angle;           /* oblique, radians: their way in the picture, 0 right, pi / 2 up */
     lom_interpolation interpolation; /* between the keys */
     lom_camera_key *keys;
     size_t key_count;   /* 0: a camera that stands still */
@@ -69,11 +82,25 @@ typedef struct lom_camera {
     lom_person person;
 } lom_camera;
 
-/* The camera at one moment: the arguments of lom_look_at and lom_perspective. */
+/* The camera at one moment, and what its pictures are made by. The zero of what is behind near_plane is a perspective. */
 typedef struct lom_camera_view {
     lom_vec3 position, target, up;
     double field_of_view, near_plane;
+    lom_projection projection;
+    double height, far_plane; /* metres; of parallel projections alone */
+    double shear[2];          /* oblique: metres right and up a metre of depth (lom_oblique) */
 } lom_camera_view;
+
+/* From the view to clip space, for a picture that is `aspect` times as wide as high: lom_perspective, lom_orthographic or
+ * lom_oblique. */
+lom_mat4 lom_camera_projection(const lom_camera_view *camera, double aspect);
+/* Where its rays start (parallel: those of the picture's middle): the position, from which an oblique camera's eye is
+ * moved across the view axis so far that the target stays in the middle. */
+lom_vec3 lom_camera_eye(const lom_camera_view *camera);
+/* From the world to the view: lom_look_at from that eye. */
+lom_mat4 lom_camera_look(const lom_camera_view *camera);
+/* Metres along the view axis of what has this (reversed) depth, above 0; near_plane at 1. */
+double lom_camera_distance(const lom_camera_view *camera, double depth);
 
 /* ---- [light] ---- */
 

@@ -41,9 +41,11 @@ static lom_camera_view own_coordinates(const lom_scene *scene, const lom_camera 
 struct lom_eye lom_make_eye(enum lom_eye_kind kind, size_t followed, const lom_scene *scene, const lom_camera *camera,
                             const lom_camera_view *seen, double time)
 {
-    struct lom_eye eye = {
-        .kind = kind, .distance = 1, .degrees = seen->field_of_view / lom_radians_per_degree, .position = seen->position
-    };
+    struct lom_eye eye = { .kind = kind,
+                           .distance = 1,
+                           .degrees = seen->field_of_view / lom_radians_per_degree,
+                           .height = seen->height,
+                           .position = seen->position };
     if (kind == LOM_EYE_FREE) {
         look_along(&eye, lom_vec3_subtract(seen->target, seen->position));
         return eye;
@@ -75,6 +77,7 @@ void lom_eye_camera(const struct lom_eye *eye, lom_camera *camera)
     }
     camera->up = up;
     camera->field_of_view = eye->degrees * lom_radians_per_degree;
+    camera->height = eye->height;
     camera->key_count = 0;
     camera->followed = eye->followed;
     camera->person = eye->kind == LOM_EYE_FIRST ? LOM_PERSON_FIRST : LOM_PERSON_THIRD;
@@ -104,14 +107,32 @@ static size_t print_place(char *text, size_t room, const char *before, lom_vec3 
     return used;
 }
 
-size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const char *name, double near_plane)
+/* The keys of a parallel projection. */
+static size_t print_projection(char *text, size_t room, const lom_camera *camera)
 {
-    lom_camera camera = { .near_plane = near_plane };
+    if (camera->projection == LOM_PROJECTION_PERSPECTIVE)
+        return 0;
+    const bool is_oblique = camera->projection == LOM_PROJECTION_OBLIQUE;
+    size_t used = print_number(
+        text, room, is_oblique ? ", projection = \"oblique\", height = " : ", projection = \"orthographic\", height = ",
+        camera->height);
+    used += print_number(text + used, room - used, ", far = ", camera->far_plane);
+    if (!is_oblique)
+        return used;
+    used += print_number(text + used, room - used, ", foreshortening = ", camera->foreshortening);
+    return used + print_number(text + used, room - used,
+                               ", receding_angle = ", camera->receding_angle / lom_radians_per_degree);
+}
+
+size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const char *name, const lom_camera *like)
+{
+    lom_camera camera = *like;
     lom_eye_camera(eye, &camera);
     size_t used = print_place(text, room, "{ position = [", camera.position);
     used += print_place(text + used, room - used, "], target = [", camera.target);
     used += print_number(text + used, room - used, "], field_of_view = ", eye->degrees);
-    used += print_number(text + used, room - used, ", near = ", near_plane);
+    used += print_number(text + used, room - used, ", near = ", camera.near_plane);
+    used += print_projection(text + used, room - used, &camera);
     int length = snprintf(text + used, room - used, name != NULL ? ", follow = \"%s\", person = \"%s\" }" : " }", name,
                           camera.person == LOM_PERSON_FIRST ? "first" : "third");
     return length < 0 || (size_t)length >= room - used ? used : used + (size_t)length;
@@ -156,4 +177,5 @@ void lom_move_eye(struct lom_eye *eye, double ahead, double right, double above)
 void lom_zoom_eye(struct lom_eye *eye, double factor)
 {
     eye->degrees = within(eye->degrees * factor, 1, 150);
+    eye->height = within(eye->height * factor, 1e-3, 1e6);
 }

@@ -1,6 +1,7 @@
 /* The camera's way, recorded. In: the eye while it moves. Out: a new scene file: the old one's text with this camera and
  * its key frames. Invariant: no file is overwritten; the new one has been read before it is written, and its camera is
  * where the eye was. */
+#include "base/numbers.h"
 #include "view.h"
 
 #include "paths.h"
@@ -22,7 +23,8 @@ static void add_key(struct lom_view *view)
     lom_eye_camera(&view->eye, &camera);
     double time = r->start + r->seconds;
     if (r->count == 0 || time > r->keys[r->count - 1].time)
-        r->keys[r->count++] = (lom_camera_key){ true, time, camera.position, camera.target, view->eye.degrees };
+        r->keys[r->count++] =
+            (lom_camera_key){ true, time, camera.position, camera.target, view->eye.degrees, view->eye.height };
 }
 
 void lom_step_recording(struct lom_view *view, double seconds)
@@ -91,6 +93,20 @@ static void print_number(FILE *out, const char *name, double value)
     fprintf(out, "%s = %s\n", name, text);
 }
 
+static void print_projection(FILE *out, const lom_camera *camera, double height)
+{
+    if (camera->projection == LOM_PROJECTION_PERSPECTIVE)
+        return;
+    const bool is_oblique = camera->projection == LOM_PROJECTION_OBLIQUE;
+    fprintf(out, "projection = \"%s\"\n", is_oblique ? "oblique" : "orthographic");
+    print_number(out, "height", height);
+    print_number(out, "far", camera->far_plane);
+    if (!is_oblique)
+        return;
+    print_number(out, "foreshortening", camera->foreshortening);
+    print_number(out, "receding_angle", camera->receding_angle / lom_radians_per_degree);
+}
+
 static void print_camera(FILE *out, const struct lom_view *view)
 {
     const struct lom_recording *r = &view->recording;
@@ -103,6 +119,7 @@ static void print_camera(FILE *out, const struct lom_view *view)
     print_vector(out, "target", first->target);
     print_number(out, "field_of_view", first->field_of_view);
     print_number(out, "near", view->scene->camera.near_plane);
+    print_projection(out, &view->scene->camera, first->height);
     fprintf(out, "interpolation = \"smooth\"\n");
     for (size_t i = 0; i < r->count; i++) {
         fprintf(out, "\n[[camera.key]]\n");
@@ -110,6 +127,8 @@ static void print_camera(FILE *out, const struct lom_view *view)
         print_vector(out, "position", r->keys[i].position);
         print_vector(out, "target", r->keys[i].target);
         print_number(out, "field_of_view", r->keys[i].field_of_view);
+        if (view->scene->camera.projection != LOM_PROJECTION_PERSPECTIVE)
+            print_number(out, "height", r->keys[i].height);
     }
 }
 

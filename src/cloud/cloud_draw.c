@@ -11,6 +11,7 @@
  * lit side of a thick cumulus about as bright as fresh snow. */
 static const double sun_share = 0.62;
 static const int most_steps = 4096;
+static const double near_grains = 0.6, far_grains = 2.5; /* of a pixel, between which the finest noise fades */
 
 lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud)
 {
@@ -37,10 +38,14 @@ void lom_cloud_corners(const struct lom_placed_cloud *cloud, lom_vec3 corner[8])
     }
 }
 
-static double square_distance(const struct lom_placed_cloud *cloud, lom_vec3 eye)
+/* What tells the nearer one of two clouds: the square of the distance; of parallel rays the distance along the view axis. */
+static double nearness(const struct lom_placed_cloud *cloud, const struct lom_cloud_view *view)
 {
-    double x = cloud->middle.x - eye.x, y = cloud->middle.y - eye.y, z = cloud->middle.z - eye.z;
-    return x * x + y * y + z * z;
+    const lom_vec3 away = lom_vec3_subtract(cloud->middle, view->eye);
+    if (view->projection.m[3][2] != 0)
+        return away.x * away.x + away.y * away.y + away.z * away.z;
+    const double *axis = view->view.m[2];
+    return -(axis[0] * away.x + axis[1] * away.y + axis[2] * away.z);
 }
 
 size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, bool cull, size_t *order)
@@ -51,9 +56,9 @@ size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_
     for (size_t n = set->count; n-- > 0;) {
         if (cull && lom_box_visibility(&frustum, lom_cloud_bounds(&set->clouds[n])) == LOM_OUTSIDE)
             continue;
-        double distance = square_distance(&set->clouds[n], view->eye);
+        double distance = nearness(&set->clouds[n], view);
         size_t at = count++;
-        for (; at > 0 && square_distance(&set->clouds[order[at - 1]], view->eye) < distance; at--)
+        for (; at > 0 && nearness(&set->clouds[order[at - 1]], view) < distance; at--)
             order[at] = order[at - 1];
         order[at] = n;
     }
@@ -81,6 +86,16 @@ size_t lom_count_capped_clouds(const struct lom_cloud_set *set, int *steps)
     return count;
 }
 
+/* A pixel of parallel rays covers as many grains at any distance: the fading is that between bounds so far apart that
+ * distances make no difference. */
+static void fade_detail(lom_medium_desc *march, double grains)
+{
+    const double far = 1e30, share = (grains - near_grains) / (far_grains - near_grains);
+    const double faded = share < 0 ? 0 : share > 1 ? 1 : share;
+    march->detail_near = (float)(-faded * far);
+    march->detail_far = (float)((1 - faded) * far);
+}
+
 static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, const struct lom_placed_cloud *placed,
                       const struct lom_cloud_view *view)
 {
@@ -90,14 +105,16 @@ static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, c
                                 .light = placed->light,
                                 .detail = placed->detail > 0 ? set->detail : NULL,
                                 .detail_strength = (float)placed->detail,
-                                .detail_near = (float)(0.6 * grain / view->pixel_angle),
-                                .detail_far = (float)(2.5 * grain / view->pixel_angle),
+                                .detail_near = (float)(near_grains * grain / view->pixel_angle),
+                                .detail_far = (float)(far_grains * grain / view->pixel_angle),
                                 .extinction = (float)(cloud->extinction * cloud->density),
                                 .step = step_of(set, placed),
                                 .stop = (float)set->quality.stop,
                                 .most_steps = most_steps,
                                 .octaves = set->quality.model == LOM_CLOUDS_OCTAVES ? set->quality.octaves : 1,
                                 .filtering = set->quality.march };
+    if (view->projection.m[3][2] == 0)
+        fade_detail(march, view->pixel_angle / grain);
     for (int i = 0; i < 3; i++)
         march->detail_scale[i] = (float)(cloud->size[i] / cloud->detail_size);
     double weight = set->params->albedo;
@@ -129,7 +146,7 @@ static void set_light(struct lom_cloud_uniforms *u, const struct lom_cloud_set *
 void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
                          const struct lom_cloud_view *view)
 {
-    u->near_plane = (float)view->near_plane;
+    u->eye = lom_find_eye(&view->projection, &view->view, 0);
     u->origin[0] = (float)view->origin_x;
     u->origin[1] = (float)view->origin_y;
     u->depth = view->depth;
@@ -144,6 +161,8 @@ void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_c
                                  placed->middle.z - view->eye.z };
     lom_mat4 move = lom_translation(view->eye), clip = lom_multiply(&view->projection, &view->view);
     clip = lom_multiply(&clip, &move);
+    for (int i = 0; i < 4 && u->eye.parallel; i++) /* no far plane cuts a cloud's back, whose depth nobody looks at */
+        clip.m[2][i] = i == 3 ? 0.5 : 0;
     u->clip_from_offset = lom_round_matrix(&clip);
     lom_vec3 corner[8];
     lom_cloud_corners(placed, corner);
@@ -188,7 +207,9 @@ static void set_picture(struct lom_cloud_uniforms *u, const struct lom_cloud_set
 {
     const double *size = placed->cloud->size;
     lom_vec3 away = lom_vec3_subtract(placed->middle, view->eye);
-    lom_vec3 right = lom_vec3_normalize((lom_vec3){ -away.z, 0, away.x });
+    const lom_view_rays rays = lom_find_view_rays(&view->projection, &view->view);
+    const lom_vec3 ray = rays.parallel ? rays.along : away;
+    lom_vec3 right = lom_vec3_normalize((lom_vec3){ -ray.z, 0, ray.x });
     double half = lom_double_sqrt(size[0] * size[0] + size[2] * size[2]) / 2.6;
     u->picture = set->picture;
     const double across[3] = { right.x * half, 0, right.z * half }, middle[3] = { away.x, away.y, away.z };

@@ -90,7 +90,7 @@ struct lom_cloud_view {
     bool mirrored;
     const lom_texture *depth; /* of what is drawn; reversed, infinite */
     int origin_x, origin_y;   /* the frame's pixel of the depth's pixel (0, 0) */
-    double pixel_angle;       /* radians a pixel covers in the middle of the picture */
+    double pixel_angle;       /* radians a pixel covers in the middle of the picture; of parallel rays metres */
     struct lom_light_uniform light;
     bool is_sliced; /* only what lies between two planes is drawn: metres along slice_axis, a unit vector, from the eye
                      */

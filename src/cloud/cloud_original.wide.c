@@ -95,6 +95,7 @@ static void picture_fragment(lom_fragment *out, const lom_varyings *in, const vo
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
     lom_float3 offset = { in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
+    offset = lom_eye_path(&cloud->eye, offset);
     lom_float length = lom_sqrt(lom_dot3(offset, offset));
     lom_float4 texel = lom_sample(cloud->picture, in->varying[S], in->varying[T], lom_lod(cloud->picture, in, S, T));
     lom_mask seen = lom_splat_int(-1);

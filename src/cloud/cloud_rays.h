@@ -21,14 +21,14 @@ LOM_INLINE void lom_cloud_vertex(lom_vertex *out, const lom_attributes *in, cons
     out->varying[OFFSET + 2] = offset.z;
 }
 
-/* Metres along the ray to what is drawn there: near / z is its distance along the view axis, w that of the fragment. */
+/* Metres along the ray to what is drawn there; length: those to the fragment. */
 LOM_INLINE lom_float lom_scene_distance(const struct lom_cloud_uniforms *cloud, const lom_varyings *in,
                                         lom_float length)
 {
     lom_int x = lom_to_int(in->x - cloud->origin[0]), y = lom_to_int(in->y - cloud->origin[1]);
     lom_float depth = lom_fetch(cloud->depth, x, y, 0).x;
-    return lom_select(depth > 0.0f, length * (cloud->near_plane / lom_max(depth, lom_splat(1e-30f))) / in->w,
-                      lom_splat(3e38f));
+    lom_float reach = lom_depth_reach(&cloud->eye, depth);
+    return lom_select(depth > 0.0f, cloud->eye.parallel ? reach : length * reach / in->w, lom_splat(3e38f));
 }
 
 /* Air between the eye and the cloud turns it to the haze's colour. */
@@ -48,7 +48,15 @@ LOM_INLINE lom_medium_rays lom_cloud_rays(const struct lom_cloud_uniforms *cloud
     lom_float3 offset = { in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
     lom_float length = lom_sqrt(lom_dot3(offset, offset));
     *direction = lom_scale3(offset, 1.0f / lom_max(length, lom_splat(1e-20f)));
-    lom_medium_rays rays = { .start = lom_uniform3(cloud->eye_in_box),
+    lom_float3 start = lom_uniform3(cloud->eye_in_box);
+    if (cloud->eye.parallel) { /* rays start beside the eye */
+        lom_float3 beside = lom_sub3(offset, lom_eye_path(&cloud->eye, offset));
+        *direction = lom_uniform3(cloud->eye.along);
+        start.x += lom_dot3(beside, lom_uniform3(cloud->box_axis[0]));
+        start.y += lom_dot3(beside, lom_uniform3(cloud->box_axis[1]));
+        start.z += lom_dot3(beside, lom_uniform3(cloud->box_axis[2]));
+    }
+    lom_medium_rays rays = { .start = start,
                              .along = { lom_dot3(*direction, lom_uniform3(cloud->box_axis[0])),
                                         lom_dot3(*direction, lom_uniform3(cloud->box_axis[1])),
                                         lom_dot3(*direction, lom_uniform3(cloud->box_axis[2])) },

@@ -2,6 +2,7 @@
 #ifndef LOM_CLOUD_CLOUD_UNIFORMS_H
 #define LOM_CLOUD_CLOUD_UNIFORMS_H
 
+#include "shading/eye.h"
 #include "shading/light.h"
 
 #include <lom/cloud.h>
@@ -11,7 +12,7 @@ struct lom_cloud_uniforms {
     float corner[8][3];                         /* of the box, less the eye */
     float eye_in_box[3];                        /* in parts of the box */
     float box_axis[3][3];                       /* rows: parts of the box along axis i a metre */
-    float near_plane;
+    struct lom_eye_uniform eye;
     float origin[2];
     const lom_texture *depth;                  /* NULL: nothing hides it */
     const float *jitter;                       /* NULL: none */

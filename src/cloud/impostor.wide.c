@@ -31,6 +31,7 @@ static lom_float shown_part(const struct lom_cloud_uniforms *cloud, const lom_va
         for (int k = 0; k < 3; k++)
             open.box_axis[i][k] = cloud->box_axis[i][k];
     }
+    open.eye = cloud->eye;
     open.is_sliced = cloud->is_sliced;
     open.slice_from = cloud->slice_from;
     open.slice_to = cloud->slice_to;

@@ -78,6 +78,63 @@ lom_mat4 lom_orthographic(double width, double height, double near_plane, double
     };
 }
 
+static bool is_finite(double x)
+{
+    return x - x == 0;
+}
+
+/* x' = x + right depth, depth = -z. */
+lom_mat4 lom_oblique(double width, double height, double near_plane, double far_plane, double right, double up)
+{
+    lom_mat4 m = lom_orthographic(width, height, near_plane, far_plane);
+    if (m.m[3][3] == 0 || !is_finite(right) || !is_finite(up))
+        return (lom_mat4){ { { 0 } } };
+    m.m[0][2] = -right * m.m[0][0];
+    m.m[1][2] = -up * m.m[1][1];
+    return m;
+}
+
+/* ---- rays ---- */
+
+/* With clip x = p00 x + p02 z + p03: where z is 0, x is (ndc - p03) / p00; a metre of depth moves it by p02 / p00. */
+lom_view_rays lom_find_view_rays(const lom_mat4 *projection, const lom_mat4 *view)
+{
+    const double(*p)[4] = projection->m, (*v)[4] = view->m, scale[2] = { 1 / p[0][0], 1 / p[1][1] };
+    lom_view_rays rays = { .parallel = p[3][2] == 0, .ahead = { -v[2][0], -v[2][1], -v[2][2] } };
+    double along[3];
+    for (int i = 0; i < 3; i++) {
+        rays.row[i][0] = v[0][i] * scale[0];
+        rays.row[i][1] = v[1][i] * scale[1];
+        rays.row[i][2] = -v[2][i];
+        along[i] = v[0][i] * p[0][2] * scale[0] + v[1][i] * p[1][2] * scale[1] - v[2][i];
+        if (rays.parallel)
+            rays.row[i][2] = -v[0][i] * p[0][3] * scale[0] - v[1][i] * p[1][3] * scale[1];
+    }
+    rays.along = (lom_vec3){ along[0], along[1], along[2] };
+    return rays;
+}
+
+/* The view's rotation takes a vector of the view to the world. */
+static lom_vec3 turned(const lom_mat4 *view, double x, double y, double z)
+{
+    const double(*v)[4] = view->m;
+    return (lom_vec3){ v[0][0] * x + v[1][0] * y + v[2][0] * z, v[0][1] * x + v[1][1] * y + v[2][1] * z,
+                       v[0][2] * x + v[1][2] * y + v[2][2] * z };
+}
+
+void lom_ray_through(const lom_mat4 *projection, const lom_mat4 *view, lom_vec3 eye, double x, double y,
+                     lom_vec3 *origin, lom_vec3 *direction)
+{
+    const double(*p)[4] = projection->m;
+    *origin = eye;
+    if (p[3][2] != 0) {
+        *direction = turned(view, x / p[0][0], y / p[1][1], -1);
+        return;
+    }
+    *direction = turned(view, p[0][2] / p[0][0], p[1][2] / p[1][1], -1);
+    *origin = lom_vec3_add(eye, turned(view, (x - p[0][3]) / p[0][0], (y - p[1][3]) / p[1][1], 0));
+}
+
 /* ---- boxes ---- */
 
 static bool empty_box(lom_box box)

@@ -186,10 +186,10 @@ static bool draw_all(struct explaining *x, lom_error *error)
 /* Where the eye of a picture's passes is. */
 static lom_vec3 find_eye(const lom_renderer *r, const lom_explained *e)
 {
-    lom_vec3 eye = r->moment.camera.position;
+    lom_vec3 eye = lom_camera_eye(&r->moment.camera);
     for (const lom_pass_record *p = e->record->passes; p != NULL; p = p->next)
         if (p->label != NULL && strcmp(p->label, "reflection") == 0)
-            eye.y = 2 * r->scene->water.level - r->moment.camera.position.y;
+            return (lom_vec3){ eye.x, 2 * r->scene->water.level - eye.y, eye.z };
     return eye;
 }
 

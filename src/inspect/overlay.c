@@ -128,9 +128,9 @@ static bool sum_tiles(const lom_device *device, lom_rect drawn, struct tiles *ti
     return tiles->work != NULL;
 }
 
-static double near_plane_of(const lom_renderer *r, const lom_frame_desc *desc)
+static const lom_camera_view *camera_of(const lom_renderer *r, const lom_frame_desc *desc)
 {
-    return desc->camera != NULL ? desc->camera->near_plane : r->moment.camera.near_plane;
+    return desc->camera != NULL ? desc->camera : &r->moment.camera;
 }
 
 static lom_image *take_numbers(const lom_renderer *r, const lom_overlay_desc *desc, const struct seen_pass *pass,
@@ -138,7 +138,7 @@ static lom_image *take_numbers(const lom_renderer *r, const lom_overlay_desc *de
 {
     const struct overlay_row *row = lom_overlay_row(desc->kind);
     const lom_texture *target = r->targets.of[pass->target];
-    struct overlay_place at = { .near_plane = near_plane_of(r, &desc->frame) };
+    struct overlay_place at = { .camera = camera_of(r, &desc->frame) };
     struct tiles tiles = { .work = NULL };
     lom_rect drawn = { 0, 0, lom_texture_width(target), lom_texture_height(target) };
     if (pass->is_of_frame) {

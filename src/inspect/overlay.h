@@ -20,8 +20,8 @@ enum overlay_look {
 /* What a value is found from. */
 struct overlay_place {
     const lom_tally *tally;
-    double near_plane; /* metres */
-    uint64_t tile;     /* weighted work of the pixel's tile */
+    const lom_camera_view *camera;
+    uint64_t tile; /* weighted work of the pixel's tile */
 };
 typedef void overlay_value(const struct overlay_place *at, float *value);
 

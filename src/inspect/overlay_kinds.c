@@ -14,11 +14,10 @@ static void tell_edge(const struct overlay_place *at, float *value)
     *value = at->tally->is_stored ? at->tally->edge : nothing;
 }
 
-/* Reversed depth without a far plane is near / distance. */
 static void tell_depth(const struct overlay_place *at, float *value)
 {
     bool there = at->tally->is_stored && at->tally->depth > 0;
-    *value = there ? (float)(at->near_plane / (double)at->tally->depth) : nothing;
+    *value = there ? (float)lom_camera_distance(at->camera, (double)at->tally->depth) : nothing;
 }
 
 static void tell_normal(const struct overlay_place *at, float *value)

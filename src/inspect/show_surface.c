@@ -72,7 +72,7 @@ static lom_image *show_tallied(struct seen *seen, lom_renderer *r, const lom_fra
     lom_image *image =
         drawn ? lom_create_image(r->targets.drawn_width, r->targets.drawn_height, 1, format, error) : NULL;
     seen->renderer = r;
-    seen->eye = desc->camera != NULL ? desc->camera->position : r->moment.camera.position;
+    seen->eye = lom_camera_eye(desc->camera != NULL ? desc->camera : &r->moment.camera);
     for (int y = 0; image != NULL && y < image->height; y++)
         for (int x = 0; x < image->width; x++)
             tell(seen, lom_tallied(r->device, x, y), seen->crop.x + x, seen->crop.y + y,
@@ -99,10 +99,9 @@ lom_image *lom_show_motion(lom_renderer *r, const lom_frame_desc *desc, lom_erro
     int number = desc->frame > 0 ? desc->frame - 1 : 0;
     if (!lom_find_frame_sizes(&f, error) || !lom_world_at(r->world, number / r->scene->output.fps, &before, error))
         return NULL;
-    const lom_camera_view *camera = &before.camera;
     struct seen seen = { .before = &before, .width = f.width, .height = f.height, .crop = f.crop };
-    lom_mat4 projection = lom_perspective(camera->field_of_view, (double)f.width / f.height, camera->near_plane);
-    lom_mat4 view = lom_look_at(camera->position, camera->target, camera->up);
+    lom_mat4 projection = lom_camera_projection(&before.camera, (double)f.width / f.height);
+    lom_mat4 view = lom_camera_look(&before.camera);
     seen.clip_before = lom_multiply(&projection, &view);
     lom_image *image = show_tallied(&seen, r, desc, NULL, LOM_FORMAT_RGB32F, tell_motion, error);
     lom_free_moment(&before);

@@ -13,6 +13,7 @@ struct frame {
     lom_reference_frame desc;
     lom_image *image;
     lom_camera_view camera;
+    lom_vec3 eye; /* its */
     lom_mat4 view, projection;
     atomic_int next_row;
 };
@@ -43,17 +44,22 @@ static void place_sample(const struct frame *f, int x, int y, int i, double *u, 
     *v = fraction(radical_inverse((uint32_t)i) + lom_random_uniform(pixel, 1));
 }
 
-/* The ray through a place of the picture in pixels; its view coordinates are (x / p00, y / p11, -1). */
+static bool starts_in_water(const struct frame *f, lom_vec3 place)
+{
+    if (f->waves.triangles == NULL)
+        return lom_water_above(&f->reference, place, f->desc.time) > 0;
+    return lom_is_over_water(&f->reference, place) && place.y < lom_wave_surface_height(&f->waves, place.x, place.z);
+}
+
+/* The ray through a place of the picture in pixels. Each of parallel rays starts at a place of its own, in water or not. */
 static lom_vec3 see(const struct frame *f, double x, double y)
 {
-    const double(*v)[4] = f->view.m;
-    double ray[3] = { (2 * x / f->desc.width - 1) / f->projection.m[0][0],
-                      (1 - 2 * y / f->desc.height) / f->projection.m[1][1], -1 };
-    lom_vec3 world = { v[0][0] * ray[0] + v[1][0] * ray[1] + v[2][0] * ray[2],
-                       v[0][1] * ray[0] + v[1][1] * ray[1] + v[2][1] * ray[2],
-                       v[0][2] * ray[0] + v[1][2] * ray[1] + v[2][2] * ray[2] };
-    return lom_radiance_along(&f->reference, (struct lom_ray){ f->camera.position, world },
-                              f->camera.near_plane * length(world), f->desc.time, f->desc.depth, f->in_water);
+    struct lom_ray ray;
+    lom_ray_through(&f->projection, &f->view, f->eye, 2 * x / f->desc.width - 1, 1 - 2 * y / f->desc.height,
+                    &ray.origin, &ray.direction);
+    bool in_water = f->camera.projection == LOM_PROJECTION_PERSPECTIVE ? f->in_water : starts_in_water(f, ray.origin);
+    return lom_radiance_along(&f->reference, ray, f->camera.near_plane * length(ray.direction), f->desc.time,
+                              f->desc.depth, in_water);
 }
 
 static void trace_row(const struct frame *f, int row)
@@ -108,21 +114,28 @@ static bool move(struct frame *f, const lom_reference *loaded, lom_error *error)
     return !f->placed || lom_place_reference(&f->reference, f->desc.time, error);
 }
 
+/* Where waves are finest: below the eye; where the middle one of parallel rays comes to the water. */
+static lom_vec3 middle_of_waves(const struct frame *f)
+{
+    lom_vec3 origin, ray;
+    lom_ray_through(&f->projection, &f->view, f->eye, 0, 0, &origin, &ray);
+    double way = ray.y != 0 ? (f->reference.scene->water.level - origin.y) / ray.y : 0;
+    bool comes = f->camera.projection != LOM_PROJECTION_PERSPECTIVE && way > 0 && way < f->camera.far_plane;
+    return comes ? along(origin, ray, way) : f->eye;
+}
+
 /* The camera and the waves around it. */
 static bool look(struct frame *f, lom_error *error)
 {
     f->camera = f->desc.camera != NULL ? *f->desc.camera : lom_scene_camera_at(f->reference.scene, f->desc.time);
-    f->view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
-    f->projection =
-        lom_perspective(f->camera.field_of_view, (double)f->desc.width / f->desc.height, f->camera.near_plane);
-    lom_vec3 eye = f->camera.position;
-    if (!lom_make_wave_surface(&f->waves, &f->reference, eye, f->desc.time, error))
+    f->view = lom_camera_look(&f->camera);
+    f->projection = lom_camera_projection(&f->camera, (double)f->desc.width / f->desc.height);
+    f->eye = lom_camera_eye(&f->camera);
+    if (!lom_make_wave_surface(&f->waves, &f->reference, middle_of_waves(f), f->desc.time, error))
         return false;
-    f->in_water = lom_water_above(&f->reference, eye, f->desc.time) > 0;
-    if (f->waves.triangles != NULL) {
+    f->in_water = starts_in_water(f, f->eye);
+    if (f->waves.triangles != NULL)
         f->reference.waves = &f->waves;
-        f->in_water = lom_is_over_water(&f->reference, eye) && eye.y < lom_wave_surface_height(&f->waves, eye.x, eye.z);
-    }
     return true;
 }
 

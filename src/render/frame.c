@@ -51,9 +51,10 @@ bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw
 static void look(struct frame *f)
 {
     f->camera = f->desc->camera != NULL ? *f->desc->camera : f->renderer->moment.camera;
-    f->view.projection = lom_perspective(f->camera.field_of_view, (double)f->width / f->height, f->camera.near_plane);
-    f->view.view = lom_look_at(f->camera.position, f->camera.target, f->camera.up);
-    f->view.eye = f->camera.position;
+    f->view.projection = lom_camera_projection(&f->camera, (double)f->width / f->height);
+    f->view.view = lom_camera_look(&f->camera);
+    f->view.eye = lom_camera_eye(&f->camera);
+    f->parallel = f->camera.projection != LOM_PROJECTION_PERSPECTIVE;
     f->view.plane[3] = 1;
     f->view.sky = true;
 }
@@ -62,7 +63,8 @@ static bool draw_opaque(struct frame *f, lom_error *error)
 {
     (void)error;
     lom_renderer *r = f->renderer;
-    lom_step *step = lom_add_step(f, "scene", true, "terrain, entities and sky, from the camera");
+    lom_step *step = lom_add_step(f, "scene", true, "terrain, entities and sky, from the camera%s",
+                                  f->parallel ? ", by parallel rays" : "");
     step->width = f->crop.width;
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);

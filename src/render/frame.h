@@ -15,6 +15,7 @@ struct frame {
     double time;       /* seconds */
     lom_camera_view camera;
     struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
+    bool parallel;                  /* the camera's rays are */
     lom_rect water;                 /* where a surface of water is seen, in frame pixels; width 0: nowhere */
     struct lom_waves_uniform waves; /* of water with waves, at this time */
     enum lom_waves_known known;     /* how much `waves` has of them: what was needed */

@@ -67,13 +67,20 @@ static bool check_camera(const struct frame *f, lom_error *error)
     const double most = 1e12, wide = lom_vec3_length(lom_vec3_cross(ahead, c->up));
     const double numbers[9] = { c->position.x, c->position.y, c->position.z, c->target.x, c->target.y,
                                 c->target.z,   c->up.x,       c->up.y,       c->up.z };
-    bool good =
-        wide > 0 && c->field_of_view > 1e-6 && c->field_of_view < lom_pi && c->near_plane > 0 && c->near_plane < most;
+    bool good = wide > 0 && c->near_plane > 0 && c->near_plane < most;
+    if (c->projection == LOM_PROJECTION_PERSPECTIVE)
+        good = good && c->field_of_view > 1e-6 && c->field_of_view < lom_pi;
+    else
+        good = good && c->height > 1e-6 && c->height < most && c->far_plane > c->near_plane && c->far_plane < most &&
+               lom_magnitude(c->shear[0]) < 1e6 && lom_magnitude(c->shear[1]) < 1e6;
     for (int i = 0; i < 9; i++)
         good = good && numbers[i] > -most && numbers[i] < most;
-    return good || lom_fail(error, LOM_ERROR_USAGE,
-                            "A camera needs a target apart from its position, an up that is not along the line between "
-                            "them, an angle of view between 0 and 180 degrees and a near plane before it.");
+    return good ||
+           lom_fail(
+               error, LOM_ERROR_USAGE,
+               "A camera needs a target apart from its position, an up that is not along the line between "
+               "them, an angle of view between 0 and 180 degrees or a height, and a near plane before it, which is "
+               "before the far plane of a parallel projection.");
 }
 
 bool lom_find_frame_sizes(struct frame *f, lom_error *error)

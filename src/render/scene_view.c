@@ -37,6 +37,8 @@ struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height
         u.glow[i] = (float)haze->glow[i];
         u.on |= u.density[i] > 0;
     }
+    u.mirrored = mirrored;
+    u.mirror = (float)(scene->water.level - eye_height);
     u.gray = u.density[0] == u.density[1] && u.density[1] == u.density[2];
     if (haze->height > 0) {
         double mirror = scene->water.level;
@@ -63,6 +65,13 @@ struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_ve
     lom_set_ground_light(&u, renderer, eye);
     lom_set_cloud_light(&u, renderer, eye);
     return u;
+}
+
+lom_vec3 lom_middle_on_level(const struct lom_scene_view *view, double level)
+{
+    const lom_vec3 along = lom_find_view_rays(&view->projection, &view->view).along;
+    double way = lom_magnitude(along.y) > 1e-3 ? (level - view->eye.y) / along.y : 0;
+    return lom_vec3_add(view->eye, lom_vec3_scale(along, way > 0 ? way : 0));
 }
 
 lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view)
@@ -127,6 +136,7 @@ static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const 
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
     struct lom_view_uniform u = { .clip_from_offset = lom_round_matrix(&clip_from_offset),
+                                  .eye = lom_find_eye(&view->projection, &view->view, 0),
                                   .light = lom_renderer_light(renderer, view->eye),
                                   .haze = lom_scene_haze(renderer->scene, view->eye.y, view->mirrored),
                                   .reflection = reflection_uniform(&renderer->scene->quality),

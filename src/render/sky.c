@@ -48,6 +48,6 @@ void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, con
 {
     const lom_sky_params *sky = &renderer->scene->sky;
     lom_draw_sky_box(renderer->device, sky, renderer->sky.box, light->to_light, &view->projection, &view->view);
-    if (renderer->sky.sun != NULL)
+    if (renderer->sky.sun != NULL && view->projection.m[3][2] != 0) /* parallel rays all see one place of the sky */
         lom_draw_sun(renderer->device, sky, renderer->sky.sun, light, &view->projection, &view->view);
 }

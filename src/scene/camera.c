@@ -82,11 +82,18 @@ static lom_mat4 follow(const lom_entity *entity, double time, bool all)
     return lom_multiply(&move, &turn);
 }
 
+static bool is_perspective(const lom_camera_view *camera)
+{
+    return camera->projection == LOM_PROJECTION_PERSPECTIVE;
+}
+
+static const double least_height = 1e-3; /* metres; a smooth curve may overshoot */
+
 static void follow_keys(const lom_camera *camera, double time, lom_camera_view *view)
 {
-    double v[7];
+    double v[8];
     lom_follow_keys(&(struct lom_key_frames){ camera->keys, sizeof *camera->keys, camera->key_count,
-                                              offsetof(lom_camera_key, time), 7,
+                                              offsetof(lom_camera_key, time), 8,
                                               camera->interpolation == LOM_INTERPOLATION_SMOOTH },
                     time, v);
     view->position = (lom_vec3){ v[0], v[1], v[2] };
@@ -94,12 +101,70 @@ static void follow_keys(const lom_camera *camera, double time, lom_camera_view *
     double least = 0.01 * lom_radians_per_degree,
            greatest = 179 * lom_radians_per_degree; /* a smooth curve may overshoot */
     view->field_of_view = v[6] < least ? least : v[6] > greatest ? greatest : v[6];
+    if (!is_perspective(view))
+        view->height = v[7] < least_height ? least_height : v[7];
+}
+
+/* ---- what pictures are made by ---- */
+
+lom_mat4 lom_camera_projection(const lom_camera_view *c, double aspect)
+{
+    if (is_perspective(c))
+        return lom_perspective(c->field_of_view, aspect, c->near_plane);
+    if (c->projection == LOM_PROJECTION_ORTHOGRAPHIC)
+        return lom_orthographic(c->height * aspect, c->height, c->near_plane, c->far_plane);
+    return lom_oblique(c->height * aspect, c->height, c->near_plane, c->far_plane, c->shear[0], c->shear[1]);
+}
+
+/* The ray through the middle goes (-right, -up, 1) a metre ahead: it meets the target when it starts so much right and up
+ * of the position as that comes to over the way. */
+lom_vec3 lom_camera_eye(const lom_camera_view *c)
+{
+    if (c->projection != LOM_PROJECTION_OBLIQUE)
+        return c->position;
+    lom_mat4 look = lom_look_at(c->position, c->target, c->up);
+    double away = lom_vec3_length(lom_vec3_subtract(c->target, c->position));
+    lom_vec3 right = { look.m[0][0], look.m[0][1], look.m[0][2] }, up = { look.m[1][0], look.m[1][1], look.m[1][2] };
+    lom_vec3 shift = lom_vec3_add(lom_vec3_scale(right, c->shear[0] * away), lom_vec3_scale(up, c->shear[1] * away));
+    return lom_vec3_add(c->position, shift);
+}
+
+lom_mat4 lom_camera_look(const lom_camera_view *c)
+{
+    lom_mat4 look = lom_look_at(c->position, c->target, c->up);
+    if (c->projection == LOM_PROJECTION_OBLIQUE) {
+        lom_vec3 eye = lom_camera_eye(c);
+        for (int i = 0; i < 3; i++)
+            look.m[i][3] = -(look.m[i][0] * eye.x + look.m[i][1] * eye.y + look.m[i][2] * eye.z);
+    }
+    return look;
+}
+
+double lom_camera_distance(const lom_camera_view *c, double depth)
+{
+    return is_perspective(c) ? c->near_plane / depth : c->far_plane - depth * (c->far_plane - c->near_plane);
 }
 
 lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time)
 {
     const lom_camera *camera = &scene->camera;
-    lom_camera_view view = { camera->position, camera->target, camera->up, camera->field_of_view, camera->near_plane };
+    lom_camera_view view = { .position = camera->position,
+                             .target = camera->target,
+                             .up = camera->up,
+                             .field_of_view = camera->field_of_view,
+                             .near_plane = camera->near_plane,
+                             .projection = camera->projection };
+    if (camera->projection != LOM_PROJECTION_PERSPECTIVE) {
+        view.height = camera->height;
+        view.far_plane = camera->far_plane;
+    }
+    if (camera->projection == LOM_PROJECTION_OBLIQUE) {
+        lom_float_state state;
+        lom_enter_float_state(&state);
+        view.shear[0] = camera->foreshortening * lom_double_cos(camera->receding_angle);
+        view.shear[1] = camera->foreshortening * lom_double_sin(camera->receding_angle);
+        lom_leave_float_state(&state);
+    }
     if (camera->key_count != 0)
         follow_keys(camera, time, &view);
     if (camera->followed != 0) {

@@ -58,12 +58,22 @@ static bool check_keys(const lom_camera *camera, const lom_key_check *check)
             key->target = camera->target;
         if (!at.is_given(&at, "field_of_view"))
             key->field_of_view = camera->field_of_view;
+        if (!at.is_given(&at, "height"))
+            key->height = camera->height;
         if (i > 0 && !lom_check_rising_time(&at, camera->keys[i - 1].time, key->time))
             return false;
         if (!can_look(key->position, key->target, camera->up))
             return at.fail(&at, "target", "the camera cannot look there: target is its position, or lies along up.");
     }
     return true;
+}
+
+/* Keys of another projection are not looked at, so that one key changes it. */
+static bool check_projection(const lom_camera *camera, const lom_key_check *check)
+{
+    return camera->projection == LOM_PROJECTION_PERSPECTIVE || camera->far_plane > camera->near_plane ||
+           check->fail(check, check->is_given(check, "far") ? "far" : "near",
+                       "the far plane of a parallel projection is to be beyond its near plane.");
 }
 
 static bool check_camera(void *members, const lom_key_check *check)
@@ -84,7 +94,7 @@ static bool check_camera(void *members, const lom_key_check *check)
     lom_make_unit(&camera->up);
     if (check->is_given(check, "roll"))
         roll(camera);
-    return check_keys(camera, check);
+    return check_projection(camera, check) && check_keys(camera, check);
 }
 
 static const lom_key camera_key[] = {
@@ -96,6 +106,8 @@ static const lom_key camera_key[] = {
       .text = "The point it looks at.", .initial_text = "the camera's" },
     { "field_of_view", LOM_KEY_ANGLE, AT(lom_camera_key, field_of_view), .minimum = 0.01, .maximum = 179,
       .unit = "degrees", .text = "Vertical angle of view.", .initial_text = "the camera's" },
+    { "height", LOM_KEY_NUMBER, AT(lom_camera_key, height), .minimum = 1e-3, .maximum = 1e6, .unit = "m",
+      .text = "Metres that the picture of a parallel projection is high.", .initial_text = "the camera's" },
 };
 static const lom_key_table camera_key_table = {
     .size = sizeof(lom_camera_key),
@@ -120,7 +132,20 @@ static const lom_key camera[] = {
     { "field_of_view", LOM_KEY_ANGLE, AT(lom_camera, field_of_view), .minimum = 0.01, .maximum = 179, .initial = { 45 },
       .unit = "degrees", .text = "Vertical angle of view." },
     { "near", LOM_KEY_NUMBER, AT(lom_camera, near_plane), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 0.1 },
-      .unit = "m", .text = "Distance of the near plane. There is no far plane." },
+      .unit = "m", .text = "Distance of the near plane. A perspective has no far plane." },
+    { "projection", LOM_KEY_CHOICE, AT(lom_camera, projection), .choices = { "perspective", "orthographic", "oblique" },
+      .text = "How the scene is laid on the picture (docs/cameras.md): by rays from an eye; by parallel rays straight "
+              "ahead; by parallel rays at a slant." },
+    { "height", LOM_KEY_NUMBER, AT(lom_camera, height), .minimum = 1e-3, .maximum = 1e6, .initial = { 20 }, .unit = "m",
+      .text = "Metres that the picture of a parallel projection is high, instead of `field_of_view`." },
+    { "far", LOM_KEY_NUMBER, AT(lom_camera, far_plane), .flags = LOM_KEY_ABOVE, .maximum = 1e7, .initial = { 10000 },
+      .unit = "m",
+      .text = "Distance of a parallel projection's far plane, behind which nothing is drawn; beyond `near`." },
+    { "foreshortening", LOM_KEY_NUMBER, AT(lom_camera, foreshortening), .minimum = 0, .maximum = 4, .initial = { 0.5 },
+      .text = "Oblique: length of what recedes, in parts of its own. 0.5 is a cabinet projection, 1 a cavalier one." },
+    { "receding_angle", LOM_KEY_ANGLE, AT(lom_camera, receding_angle), .minimum = -360, .maximum = 360,
+      .initial = { 45 }, .unit = "degrees",
+      .text = "Oblique: where what recedes goes in the picture; 0 is right, 90 up." },
     { "interpolation", LOM_KEY_CHOICE, AT(lom_camera, interpolation), .choices = { "linear", "smooth" },
       .text = "Between the keys of a path: straight lines, or a Catmull-Rom curve through them." },
     { "key", LOM_KEY_TABLES, AT(lom_camera, keys), .table = &camera_key_table,

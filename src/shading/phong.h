@@ -33,7 +33,7 @@ LOM_INLINE struct lom_lit lom_phong_light(const struct lom_view_uniform *view, c
 LOM_INLINE void lom_finish_opaque(lom_fragment *out, const struct lom_view_uniform *view, lom_float3 offset,
                                   lom_float3 color)
 {
-    color = lom_apply_haze(&view->haze, view->light.to_light, offset, color);
+    color = lom_apply_haze(&view->haze, &view->eye, view->light.to_light, offset, color);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
 

@@ -16,7 +16,7 @@ static lom_float caustic_light(const struct lom_view_uniform *view, lom_float3 o
     lom_float s = (offset.x - c->corner[0]) * c->scale, t = (offset.z - c->corner[1]) * c->scale;
     lom_float border = lom_min(lom_min(s, one - s), lom_min(t, one - t));
     lom_float share = lom_saturate(border * 10.0f) * lom_saturate((c->level - offset.y) * c->fade) * c->strength;
-    lom_float texels = lom_sqrt(lom_dot3(offset, offset)) * c->lod_scale;
+    lom_float away = view->eye.parallel ? one : lom_sqrt(lom_dot3(offset, offset)), texels = away * c->lod_scale;
     lom_float light = lom_sample(c->map, s, t, lom_log2(lom_max(texels, one))).x;
     return lom_max(lom_mix(one, light, share), (lom_float){ 0 });
 }
@@ -120,6 +120,6 @@ void LOM_WIDE(lom_phong_light_lanes)(const struct lom_view_uniform *view, const 
                        .exponent = exponent != NULL ? *exponent : lom_splat(m->shininess),
                        .shines = !is_black(m->specular) };
     if (f.shines)
-        f.to_eye = lom_normalize3(lom_scale3(*offset, lom_splat(-1.0f)));
+        f.to_eye = lom_to_eye(&view->eye, *offset);
     *lit = phong_light(view, &f, *sky);
 }

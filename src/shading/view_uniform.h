@@ -23,7 +23,7 @@ struct lom_caustics_uniform {
     float corner[2], scale; /* s = (x - corner[0]) scale */
     float level, strength;
     float fade;      /* 1 / metres below the level over which they appear */
-    float lod_scale; /* texels of the map a pixel covers, per metre of distance */
+    float lod_scale; /* texels of the map a pixel covers, per metre of distance; of parallel rays at any */
 };
 
 /* How near to the sun entities reach, seen from it. */
@@ -39,6 +39,7 @@ enum { LOM_ENTITY_SHADOWS = 2 };
 /* What every draw of opaque things in a pass shares. Offsets are places less the eye. */
 struct lom_view_uniform {
     struct lom_matrix_uniform clip_from_offset;
+    struct lom_eye_uniform eye;
     struct lom_light_uniform light;
     struct lom_haze_uniform haze;
     struct lom_reflection_uniform reflection;

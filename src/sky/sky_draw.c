@@ -16,15 +16,14 @@ lom_texture *lom_make_sky_texture(lom_device *device, const lom_image *faces, bo
                                                          .mips = LOM_MIPS_ALL });
 }
 
-/* The ray through (ndc x, ndc y) in view space is (x / p00, y / p11, -1); the rows of the view's rotation take it to
- * the world, and the sky's own rotation about y turns it back. */
+/* The rays' directions, which the sky's own rotation about y turns back; parallel ones all see the same place of it. */
 static void find_direction(const lom_sky_params *sky, const lom_mat4 *projection, const lom_mat4 *view, float out[3][3])
 {
-    double ray[3] = { 1 / projection->m[0][0], 1 / projection->m[1][1], -1 };
-    double world[3][3];
-    for (int i = 0; i < 3; i++)
+    const lom_view_rays rays = lom_find_view_rays(projection, view);
+    double world[3][3] = { { 0, 0, rays.along.x }, { 0, 0, rays.along.y }, { 0, 0, rays.along.z } };
+    for (int i = 0; i < 3 && !rays.parallel; i++)
         for (int k = 0; k < 3; k++)
-            world[i][k] = view->m[k][i] * ray[k];
+            world[i][k] = rays.row[i][k];
     double s = lom_double_sin(-sky->rotation), c = lom_double_cos(-sky->rotation);
     for (int k = 0; k < 3; k++) {
         out[0][k] = (float)(c * world[0][k] + s * world[2][k]);

@@ -23,7 +23,7 @@ struct lom_spray_uniforms {
     struct lom_matrix_uniform clip_from_offset; /* of a place less the eye */
     struct lom_light_uniform light;
     struct lom_haze_uniform haze;
-    float near_plane;
+    struct lom_eye_uniform eye;
     const float *sprites; /* of struct lom_sprite */
 };
 
@@ -35,7 +35,8 @@ struct lom_spray_layer_uniforms {
 
 /* How the frame looks at drops. */
 struct lom_spray_view {
-    lom_mat4 projection, view; /* a symmetric perspective without end */
+    lom_mat4 projection, view; /* a symmetric perspective without end, or parallel rays */
+    lom_view_rays rays;        /* of both */
     lom_vec3 eye;
     double near_plane;
     int width, height; /* of the whole frame, pixels */

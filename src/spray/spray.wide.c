@@ -31,7 +31,7 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
         lom_scale3(lom_add3(lom_uniform3(u->light.ambient), lom_uniform3(u->light.ground)), lom_splat(0.5f));
     lom_float3 light = lom_add3(around, lom_scale3(lom_uniform3(u->light.color), share));
     light = lom_mul3(light, gather3(u->sprites, at + MEMBER(color)));
-    light = lom_apply_haze(&u->haze, u->light.to_light, middle, light);
+    light = lom_apply_haze(&u->haze, &u->eye, u->light.to_light, middle, light);
     lom_float soft = 1.0f / lom_gather(u->sprites, at + MEMBER(soft));
     out->position = lom_transform4(&u->clip_from_offset, middle);
     out->axis[0] = lom_turn4(&u->clip_from_offset, gather3(u->sprites, at + MEMBER(across)));
@@ -39,18 +39,19 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     out->varying[RED] = light.x;
     out->varying[GREEN] = light.y;
     out->varying[BLUE] = light.z;
-    out->varying[OPACITY] =
-        lom_gather(u->sprites, at + MEMBER(opacity)) * ramp((out->position.w - u->near_plane) * soft);
+    lom_float before = lom_place_reach(&u->eye, middle, out->position.w) - lom_depth_reach(&u->eye, lom_splat(1.0f));
+    out->varying[OPACITY] = lom_gather(u->sprites, at + MEMBER(opacity)) * ramp(before * soft);
     out->varying[SOFT] = soft;
 }
 
-/* (1 - r^2)^2: near to a Gaussian of standard deviation 0.43, and 0 with its slope at the edge. near / z is the
- * distance along the view axis of what the depth holds, w that of the drop. */
+/* (1 - r^2)^2: near to a Gaussian of standard deviation 0.43, and 0 with its slope at the edge. Softness compares the
+ * reaches of what the depth holds and of the drop. */
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_spray_uniforms *u = uniforms;
     lom_float s = in->st[0], t = in->st[1], disc = 1.0f - (s * s + t * t);
-    lom_float behind = u->near_plane / lom_max(in->target_depth, lom_splat(1e-30f)) - in->w;
+    lom_float reach = u->eye.parallel ? lom_depth_reach(&u->eye, in->z) : in->w;
+    lom_float behind = lom_depth_reach(&u->eye, in->target_depth) - reach;
     lom_float opacity = in->varying[OPACITY] * (disc * disc) * ramp(behind * in->varying[SOFT]);
     out->color[0] =
         (lom_float4){ in->varying[RED] * opacity, in->varying[GREEN] * opacity, in->varying[BLUE] * opacity, opacity };

@@ -64,10 +64,19 @@ static struct place place_of(const struct lom_spray_view *view, const double at[
     return p;
 }
 
+/* x or y of parallel rays in the picture. */
+static double clip_of(const struct lom_spray_view *view, const struct place *p, int axis)
+{
+    return view->projection.m[axis][axis] * (axis == 0 ? p->x : p->y) - view->projection.m[axis][2] * p->w;
+}
+
 /* Whether a ball about the place lies outside the view, or its middle before the near plane, where nothing is drawn. */
 static bool is_outside(const struct lom_spray_view *view, const struct place *p, double reach)
 {
     double a = view->projection.m[0][0], b = view->projection.m[1][1];
+    if (view->rays.parallel)
+        return p->w <= view->near_plane || lom_magnitude(clip_of(view, p, 0)) - 1 > reach * a ||
+               lom_magnitude(clip_of(view, p, 1)) - 1 > reach * b;
     double x = p->x < 0 ? -p->x : p->x, y = p->y < 0 ? -p->y : p->y;
     return p->w <= view->near_plane || x * a - p->w > reach * lom_double_sqrt(a * a + 1) ||
            y * b - p->w > reach * lom_double_sqrt(b * b + 1);
@@ -81,6 +90,11 @@ static struct lom_sprite_reach reach_of(const struct lom_spray_view *view, const
     struct lom_sprite_reach r = { .seen = 1, .low = { -1, -1 }, .high = { 1, 1 } };
     for (int i = 0; i < 2 && nearest > view->near_plane; i++) {
         double scale = view->projection.m[i][i];
+        if (view->rays.parallel) {
+            r.low[i] = clip_of(view, p, i) - reach * scale;
+            r.high[i] = clip_of(view, p, i) + reach * scale;
+            continue;
+        }
         double a = (middle[i] - reach) * scale, b = (middle[i] + reach) * scale;
         r.low[i] = a < 0 ? a / nearest : a / farthest;
         r.high[i] = b > 0 ? b / nearest : b / farthest;
@@ -98,6 +112,16 @@ struct lom_sprite_reach lom_join_reaches(struct lom_sprite_reach a, struct lom_s
     return a;
 }
 
+/* The direction of the ray to a place, of unit length. */
+static void find_away(const struct lom_spray_view *view, const struct place *p, double away[3])
+{
+    const lom_vec3 along = view->rays.along;
+    const double all[3] = { along.x, along.y, along.z }, *ray = view->rays.parallel ? all : p->offset;
+    const double length = lom_larger(lom_double_sqrt(dot(ray, ray)), 1e-6);
+    for (int i = 0; i < 3; i++)
+        away[i] = ray[i] / length;
+}
+
 static const struct lom_sprite_reach none = { .seen = 0, .low = { 1, 1 }, .high = { -1, -1 } };
 
 static struct lom_sprite_reach make_sprite(const lom_spray *spray, const struct lom_spray_view *view,
@@ -105,10 +129,11 @@ static struct lom_sprite_reach make_sprite(const lom_spray *spray, const struct 
 {
     const struct place p = place_of(view, particle->place);
     double radius = spray->size[0] + (spray->size[1] - spray->size[0]) * particle->share;
-    double distance = lom_larger(lom_double_sqrt(dot(p.offset, p.offset)), 1e-6), along[3], across[3];
-    const double away[3] = { p.offset[0] / distance, p.offset[1] / distance, p.offset[2] / distance };
+    double away[3], along[3], across[3];
+    find_away(view, &p, away);
     double length = radius + find_axes(view, away, particle->velocity, along, across) * spray->stretch / 2;
-    double pixel = 2 * lom_larger(p.w, view->near_plane) / (view->projection.m[1][1] * view->height);
+    double away_by = view->rays.parallel ? 1 : lom_larger(p.w, view->near_plane);
+    double pixel = 2 * away_by / (view->projection.m[1][1] * view->height);
     double wide = lom_larger(radius, pixel), high = lom_larger(length, pixel);
     double opacity = spray->opacity * particle->alpha * (radius / wide) * (radius / high);
     double reach = wide + high;

@@ -8,8 +8,9 @@
 #include "water/surface.h"
 
 struct lom_surface_point {
-    lom_float x, y, w;  /* window position and clip w */
+    lom_float x, y, w;  /* window position and reach (shading/eye.h) */
     lom_float3 offset;  /* on the surface */
+    lom_float3 path;    /* to it from where its ray starts */
     lom_float3 to_eye;  /* unit length */
     lom_float distance; /* to the eye */
     lom_float3 normal;  /* mean, upwards */

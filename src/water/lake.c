@@ -23,7 +23,7 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
                                    .tile = (float)(1 / water->tile),
                                    .shift = { (float)(x - lom_double_floor(x)), (float)(z - lom_double_floor(z)) },
                                    .move = (float)(moved - lom_double_floor(moved)),
-                                   .near_plane = (float)view->near_plane,
+                                   .eye = view->rays,
                                    .flow_strength = (float)water->flow_strength,
                                    .normal_up = (float)water->normal_up,
                                    .reflectivity = (float)water->reflectivity,

@@ -2,6 +2,7 @@
 #ifndef LOM_WATER_LAKE_H
 #define LOM_WATER_LAKE_H
 
+#include "shading/eye.h"
 #include "shading/light.h"
 
 #include <lom/geometry.h>
@@ -15,7 +16,7 @@ struct lom_lake_uniforms {
     float tile;     /* 1 / metres of one repetition of the maps */
     float shift[2]; /* their coordinates at the eye, less whole repetitions */
     float move;     /* repetitions the maps have moved, in [0, 1) */
-    float near_plane;
+    struct lom_eye_uniform eye;
     float flow_strength, normal_up, reflectivity, fresnel_power;
     float shininess, specular_strength, tint_amount, shore_depth, opacity;
     float inverse_clear; /* 1 / metres of water from which lookups are displaced and highlights seen in full */
@@ -34,7 +35,8 @@ extern const lom_shader lom_lake_shader, lom_lake_mask_shader, lom_lake_tinted_s
 typedef struct lom_lake_view {
     struct lom_matrix_uniform clip_from_offset;
     lom_vec3 eye;
-    double near_plane, time;
+    struct lom_eye_uniform rays;
+    double time;
     int frame_width, frame_height;
     struct lom_light_uniform light;
     const lom_texture *reflection, *refraction, *refraction_depth, *normal_map, *flow_map;

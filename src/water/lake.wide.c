@@ -34,8 +34,14 @@ struct surface {
 static lom_float water_depth(const struct lom_lake_uniforms *lake, const lom_varyings *in)
 {
     lom_float stored = lom_sample_depth(lake->refraction_depth, in->x * lake->pixel[0], in->y * lake->pixel[1]);
-    lom_float beyond = lake->near_plane / (stored * in->w) - 1.0f;
-    return lom_select(stored > 0.0f, lom_max(-in->varying[Y] * beyond, (lom_float){ 0 }), lom_splat(endless));
+    if (!lake->eye.parallel) {
+        lom_float beyond = lake->eye.near_plane / (stored * in->w) - 1.0f;
+        return lom_select(stored > 0.0f, lom_max(-in->varying[Y] * beyond, (lom_float){ 0 }), lom_splat(endless));
+    }
+    lom_float3 offset = { in->varying[X], in->varying[Y], in->varying[Z] };
+    lom_float further = lom_depth_reach(&lake->eye, stored) - lom_place_reach(&lake->eye, offset, in->w);
+    lom_float depth = lom_max(further * -lake->eye.along[1], (lom_float){ 0 });
+    return lom_select(stored > 0.0f, depth, lom_splat(endless));
 }
 
 /* Steps 4 and 5: the flow map, read where it has drifted to, displaces the maps' coordinates and the lookups; the
@@ -100,7 +106,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
 {
     const struct lom_lake_uniforms *lake = uniforms;
     lom_float3 offset = { in->varying[X], in->varying[Y], in->varying[Z] };
-    lom_float3 to_eye = lom_normalize3(lom_scale3(offset, lom_splat(-1.0f)));
+    lom_float3 to_eye = lom_to_eye(&lake->eye, offset);
     struct surface w = { .depth = lom_splat(endless) };
     if (lake->refraction_depth != NULL)
         w.depth = water_depth(lake, in);

@@ -17,8 +17,9 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     const struct lom_scene_copy_uniforms *u = uniforms;
     lom_int x = lom_to_int(in->x - u->origin[0]), y = lom_to_int(in->y - u->origin[1]);
     lom_float depth = lom_fetch(u->depth, x, y, 0).x;
-    lom_float away = u->near_plane / lom_max(depth, lom_splat(1e-30f));
-    lom_float height = (in->x * u->height[0] + in->y * u->height[1] + u->height[2]) * away;
+    lom_float away = lom_depth_reach(&u->eye, depth);
+    lom_float height = in->x * u->height[0] + in->y * u->height[1] + u->height[2];
+    height = u->eye.parallel ? height + away * u->eye.along[1] : height * away;
     out->discard = ~((depth > 0.0f) & (height * u->side + u->over > u->margin));
     out->depth = depth;
     if (lom_any(in->covered & ~out->discard))

@@ -3,6 +3,7 @@
 #ifndef LOM_WATER_SURFACE_H
 #define LOM_WATER_SURFACE_H
 
+#include "shading/eye.h"
 #include "shading/gradient.h"
 #include "waves/wave_lanes.h"
 
@@ -61,11 +62,10 @@ struct lom_surface_uniforms {
     struct lom_polar_mesh_uniform mesh;
     float side;     /* 1: the eye is above the surface, -1: below */
     float pixel[2]; /* 1 / size of the whole frame */
-    float near_plane;
-    float ray[3][3]; /* world direction of (ndc x, ndc y, 1), its length along the view axis 1 */
-    float pixel_angle;
-    float eta;   /* index of the eye's side over that of the other */
-    float range; /* metres from the eye within which all of the scene is */
+    struct lom_eye_uniform eye;
+    float ray[3][3]; /* rows of lom_view_rays */
+    float eta;       /* index of the eye's side over that of the other */
+    float range;     /* metres from the eye within which all of the scene is */
     float roughness, glitter, reach;
     float quad[4]; /* x and z of two corners */
     int fresnel;   /* lom_fresnel */
@@ -83,12 +83,13 @@ struct lom_polar_mesh_desc {
     double level, lowest, highest, reach; /* of the surface: y at rest less the eye's; metres */
     double quad[4];                       /* less the eye */
     double near_plane;                    /* metres */
-    double cell, pixel_angle;             /* pixels between vertices, and radians a pixel */
+    double cell, pixel_angle;             /* pixels between vertices, and radians a pixel; of parallel rays metres */
 };
 
 /* Rings about a point behind the eye, from below it to the far corner of the quad, in the sector that the view can see.
  * Along a ring vertices are `cell` pixels apart; from ring to ring as well, until waves are lower than a pixel, from
- * where rings may be further apart. One connected mesh: there is no seam to stitch. */
+ * where rings may be further apart. Where rays are parallel, rings about the middle of what the picture shows of the plane,
+ * vertices `cell` pixels apart everywhere. One connected mesh: there is no seam to stitch. */
 struct lom_polar_mesh {
     int rings, columns;
     double apex[2];                          /* less the eye */

@@ -14,6 +14,7 @@ static void store3(lom_float *varying, lom_float3 v)
 static void shade(lom_fragment *out, const struct lom_surface_uniforms *u, struct lom_surface_point *p,
                   lom_float rest_x, lom_float rest_z, const struct lom_footprint *f)
 {
+    p->w = lom_place_reach(&u->eye, p->offset, p->w);
     p->slopes = lom_find_slopes(&u->waves, rest_x, rest_z, f);
     lom_finish_point(u, p);
     LOM_NAME_AS(normal, p->normal);
@@ -84,24 +85,37 @@ static void screen_vertex(lom_vertex *out, const lom_attributes *in, const void 
     out->position = (lom_float4){ x, y, lom_splat(0.5f), lom_splat(1.0f) };
 }
 
-/* The world direction through a window position, as long as makes its length along the view axis 1. */
-static lom_float3 pixel_ray(const struct lom_surface_uniforms *u, lom_float x, lom_float y)
+/* The ray through a window position: where it starts, less the eye, and its direction, as long as makes its length along
+ * the view axis 1, or its own where rays are parallel. */
+struct ray {
+    lom_float3 start, direction;
+};
+
+static struct ray pixel_ray(const struct lom_surface_uniforms *u, lom_float x, lom_float y)
 {
     lom_float a = 2.0f * x * u->pixel[0] - 1.0f, b = 1.0f - 2.0f * y * u->pixel[1];
-    return (lom_float3){ a * u->ray[0][0] + b * u->ray[0][1] + u->ray[0][2],
-                         a * u->ray[1][0] + b * u->ray[1][1] + u->ray[1][2],
-                         a * u->ray[2][0] + b * u->ray[2][1] + u->ray[2][2] };
+    lom_float3 v = { a * u->ray[0][0] + b * u->ray[0][1] + u->ray[0][2],
+                     a * u->ray[1][0] + b * u->ray[1][1] + u->ray[1][2],
+                     a * u->ray[2][0] + b * u->ray[2][1] + u->ray[2][2] };
+    if (u->eye.parallel)
+        return (struct ray){ v, lom_uniform3(u->eye.along) };
+    return (struct ray){ lom_splat3(0, 0, 0), v };
 }
 
-/* Narrows [from, to] to where t direction is in [low, high]; a ray that does not move is in or out for good.
+LOM_INLINE lom_float3 along_ray(const struct ray *ray, lom_float t)
+{
+    return lom_add3(ray->start, lom_scale3(ray->direction, t));
+}
+
+/* Narrows [from, to] to where start + t direction is in [low, high]; a ray that does not move is in or out for good.
  */
-static void cut_range(lom_float direction, float low, float high, lom_float *from, lom_float *to)
+static void cut_range(lom_float start, lom_float direction, float low, float high, lom_float *from, lom_float *to)
 {
     lom_mask moves = lom_abs(direction) > 1e-12f;
     lom_float inverse = 1.0f / lom_select(moves, direction, lom_splat(1.0f));
-    lom_float a = low * inverse, b = high * inverse;
+    lom_float a = (low - start) * inverse, b = (high - start) * inverse;
     lom_float nearer = lom_min(a, b), further = lom_max(a, b);
-    lom_float never = lom_splat(low <= 0 && high >= 0 ? 1e30f : -1e30f);
+    lom_float never = lom_select((low <= start) & (high >= start), lom_splat(1e30f), lom_splat(-1e30f));
     *from = lom_max(*from, lom_select(moves, nearer, (lom_float){ 0 }));
     *to = lom_min(*to, lom_select(moves, further, never));
 }
@@ -128,21 +142,22 @@ static lom_float height_over(const struct lom_surface_uniforms *u, lom_float3 po
 
 /* Steps along the ray as far as the surface cannot rise to meet it, were it nowhere steeper than 1; at least half a
  * pixel's size there, over its slope. Then halves the last step. */
-static struct meeting meet_surface(const struct lom_surface_uniforms *u, lom_float3 d)
+static struct meeting meet_surface(const struct lom_surface_uniforms *u, const struct ray *ray)
 {
-    lom_float from = lom_splat(u->near_plane), to = lom_splat(1e30f);
+    const lom_float3 d = ray->direction;
+    lom_float from = lom_depth_reach(&u->eye, lom_splat(1.0f)), to = lom_splat(1e30f);
     const float level = u->waves.level, low = level + u->waves.lowest, high = level + u->waves.highest;
     const float margin = 1e-3f * (u->waves.highest - u->waves.lowest) + 1e-5f * (level < 0 ? -level : level);
-    cut_range(d.y, low - margin, high + margin, &from, &to);
-    cut_range(d.x, u->quad[0], u->quad[2], &from, &to);
-    cut_range(d.z, u->quad[1], u->quad[3], &from, &to);
+    cut_range(ray->start.y, d.y, low - margin, high + margin, &from, &to);
+    cut_range(ray->start.x, d.x, u->quad[0], u->quad[2], &from, &to);
+    cut_range(ray->start.z, d.z, u->quad[1], u->quad[3], &from, &to);
     struct meeting m = { { 0 }, from, { 0 }, { 0 } };
     lom_mask going = from < to;
     lom_float before = from, flat = lom_sqrt(d.x * d.x + d.z * d.z);
     lom_float2 shift = { { 0 }, { 0 } };
     for (int i = 0; i < u->surface_steps && lom_any(going); i++) {
-        lom_float size = m.t * u->pixel_angle;
-        lom_float gap = u->side * height_over(u, lom_scale3(d, m.t), size, going, &shift);
+        lom_float size = lom_pixel_size(&u->eye, m.t);
+        lom_float gap = u->side * height_over(u, along_ray(ray, m.t), size, going, &shift);
         lom_mask behind = going & (gap < 0.0f);
         m.found = m.found | behind;
         going = going & ~behind;
@@ -155,13 +170,14 @@ static struct meeting meet_surface(const struct lom_surface_uniforms *u, lom_flo
     lom_float near = before, far = m.t;
     for (int i = 0; i < 5; i++) {
         lom_float middle = 0.5f * (near + far);
-        lom_float gap = u->side * height_over(u, lom_scale3(d, middle), middle * u->pixel_angle, m.found, &shift);
+        lom_float size = lom_pixel_size(&u->eye, middle);
+        lom_float gap = u->side * height_over(u, along_ray(ray, middle), size, m.found, &shift);
         far = lom_select(gap < 0.0f, middle, far);
         near = lom_select(gap < 0.0f, near, middle);
     }
     m.t = far;
-    lom_float3 point = lom_scale3(d, m.t);
-    height_over(u, point, m.t * u->pixel_angle, m.found, &shift);
+    lom_float3 point = along_ray(ray, m.t);
+    height_over(u, point, lom_pixel_size(&u->eye, m.t), m.found, &shift);
     m.rest_x = point.x - shift.x;
     m.rest_z = point.z - shift.y;
     return m;
@@ -169,25 +185,29 @@ static struct meeting meet_surface(const struct lom_surface_uniforms *u, lom_flo
 
 /* Where the neighbour's ray meets the level of a point, less the point: what a pixel covers of the surface. Rays that
  * do not come down stay within 16 pixels' sizes. */
-static void neighbour(const struct lom_surface_uniforms *u, lom_float3 point, lom_float t, lom_float3 d, lom_float *x,
+static void neighbour(const struct lom_surface_uniforms *u, lom_float3 point, lom_float t, struct ray ray, lom_float *x,
                       lom_float *z)
 {
-    lom_mask meets = point.y * d.y > 0.0f;
-    lom_float most = t * 16.0f * u->pixel_angle;
-    lom_float at = lom_select(meets, point.y / lom_select(meets, d.y, lom_splat(1.0f)), t + most);
-    *x = lom_clamp(d.x * at - point.x, -most, most);
-    *z = lom_clamp(d.z * at - point.z, -most, most);
+    const lom_float3 d = ray.direction;
+    lom_float fall = point.y - ray.start.y, most = lom_pixel_size(&u->eye, t * 16.0f);
+    lom_mask meets = fall * d.y > 0.0f;
+    if (u->eye.parallel)
+        most = most * 16.0f;
+    lom_float at = lom_select(meets, fall / lom_select(meets, d.y, lom_splat(1.0f)), t + most);
+    lom_float3 there = along_ray(&ray, at);
+    *x = lom_clamp(there.x - point.x, -most, most);
+    *z = lom_clamp(there.z - point.z, -most, most);
 }
 
 static void marched_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_surface_uniforms *u = uniforms;
-    lom_float3 d = pixel_ray(u, in->x, in->y);
-    struct meeting m = meet_surface(u, d);
+    const struct ray ray = pixel_ray(u, in->x, in->y);
+    struct meeting m = meet_surface(u, &ray);
     out->discard = ~m.found;
-    out->depth = u->near_plane / m.t;
+    out->depth = lom_reach_depth(&u->eye, m.t);
     struct lom_surface_point p = { .x = in->x, .y = in->y, .w = m.t };
-    p.offset = lom_scale3(d, m.t);
+    p.offset = along_ray(&ray, m.t);
     struct lom_footprint f;
     neighbour(u, p.offset, m.t, pixel_ray(u, in->x + 1.0f, in->y), &f.ax, &f.az);
     neighbour(u, p.offset, m.t, pixel_ray(u, in->x, in->y + 1.0f), &f.bx, &f.bz);

@@ -41,8 +41,48 @@ static struct sector find_sector(const struct lom_polar_mesh_desc *desc)
     return s;
 }
 
+/* The rectangle of the plane that holds all of the slab of the waves which parallel rays of the picture see, within the
+ * quad. Where a ray enters the slab is linear over the picture until it is cut to where rays are: the rays of the corners
+ * and, when one is cut, their ends hold it. */
+static void find_footprint(const struct lom_polar_mesh_desc *desc, const lom_view_rays *rays, double low[2],
+                           double high[2])
+{
+    const double(*p)[4] = desc->projection.m, far = p[2][3] / p[2][2];
+    const lom_vec3 d = rays->along;
+    bool is_cut = false;
+    for (int a = 0; a < 2; a++) {
+        low[a] = 1e300;
+        high[a] = -1e300;
+    }
+    for (int i = 0; i < 16; i++) {
+        const double x = i & 1 ? 1 : -1, y = i & 2 ? 1 : -1;
+        const double from[3] = { rays->row[0][0] * x + rays->row[0][1] * y + rays->row[0][2],
+                                 rays->row[1][0] * x + rays->row[1][1] * y + rays->row[1][2],
+                                 rays->row[2][0] * x + rays->row[2][1] * y + rays->row[2][2] };
+        double t = i & 4 ? far : 0;
+        if (i < 8) {
+            const double to = desc->level + (i & 4 ? desc->highest : desc->lowest) - from[1];
+            t = lom_magnitude(d.y) > 1e-9 ? to / d.y : far;
+            is_cut = is_cut || t < 0 || t >= far;
+            t = t < 0 ? 0 : t < far ? t : far;
+        } else if (!is_cut) {
+            break;
+        }
+        const double at[2] = { from[0] + d.x * t, from[2] + d.z * t };
+        for (int a = 0; a < 2; a++) {
+            low[a] = at[a] < low[a] ? at[a] : low[a];
+            high[a] = at[a] > high[a] ? at[a] : high[a];
+        }
+    }
+    for (int a = 0; a < 2; a++) {
+        low[a] = lom_larger(low[a] - desc->reach, desc->quad[a]);
+        high[a] = lom_smaller(high[a] + desc->reach, desc->quad[2 + a]);
+    }
+}
+
 struct spacing {
     double cell, height, flat, back, far;
+    double round; /* radius at which columns are a cell apart */
 };
 
 static double step_at(const struct spacing *s, double radius)
@@ -119,22 +159,52 @@ static bool reserve(struct lom_polar_mesh *mesh, lom_error *error)
     return true;
 }
 
+/* A circle about the footprint, its rings as far apart as the vertices of the outermost one. False: rays are not
+ * parallel. */
+static bool surround_footprint(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc,
+                               struct spacing *space)
+{
+    const lom_view_rays rays = lom_find_view_rays(&desc->projection, &desc->view);
+    double low[2], high[2];
+    if (!rays.parallel)
+        return false;
+    find_footprint(desc, &rays, low, high);
+    mesh->apex[0] = (low[0] + high[0]) / 2;
+    mesh->apex[1] = (low[1] + high[1]) / 2;
+    const double x = lom_larger(high[0] - low[0], 0) / 2, z = lom_larger(high[1] - low[1], 0) / 2;
+    *space = (struct spacing){ .cell = desc->cell * desc->pixel_angle, .height = 1, .flat = 1e300, .back = 1e300 };
+    space->round = space->far = lom_larger(lom_double_sqrt(x * x + z * z) + desc->reach, 2 * space->cell);
+    return true;
+}
+
+/* Rings about a point behind the eye by so much that the sector holds everything that waves can move into the view. */
+static void surround_eye(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, const struct sector *s,
+                         struct spacing *space)
+{
+    double wave = lom_larger(desc->highest, -desc->lowest), height = -desc->level, near = desc->near_plane;
+    *space = (struct spacing){ .cell = desc->cell * desc->pixel_angle,
+                               .height = lom_larger(lom_larger(height < 0 ? -height : height, 0.3 * wave), 2 * near),
+                               .flat = lom_larger(wave, 0.01 * near) / desc->pixel_angle,
+                               .round = 1 };
+    space->back = s->whole ? 0 : (desc->reach + wave + 5 * near) / lom_double_sin(s->half);
+    mesh->apex[0] = -space->back * s->forward[0];
+    mesh->apex[1] = -space->back * s->forward[1];
+    space->far = far_corner(mesh->apex, desc->quad);
+}
+
 bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error)
 {
     struct sector s = find_sector(desc);
-    double wave = lom_larger(desc->highest, -desc->lowest), height = -desc->level, near = desc->near_plane;
-    struct spacing space = { .cell = desc->cell * desc->pixel_angle,
-                             .height = lom_larger(lom_larger(height < 0 ? -height : height, 0.3 * wave), 2 * near),
-                             .flat = lom_larger(wave, 0.01 * near) / desc->pixel_angle };
-    /* Behind the eye by so much, the sector holds everything that waves can move into the view. */
-    space.back = s.whole ? 0 : (desc->reach + wave + 5 * near) / lom_double_sin(s.half);
-    mesh->apex[0] = -space.back * s.forward[0];
-    mesh->apex[1] = -space.back * s.forward[1];
-    space.far = far_corner(mesh->apex, desc->quad);
+    struct spacing space;
+    if (surround_footprint(mesh, desc, &space))
+        s.whole = true;
+    else
+        surround_eye(mesh, desc, &s, &space);
     double sector = s.whole ? lom_two_pi : 2 * s.half;
     for (;; space.cell *= 1.25) {
         mesh->rings = count_rings(&space);
-        mesh->columns = 2 + lom_int_of(sector / space.cell < MAX_COLUMNS ? sector / space.cell : MAX_COLUMNS);
+        double columns = sector * space.round / space.cell;
+        mesh->columns = 2 + lom_int_of(columns < MAX_COLUMNS ? columns : MAX_COLUMNS);
         if (mesh->rings <= MAX_RINGS && mesh->columns <= MAX_COLUMNS && mesh->rings * mesh->columns <= MAX_VERTICES)
             break;
     }

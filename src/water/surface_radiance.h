@@ -9,6 +9,9 @@
 #include "base/numbers.h"
 #include "water/facets.h"
 
+/* As long as no ray of a scene is. */
+static const float endless = 0x1p100f;
+
 /* ---- the sky ---- */
 
 LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_float3 d, lom_float variance)
@@ -28,35 +31,35 @@ LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_fl
 
 /* ---- pictures of the scene ---- */
 
-/* How many pixels wide a rough surface blurs what it mirrors, 2 s, as far as the levels of a picture go. */
-LOM_INLINE lom_float lom_blur_width(const struct lom_surface_uniforms *u, lom_float variance)
+/* How many pixels wide a rough surface blurs what it mirrors, 2 s, as far as the levels of a picture go; of parallel rays
+ * it is as much of the mirrored ray's length. */
+LOM_INLINE lom_float lom_blur_width(const struct lom_surface_uniforms *u, lom_float variance, lom_float length)
 {
-    float pixels = 1.0f / (u->pixel_angle * u->pixel_angle);
+    float pixels = 1.0f / (u->eye.pixel * u->eye.pixel);
+    if (u->eye.parallel)
+        variance = variance * lom_min(length * length, lom_splat(endless));
     lom_float width = lom_sqrt(lom_max(variance * pixels, lom_splat(1.0f)));
     return lom_min(width, lom_splat((float)(1 << LOM_BLUR_LEVELS)));
 }
 
 struct lom_lookup {
-    lom_float s, t, w;
+    lom_float s, t, w; /* w: the reach */
 };
 
-LOM_INLINE struct lom_lookup lom_project_point(const struct lom_picture_uniform *picture, lom_float3 p)
+LOM_INLINE struct lom_lookup lom_project_point(const struct lom_surface_uniforms *u,
+                                               const struct lom_picture_uniform *picture, lom_float3 p)
 {
     lom_float4 c = lom_transform4(&picture->clip_from_offset, p);
     lom_float w = lom_max(c.w, lom_splat(1e-25f)), half = lom_splat(0.5f) / w;
-    return (struct lom_lookup){ 0.5f + c.x * half, 0.5f - c.y * half, c.w };
+    lom_float reach = u->eye.parallel ? u->eye.far_reach - c.z * u->eye.depth_reach : c.w;
+    return (struct lom_lookup){ 0.5f + c.x * half, 0.5f - c.y * half, reach };
 }
 
-/* The least depth that a float holds in full, less than that of any place: it stands for none. */
-static const float nothing_there = 0x1p-100f;
-/* As long as no ray of a scene is. */
-static const float endless = 0x1p100f;
-
-/* The clip w of what a picture shows at (s, t): with reversed infinite depth near / z; huge where there is nothing. */
+/* The reach of what a picture shows at (s, t); huge where there is nothing. */
 LOM_INLINE lom_float lom_picture_w(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                    lom_float s, lom_float t)
 {
-    return u->near_plane / lom_max(lom_sample_depth(picture->depth, s, t), lom_splat(nothing_there));
+    return lom_depth_reach(&u->eye, lom_sample_depth(picture->depth, s, t));
 }
 
 /* Where the picture shows what the fragment hides. */
@@ -92,7 +95,7 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     for (int i = 1; i <= u->steps && lom_any(going); i++) {
         float share = (float)i / (float)u->steps;
         lom_float length = range * (share * share * share);
-        struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, length)));
+        struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, length)));
         lom_float over = at.w - lom_picture_w(u, picture, at.s, at.t);
         going = going & lom_within_reach(u, own, at);
         lom_mask met = going & (over > 0.0f) & (over < 1.5f * (length - last));
@@ -107,16 +110,22 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     lom_float low = before, high = hit.length;
     for (int i = 0; i < 6; i++) {
         lom_float middle = 0.5f * (low + high);
-        struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, middle)));
+        struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, middle)));
         lom_mask behind = at.w > lom_picture_w(u, picture, at.s, at.t);
         high = lom_select(behind, middle, high);
         low = lom_select(behind, low, middle);
     }
-    struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, high)));
+    struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, high)));
     hit.length = lom_select(hit.found, high, hit.length);
     hit.s = lom_clamp(at.s, hit.s - u->reach, hit.s + u->reach);
     hit.t = lom_clamp(at.t, hit.t - u->reach, hit.t + u->reach);
     return hit;
+}
+
+/* What reaches farther in a picture is not before the surface; some 20 pixels are allowed to waves. */
+LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    return u->eye.parallel ? p->w - 20.0f * u->eye.pixel : p->w * 0.98f;
 }
 
 /* The width of blur at a place in a picture: none where anything nearer than the surface stands within it, which would
@@ -124,7 +133,7 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
 LOM_INLINE lom_float lom_clear_width(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                      const struct lom_surface_point *p, struct lom_hit hit, lom_float width)
 {
-    lom_float bound = p->w * 0.98f, x = width * (1.5f * u->pixel[0]), y = width * (1.5f * u->pixel[1]);
+    lom_float bound = lom_before_surface(u, p), x = width * (1.5f * u->pixel[0]), y = width * (1.5f * u->pixel[1]);
     lom_mask hidden = { 0 };
     for (int i = 0; i < 4 && lom_any(width > 1.0f); i++)
         hidden =
@@ -142,10 +151,10 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     lom_float further = lom_picture_w(u, picture, own.x, own.y) / p->w - 1.0f;
     lom_float length = lom_clamp(further, (lom_float){ 0 }, lom_splat(100.0f)) * p->distance;
     length = lom_min(length, longest);
-    struct lom_lookup at = lom_project_point(picture, lom_add3(p->offset, lom_scale3(d, length)));
+    struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, length)));
     struct lom_hit hit = { at.w > 0.0f, length, lom_clamp(at.s, own.x - u->reach, own.x + u->reach),
                            lom_clamp(at.t, own.y - u->reach, own.y + u->reach) };
-    lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > p->w * 0.98f);
+    lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > lom_before_surface(u, p));
     hit.s = lom_select(hidden, own.x, hit.s);
     hit.t = lom_select(hidden, own.y, hit.t);
     return hit;
@@ -191,7 +200,6 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
         struct lom_hit met = { { 0 }, lom_splat(endless), { 0 }, { 0 } };
         if (followed)
             met = lom_follow_ray(u, picture, p, d, range);
-        lom_float width = above ? lom_blur_width(u, variance) : lom_splat(1.0f);
         struct lom_hit hit = lom_displaced_lookup(u, picture, p, d, met.length);
         if (followed) {
             hit.length = lom_select(met.found, met.length, hit.length);
@@ -199,6 +207,7 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
             hit.t = lom_select(met.found, met.t, hit.t);
             hit.found = hit.found | met.found;
         }
+        lom_float width = above ? lom_blur_width(u, variance, hit.length) : lom_splat(1.0f);
         width = lom_clear_width(u, picture, p, hit, width);
         lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, lom_log2(width));
         share = lom_select(hit.found, texel.w, (lom_float){ 0 });
@@ -223,7 +232,7 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
     if (foam->shore_depth > 0 && u->behind.depth != NULL && u->side > 0) {
         lom_float2 own = lom_own_place(&u->behind, p);
         lom_float further = lom_picture_w(u, &u->behind, own.x, own.y) / p->w - 1.0f;
-        lom_float depth = lom_max(further, (lom_float){ 0 }) * -p->offset.y;
+        lom_float depth = lom_max(further, (lom_float){ 0 }) * -p->path.y;
         lom_float band = lom_saturate(1.0f - lom_abs(depth) / foam->shore_depth);
         lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - (float)lom_two_pi * foam->move);
         cover = cover + band * band * (0.55f + 0.45f * lines);
@@ -249,8 +258,9 @@ LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, co
 /* Fills what follows from the point and its slopes. */
 LOM_INLINE void lom_finish_point(const struct lom_surface_uniforms *u, struct lom_surface_point *p)
 {
-    p->distance = lom_sqrt(lom_dot3(p->offset, p->offset));
-    p->to_eye = lom_scale3(p->offset, -1.0f / lom_max(p->distance, lom_splat(1e-30f)));
+    p->path = lom_eye_path(&u->eye, p->offset);
+    p->distance = lom_sqrt(lom_dot3(p->path, p->path));
+    p->to_eye = lom_scale3(p->path, -1.0f / lom_max(p->distance, lom_splat(1e-30f)));
     p->slopes.vxx = p->slopes.vxx + 0.5f * u->roughness;
     p->slopes.vzz = p->slopes.vzz + 0.5f * u->roughness;
     p->normal = lom_wave_normal(&p->slopes);

@@ -6,7 +6,8 @@
 
 struct lom_underwater_uniforms {
     struct lom_medium_uniform medium;
-    float ray[3][3], pixel[2], near_plane;
+    struct lom_eye_uniform eye;
+    float ray[3][3], pixel[2];
     const lom_texture *depth; /* of the part of the frame at origin */
     float origin[2], crop_pixel[2];
     float depth_of_eye, highest; /* metres below the surface at rest; of the waves over it */

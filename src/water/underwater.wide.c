@@ -16,14 +16,19 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
 static lom_float3 through(const struct lom_underwater_uniforms *u, const lom_varyings *in, float beyond)
 {
     lom_float a = 2.0f * in->x * u->pixel[0] - 1.0f, b = 1.0f - 2.0f * in->y * u->pixel[1];
+    lom_float3 start = { { 0 }, { 0 }, { 0 } };
     lom_float3 ray = { a * u->ray[0][0] + b * u->ray[0][1] + u->ray[0][2],
                        a * u->ray[1][0] + b * u->ray[1][1] + u->ray[1][2],
                        a * u->ray[2][0] + b * u->ray[2][1] + u->ray[2][2] };
     lom_float stored = lom_sample_depth(u->depth, (in->x - u->origin[0]) * u->crop_pixel[0],
                                         (in->y - u->origin[1]) * u->crop_pixel[1]);
+    if (u->eye.parallel) {
+        start = ray;
+        ray = lom_uniform3(u->eye.along);
+    }
     lom_float size = lom_sqrt(lom_dot3(ray, ray));
-    lom_float length = u->near_plane / lom_max(stored, lom_splat(nothing_there)) * size;
-    lom_float down = -ray.y / size, depth = lom_splat(u->depth_of_eye);
+    lom_float length = lom_depth_reach(&u->eye, stored) * size;
+    lom_float down = -ray.y / size, depth = u->depth_of_eye - start.y;
     /* Not further than the surface at rest: above it there is no water. */
     lom_mask rises = down < -1e-6f;
     lom_float leave = (depth + u->highest) / lom_select(rises, -down, lom_splat(1.0f));

@@ -264,6 +264,63 @@ static void projections(void)
     }
 }
 
+/* What recedes a metre is shown so much farther right and up; the plane of the eye stays. */
+static void oblique(void)
+{
+    lom_mat4 m = lom_oblique(8, 4, -3, 7, .5, -.25), o = lom_orthographic(8, 4, -3, 7);
+    double clip[4];
+    lom_transform_clip(&m, (lom_vec3){ 1, 1, 0 }, clip);
+    CHECK(clip[0] == .25 && clip[1] == .5 && clip[3] == 1);
+    lom_transform_clip(&m, (lom_vec3){ 1, 1, -4 }, clip);
+    CHECK(clip[0] == .75 && clip[1] == 0 && depth(&m, -4) == depth(&o, -4));
+    const double bad[][2] = { { __builtin_nan(""), 0 }, { 0, __builtin_inf() } };
+    for (int i = 0; i < 2; i++) {
+        m = lom_oblique(8, 4, -3, 7, bad[i][0], bad[i][1]);
+        CHECK(all_zero(&m), "case %d", i);
+    }
+    m = lom_oblique(8, 4, 3, 3, 0, 0);
+    CHECK(all_zero(&m));
+}
+
+/* A point on a ray is seen where the ray goes through, by every kind of projection, zoomed or mirrored. */
+static void rays(void)
+{
+    uint64_t counter = 0;
+    for (int k = 0; k < 3000; k++) {
+        const lom_vec3 eye = random_vector(&counter, -9, 9);
+        lom_mat4 view = lom_look_at(eye, random_vector(&counter, -9, 9), (lom_vec3){ 0, 1, 0 });
+        lom_mat4 projection = k % 3 == 0   ? lom_perspective(1, 1.5, .5)
+                              : k % 3 == 1 ? lom_orthographic(9, 6, .5, 12)
+                                           : lom_oblique(9, 6, .5, 12, .3, .6);
+        lom_vec3 start = eye;
+        if (k % 2 == 1 && k % 3 != 0) { /* a part of the picture */
+            lom_mat4 zoom = lom_scaling((lom_vec3){ 2, 3, 1 });
+            zoom.m[0][3] = .25;
+            zoom.m[1][3] = -.5;
+            projection = lom_multiply(&zoom, &projection);
+        } else if (k % 4 == 0) {
+            lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, .75);
+            view = lom_multiply(&view, &mirror);
+            start.y = 1.5 - eye.y;
+        }
+        double x = uniform(&counter, -1, 1), y = uniform(&counter, -1, 1), t = uniform(&counter, 1, 9), clip[4];
+        lom_vec3 origin, direction;
+        lom_ray_through(&projection, &view, start, x, y, &origin, &direction);
+        lom_mat4 all = lom_multiply(&projection, &view);
+        lom_transform_clip(&all, lom_vec3_add(origin, lom_vec3_scale(direction, t)), clip);
+        CHECK(__builtin_fabs(clip[0] / clip[3] - x) < 1e-12 && __builtin_fabs(clip[1] / clip[3] - y) < 1e-12,
+              "%d: %g, %g, not %g, %g", k, clip[0] / clip[3], clip[1] / clip[3], x, y);
+        lom_view_rays r = lom_find_view_rays(&projection, &view);
+        CHECK(r.parallel == (k % 3 != 0) && __builtin_fabs(lom_vec3_dot(direction, r.ahead) - 1) < 1e-12);
+        const double from[3] = { origin.x - start.x, origin.y - start.y, origin.z - start.z };
+        const double along[3] = { direction.x, direction.y, direction.z };
+        for (int i = 0; i < 3; i++) {
+            double v = r.row[i][0] * x + r.row[i][1] * y + r.row[i][2];
+            CHECK(__builtin_fabs(v - (r.parallel ? from[i] : along[i])) < 1e-12, "%d", k);
+        }
+    }
+}
+
 static void frustum(void)
 {
     uint64_t counter = 0;
@@ -334,6 +391,8 @@ int main(int argc, char **argv)
     RUN(an_inverted_pitch_is_the_mirror_upside_down);
     RUN(look_at);
     RUN(projections);
+    RUN(oblique);
+    RUN(rays);
     RUN(frustum);
     RUN(boxes);
     return check_result();

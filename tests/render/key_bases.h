@@ -48,6 +48,12 @@ static const struct base bases[] = {
       "[[lamp.key]]\ntime = 1\nposition = [1, 4, 2]\n[[lamp]]\nname = \"b\"\nposition = [2, 3, 2]\n"
       "range = 7\n[[lamp]]\ndirection = [1, -1, 1]\ndiffuse = 0.1\n" },
     { "ranges", "lamp.0.range lamp.0.position", VIEW TERRAIN "[[lamp]]\nposition = [0, 4, 3]\nrange = 7\n" },
+    { "orthographic", "camera.projection camera.height camera.far camera.position camera.near",
+      "[camera]\nposition = [0, 3, 12]\ntarget = [0, 1, 0]\nprojection = \"orthographic\"\nheight = 9\nfar = "
+      "60\n" TERRAIN "[water]\nlevel = 0\n" },
+    { "oblique", "camera.foreshortening camera.receding_angle camera.height camera.key.height camera.far",
+      "[camera]\nposition = [0, 3, 12]\ntarget = [0, 1, 0]\nprojection = \"oblique\"\nheight = 9\nfar = 60\n"
+      "[[camera.key]]\ntime = 0\n[[camera.key]]\ntime = 1\nheight = 12\n" TERRAIN CLOUD },
     { "tone", "output.exposure output.curve output.white", "curve = \"reinhard\"\n" VIEW TERRAIN },
     { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
       "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "

@@ -95,7 +95,11 @@ static void a_camera_is_that_of_a_scene(void)
 {
     static const char *const moved[] = { "camera.key=[]", "camera.position=[2, 5, 9]", "camera.target=[0, 1.5, 0]",
                                          "camera.field_of_view=40", "camera.near=0.2" };
-    const lom_camera_view camera = { { 2, 5, 9 }, { 0, 1.5, 0 }, { 0, 1, 0 }, 40 * 0.017453292519943295, 0.2 };
+    const lom_camera_view camera = { .position = { 2, 5, 9 },
+                                     .target = { 0, 1.5, 0 },
+                                     .up = { 0, 1, 0 },
+                                     .field_of_view = 40 * 0.017453292519943295,
+                                     .near_plane = 0.2 };
     for (int i = 0; i < BASES; i++) {
         bool turned = strstr(bases[i].text, "yaw = 20") != NULL; /* angles in the place of a target */
         lom_scene *scene = turned ? NULL : read_base(&bases[i], NULL, 0), *other = NULL;
@@ -216,7 +220,9 @@ static void pixels_are_the_pictures(void)
 static void what_cannot_be_drawn_is_refused(void)
 {
     static uint8_t pixels[64];
-    const lom_camera_view good = { { 0, 3, 12 }, { 0, 1, 0 }, { 0, 1, 0 }, 1, 0.1 };
+    const lom_camera_view good = {
+        .position = { 0, 3, 12 }, .target = { 0, 1, 0 }, .up = { 0, 1, 0 }, .field_of_view = 1, .near_plane = 0.1
+    };
     lom_camera_view wrong[5];
     for (int i = 0; i < 5; i++)
         wrong[i] = good;

@@ -51,7 +51,7 @@ static void release(void)
 
 static void choose(double pixels)
 {
-    lom_choose_ground(&ground, (lom_vec3){ -160, 30, -90 }, 900, pixels);
+    lom_choose_ground(&ground, (lom_vec3){ -160, 30, -90 }, 900, pixels, false);
 }
 
 static const struct lom_ground_pattern *pattern_of(int block)

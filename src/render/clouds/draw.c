@@ -29,7 +29,7 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     lom_move_clouds(f->renderer->clouds.set, f->time);
     if (!lom_evolve_clouds(f->renderer->clouds.set, f->time, error) || !lom_begin_impostors(f, error))
         return false;
-    if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
+    if (lom_has_plates(f))
         return lom_draw_cloud_shadows(f, to_light); /* plates light their clouds when they are made */
     if (!lom_light_clouds(f->renderer->clouds.set, to_light, &swept, error))
         return false;
@@ -53,7 +53,7 @@ bool lom_draw_clouds_over(struct frame *f, const struct lom_scene_view *view, lo
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.label = "clouds";
-    if (f->scene->quality.impostors != LOM_IMPOSTORS_OFF)
+    if (lom_has_plates(f))
         return lom_draw_impostors(f, view, &seen, &pass, count, error);
     size_t *order = r->clouds.set->order;
     *count = lom_order_clouds(r->clouds.set, &seen, f->scene->quality.impostor.culling, order);
@@ -72,9 +72,10 @@ static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_imposto
     size_t all = f->renderer->clouds.set->count;
     if (count == 0)
         return lom_add_step(f, "clouds", false, "none of %zu clouds is in view", all);
-    if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF)
-        return lom_add_step(f, "clouds", true, "%zu of %zu clouds are in view; each is marched, the farthest first",
-                            count, all);
+    if (!lom_has_plates(f))
+        return lom_add_step(
+            f, "clouds", true, "%zu of %zu clouds are in view; each is marched, the farthest first%s", count, all,
+            f->scene->quality.impostors != LOM_IMPOSTORS_OFF ? "; plates are for no parallel rays" : "");
     const char *split = now->split != before->split ? "; one is cut in two around the aircraft" : "";
     if (!f->renderer->clouds.impostors.continues)
         return lom_add_step(f, "clouds", true,

@@ -78,10 +78,17 @@ static bool follow_sun(struct frame *f, lom_error *error)
     return state->suns != NULL;
 }
 
+bool lom_has_plates(const struct frame *f)
+{
+    return f->scene->quality.impostors != LOM_IMPOSTORS_OFF && !f->parallel;
+}
+
 bool lom_begin_impostors(struct frame *f, lom_error *error)
 {
     struct lom_impostors *state = &f->renderer->clouds.impostors;
-    if (f->scene->quality.impostors == LOM_IMPOSTORS_OFF || f->renderer->clouds.set == NULL)
+    if (f->parallel)
+        lom_end_impostor_run(f->renderer);
+    if (!lom_has_plates(f) || f->renderer->clouds.set == NULL)
         return true;
     state->swept = 0;
     state->frames++;

@@ -112,6 +112,12 @@ static void add_extent(struct casters *c, lom_box box)
     c->extent = c->count++ == 0 ? box : join(c->extent, box);
 }
 
+/* Pixels of parallel rays are as large everywhere. */
+static double away_from(const struct frame *f, lom_box box)
+{
+    return f->parallel ? 1 : greater(distance_to(f->view.eye, box), f->camera.near_plane);
+}
+
 /* Marks what casts with the number of its map: the nearer ones, up to the geometric middle of all distances, and the
  * others. */
 static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *light, struct casters casters[2])
@@ -123,7 +129,7 @@ static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *lig
     for (size_t i = 0; i < r->entities.count; i++) {
         struct lom_drawn_entity *e = &r->entities.items[i];
         e->shadow_map = casts(e, &views, to_light, &all) ? 0 : -1;
-        double distance = greater(distance_to(f->view.eye, e->at->bounds), f->camera.near_plane);
+        double distance = away_from(f, e->at->bounds);
         if (e->shadow_map == 0) {
             nearest = lesser(nearest, distance);
             farthest = greater(farthest, distance);
@@ -134,7 +140,7 @@ static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *lig
         struct lom_drawn_entity *e = &r->entities.items[i];
         if (e->shadow_map < 0)
             continue;
-        e->shadow_map = greater(distance_to(f->view.eye, e->at->bounds), f->camera.near_plane) > middle;
+        e->shadow_map = away_from(f, e->at->bounds) > middle;
         add_extent(&casters[e->shadow_map], lom_transform_box(light, e->at->bounds));
     }
 }

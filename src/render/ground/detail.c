@@ -2,7 +2,7 @@
  * order from near to far, and the triangles of a block.
  *
  * Seen from a distance d, a metre is at most scale / d pixels on the screen, so a level is good enough where
- * error * scale <= pixels * d, with d to the nearest point of the block's box. Neighbours are kept within one level of
+ * error * scale <= pixels * d, with d to the nearest point of the block's box, and 1 of parallel rays. Neighbours are kept within one level of
  * each other; the finer one leaves out every second vertex of the edge they share, which then has the same vertices on
  * both sides, so there are no cracks (Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004, section 4, has the other
  * ways). Compiled for speed. */
@@ -173,13 +173,13 @@ static int coarser_edges(const struct lom_ground *ground, int block)
     return edges;
 }
 
-void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels)
+void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, bool parallel)
 {
     int count = ground->across * ground->down;
     for (int i = 0; i < count; i++) {
         const struct lom_ground_block *block = &ground->blocks[i];
         ground->distance[i] = distance_to(&block->bounds, eye);
-        ground->level[i] = pixels > 0 ? coarsest(block, ground->distance[i], scale, pixels) : 0;
+        ground->level[i] = pixels > 0 ? coarsest(block, parallel ? 1 : ground->distance[i], scale, pixels) : 0;
     }
     bind_neighbours(ground);
     sort_blocks(ground);

@@ -105,6 +105,6 @@ bool lom_find_ground_shadow(const float *heights, int width, int height, const d
 bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error);
 /* Chooses every block's level: the coarsest whose error is at most `pixels` on the screen, neighbours at most one level
  * apart, and sorts the blocks by distance. scale: pixels of 1 m at 1 m distance; pixels 0: full density. */
-void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels);
+void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, bool parallel);
 
 #endif

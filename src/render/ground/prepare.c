@@ -1,5 +1,6 @@
 /* Terrain before anything of a frame is drawn. In: the frame's camera and sun. Out: every block's level of detail, the
  * same for all passes, and the shadow that the terrain throws. Invariant: both follow from the whole frame. */
+#include "base/numbers.h"
 #include "render/frame.h"
 
 static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec3 to_light, lom_error *error)
@@ -51,6 +52,8 @@ bool lom_prepare_ground(struct frame *f, lom_error *error)
     if (ground->blocks == NULL)
         return true;
     double scale = f->height * f->view.projection.m[1][1] / 2;
-    lom_choose_ground(ground, f->camera.position, scale, f->scene->quality.terrain_error);
+    if (f->parallel) /* a metre may point across the picture and away from it at once */
+        scale *= 1 + lom_magnitude(f->camera.shear[0]) + lom_magnitude(f->camera.shear[1]);
+    lom_choose_ground(ground, f->view.eye, scale, f->scene->quality.terrain_error, f->parallel);
     return cast_shadow(f, error);
 }

@@ -87,7 +87,7 @@ static struct lom_spray_uniforms uniforms_of(const struct frame *f, const struct
     const lom_renderer *r = f->renderer;
     struct lom_spray_uniforms u = { .light = lom_renderer_light(r, view->eye),
                                     .haze = lom_scene_haze(f->scene, view->eye.y, false),
-                                    .near_plane = (float)view->near_plane,
+                                    .eye = lom_find_eye(&view->projection, &view->view, 0),
                                     .sprites = r->spray.sprites[0].middle };
     lom_mat4 clip = lom_clip_from_offset(&view->projection, &view->view);
     u.clip_from_offset = lom_round_matrix(&clip);
@@ -152,6 +152,7 @@ bool lom_draw_spray(struct frame *f, lom_error *error)
     const lom_vec3 to_light = f->renderer->moment.to_light;
     struct lom_spray_view view = { .projection = f->view.projection,
                                    .view = f->view.view,
+                                   .rays = lom_find_view_rays(&f->view.projection, &f->view.view),
                                    .eye = f->view.eye,
                                    .near_plane = f->camera.near_plane,
                                    .width = f->width,

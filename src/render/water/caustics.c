@@ -24,6 +24,12 @@ static bool make_targets(lom_renderer *r, int size, lom_error *error)
 static void place_square(const struct frame *f, double corner[2], double cell)
 {
     double size = f->scene->water.optics.caustics_size;
+    if (f->parallel) {
+        const lom_vec3 middle = lom_middle_on_level(&f->view, f->scene->water.level);
+        corner[0] = lom_double_floor((middle.x - size / 2) / cell) * cell;
+        corner[1] = lom_double_floor((middle.z - size / 2) / cell) * cell;
+        return;
+    }
     double x = -f->view.view.m[2][0], z = -f->view.view.m[2][2];
     double flat = lom_double_sqrt(x * x + z * z), ahead = 0.42 * size / (flat > 1e-6 ? flat : 1e-6);
     ahead = flat > 0.3 ? ahead : 0;

@@ -12,7 +12,7 @@ static lom_lake_view lake_view(const struct frame *f)
     lom_mat4 clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
     return (lom_lake_view){ .clip_from_offset = lom_round_matrix(&clip_from_offset),
                             .eye = f->view.eye,
-                            .near_plane = f->camera.near_plane,
+                            .rays = lom_find_eye(&f->view.projection, &f->view.view, 0),
                             .time = f->time,
                             .frame_width = f->width,
                             .frame_height = f->height,

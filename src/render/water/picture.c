@@ -93,20 +93,22 @@ lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window,
 }
 
 /* Begins a picture of the frame's size with what the frame shows of it: a surface that is seen there and lies inside the
- * view's plane is the nearest of those inside. The margin, a part of the eye's height over the plane, is far more than
- * floats round. Where pixels have several samples a texel is a mixture of surfaces, which may lie on both sides. */
+ * view's plane is the nearest of those inside. The margin, a part of the eye's height over the plane and of how far parallel rays
+ * reach, is far more than floats round. Where pixels have several samples a texel is a mixture of surfaces, which may lie
+ * on both sides. */
 static void copy_scene(struct frame *f, const struct lom_scene_view *view)
 {
     const lom_renderer *r = f->renderer;
     const double(*v)[4] = view->view.m;
     double x = 2 / (view->projection.m[0][0] * f->width), y = -2 / (view->projection.m[1][1] * f->height);
     double over = view->plane[1] * view->eye.y + view->plane[3];
-    double middle = v[0][1] * x * -f->width / 2 + v[1][1] * y * -f->height / 2 - v[2][1];
+    double middle = v[0][1] * x * -f->width / 2 + v[1][1] * y * -f->height / 2 - (f->parallel ? 0 : v[2][1]);
+    double margin = 0x1p-8 * (over < 0 ? -over : over) + (f->parallel ? 0x1p-18 * f->camera.far_plane : 0);
     const struct lom_scene_copy_uniforms u = { .height = { (float)(v[0][1] * x), (float)(v[1][1] * y), (float)middle },
                                                .side = (float)view->plane[1],
                                                .over = (float)over,
-                                               .margin = (float)(0x1p-8 * (over < 0 ? -over : over)),
-                                               .near_plane = (float)f->camera.near_plane,
+                                               .margin = (float)margin,
+                                               .eye = lom_find_eye(&view->projection, &view->view, 0),
                                                .origin = { (float)f->crop.x, (float)f->crop.y },
                                                .color = r->targets.of[LOM_TARGET_COLOR],
                                                .depth = r->targets.of[LOM_TARGET_DEPTH] };

@@ -21,7 +21,7 @@ static bool fill_mesh(struct surface *surface, struct frame *f, lom_error *error
                                         .quad = { surface->quad[0], surface->quad[1], surface->quad[2],
                                                   surface->quad[3] },
                                         .cell = f->scene->water.waves.cell,
-                                        .pixel_angle = (double)u->pixel_angle };
+                                        .pixel_angle = (double)u->eye.pixel };
     if (!lom_fill_polar_mesh(mesh, &desc, error))
         return false;
     u->mesh =
@@ -62,7 +62,7 @@ static bool draw_underwater(const struct surface *surface, struct frame *f)
     const struct lom_surface_uniforms *u = &surface->uniforms;
     struct lom_underwater_uniforms under = { .medium = u->medium,
                                              .pixel = { u->pixel[0], u->pixel[1] },
-                                             .near_plane = u->near_plane,
+                                             .eye = u->eye,
                                              .depth = r->targets.of[LOM_TARGET_DEPTH],
                                              .origin = { (float)f->crop.x, (float)f->crop.y },
                                              .crop_pixel = { 1.0f / (float)f->crop.width,

@@ -1,5 +1,6 @@
 /* Pictures of the scene for water with waves to look up. In: where the water is seen. Out: the scene on the eye's side,
  * mirrored in the level, and the scene behind the surface, each with its depth; only as far as lookups can reach. */
+#include "base/numbers.h"
 #include "render/water/surface.h"
 
 static const float nothing[4] = { 0, 0, 0, 0 };
@@ -31,14 +32,32 @@ static void set_picture(struct lom_picture_uniform *out, const struct frame *f, 
     out->shift[1] = (float)((window->high[1] - 1) / height);
 }
 
-/* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it.
- * False where it does not meet the surface, or does not pass. */
+/* How deep below the level, or for an eye under water high over it, anything of the scene is. */
+static double longest_below(const struct frame *f)
+{
+    const lom_renderer *r = f->renderer;
+    const double level = f->scene->water.level;
+    double most = 0;
+    for (int i = 0; i < r->ground.across * r->ground.down; i++) {
+        const lom_box *box = &r->ground.blocks[i].bounds;
+        most = lom_larger(most, f->below ? box->high.y - level : level - box->low.y);
+    }
+    for (size_t i = 0; i < r->entities.count; i++) {
+        const lom_box *box = &r->entities.items[i].at->bounds;
+        most = lom_larger(most, f->below ? box->high.y - level : level - box->low.y);
+    }
+    return most;
+}
+
+/* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it,
+ * as far away as can be, which for parallel rays is as deep as the scene is. False where it does not meet the surface, or
+ * does not pass. */
 static bool bend_ray(const struct surface *surface, const struct frame *f, double x, double y, double out[2])
 {
-    const float(*r)[3] = surface->uniforms.ray;
+    const float(*r)[3] = surface->uniforms.ray, *along = surface->uniforms.eye.along;
     double d[3], side = f->below ? -1 : 1, eta = (double)surface->uniforms.eta;
     for (int i = 0; i < 3; i++)
-        d[i] = (double)r[i][0] * x + (double)r[i][1] * y + (double)r[i][2];
+        d[i] = f->parallel ? (double)along[i] : (double)r[i][0] * x + (double)r[i][1] * y + (double)r[i][2];
     double size = lom_double_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = -side * d[1] / size;
     double square = 1 - eta * eta * (1 - c * c);
     if (c <= 0 || square <= 0)
@@ -47,6 +66,12 @@ static bool bend_ray(const struct surface *surface, const struct frame *f, doubl
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             view[i] += f->view.view.m[i][k] * bent[k];
+    if (f->parallel) {
+        const double(*p)[4] = f->view.projection.m, length = longest_below(f) / lom_larger(lom_magnitude(bent[1]), 0.1);
+        out[0] = x + length * (view[0] * p[0][0] + view[2] * p[0][2]);
+        out[1] = y + length * (view[1] * p[1][1] + view[2] * p[1][2]);
+        return true;
+    }
     double w = -view[2] > 0.1 ? -view[2] : 0.1;
     out[0] = view[0] / w * f->view.projection.m[0][0];
     out[1] = view[1] / w * f->view.projection.m[1][1];

@@ -4,13 +4,12 @@
 #include "scene/scene_light.h"
 #include "sky/sky_draw.h"
 
-/* World directions of (ndc x, ndc y, 1): the view's rotation of (x / p00, y / p11, -1). */
 static void set_rays(float out[3][3], const struct lom_scene_view *view)
 {
-    double scale[3] = { 1 / view->projection.m[0][0], 1 / view->projection.m[1][1], -1 };
+    const lom_view_rays rays = lom_find_view_rays(&view->projection, &view->view);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
-            out[i][k] = (float)(view->view.m[k][i] * scale[k]);
+            out[i][k] = (float)rays.row[i][k];
 }
 
 /* The light that the water sends back is `scatter` of what a white surface would, seen from straight above: there the
@@ -81,7 +80,8 @@ static double farther(double square, lom_vec3 eye, const lom_box *box)
     return sum > square ? sum : square;
 }
 
-/* From the eye to the farthest corner of anything that a ray could meet. */
+/* From the eye to the farthest corner of anything that a ray could meet; from any place of the picture's plane, where
+ * parallel rays start. */
 static double find_range(const struct frame *f)
 {
     const lom_renderer *r = f->renderer;
@@ -90,7 +90,8 @@ static double find_range(const struct frame *f)
         farthest = farther(farthest, f->view.eye, &r->ground.blocks[i].bounds);
     for (size_t i = 0; i < r->entities.count; i++)
         farthest = farther(farthest, f->view.eye, &r->entities.items[i].at->bounds);
-    return lom_double_sqrt(farthest);
+    const double half = f->parallel ? f->camera.height / 2 * (1 + (double)f->width / f->height) : 0;
+    return lom_double_sqrt(farthest) + half;
 }
 
 void lom_look_at_surface(struct surface *surface, const struct frame *f)
@@ -111,8 +112,7 @@ void lom_look_at_surface(struct surface *surface, const struct frame *f)
     u->range = (float)find_range(f);
     u->pixel[0] = 1.0f / (float)f->width;
     u->pixel[1] = 1.0f / (float)f->height;
-    u->near_plane = (float)f->camera.near_plane;
-    u->pixel_angle = (float)(2 / f->view.projection.m[1][1] / f->height);
+    u->eye = lom_find_eye(&f->view.projection, &f->view.view, 2 / f->view.projection.m[1][1] / f->height);
     surface->level = water->level - f->view.eye.y;
     for (int i = 0; i < 2; i++) {
         double middle = water->position[i] - (i == 0 ? f->view.eye.x : f->view.eye.z);

@@ -1,5 +1,6 @@
 /* Where water with waves is seen. In: the frame whose opaque scene is drawn. Out: f->water, a rectangle outside of which
  * no pixel shows it; and all of the waves, when it is somewhere. Invariant: of a sea no more is made than that needs. */
+#include "base/numbers.h"
 #include "render/water/surface.h"
 
 static lom_box slab(const struct surface *surface, bool flat)
@@ -41,6 +42,10 @@ static bool draw_visibility(struct surface *surface, struct frame *f, bool flat)
 {
     lom_box box = slab(surface, flat);
     double margin = 2.1 * f->camera.near_plane;
+    if (f->parallel) { /* rays start anywhere on a plane */
+        const float(*rows)[3] = surface->uniforms.ray;
+        margin += lom_magnitude((double)rows[1][0]) + lom_magnitude((double)rows[1][1]);
+    }
     if (!flat && box.low.y < margin && box.high.y > -margin) {
         lom_add_step(f, "visibility", false, "the eye is among the waves: they may be anywhere");
         f->water = f->crop;
