@@ -49,11 +49,11 @@ lom_mat4 lom_perspective(double field_of_view, double aspect, double near_plane)
 lom_mat4 lom_perspective_gl(double field_of_view, double aspect, double near_plane, double far_plane);
 /* Parallel rays along -z. Reversed depth, 1 at near, 0 at far, linear between them. */
 lom_mat4 lom_orthographic(double width, double height, double near_plane, double far_plane);
-/* Parallel rays at a slant: what lies a metre farther along -z is shown right metres further right and up metres further
- * up, and the plane z = 0 where lom_orthographic shows it. With right = f cos a, up = f sin a the receding lines have the
- * angle a and are f times as long as they are: f = 1 is a cavalier, f = 1/2 a cabinet projection; any pair is a shear.
- * All zeros for a shear that is not finite. (J. Foley and others, Computer Graphics: Principles and Practice, 2nd ed.,
- * 6.1.2.) */
+/* Parallel rays at a slant: what lies a metre farther along -z is shown right metres further right and up metres
+ * further up, and the plane z = 0 where lom_orthographic shows it. With right = f cos a, up = f sin a the receding
+ * lines have the angle a and are f times as long as they are: f = 1 is a cavalier, f = 1/2 a cabinet projection; any
+ * pair is a shear. All zeros for a shear that is not finite. (J. Foley and others, Computer Graphics: Principles and
+ * Practice, 2nd ed., 6.1.2.) */
 lom_mat4 lom_oblique(double width, double height, double near_plane, double far_plane, double right, double up);
 /* Mirror in the plane n.p = d, n of unit length. */
 lom_mat4 lom_mirror(lom_vec3 normal, double distance);
@@ -74,8 +74,8 @@ lom_matrix_uniform lom_round_matrix(const lom_mat4 *m);
 
 /* ---- the rays of a view ---- */
 
-/* The rays that a picture of projection * view sees by, in world directions; the one through (x, y) in normalised device
- * coordinates, with v = row (x, y, 1):
+/* The rays that a picture of projection * view sees by, in world directions; the one through (x, y) in normalised
+ * device coordinates, with v = row (x, y, 1):
  * perspective: from the eye along v, whose length along the view axis is 1;
  * parallel: from eye + v, on the plane across the view axis through the eye, along `along`, whose length along the view
  * axis is 1. */

@@ -82,7 +82,8 @@ typedef struct lom_camera {
     lom_person person;
 } lom_camera;
 
-/* The camera at one moment, and what its pictures are made by. The zero of what is behind near_plane is a perspective. */
+/* The camera at one moment, and what its pictures are made by. The zero of what is behind near_plane is a
+ * perspective. */
 typedef struct lom_camera_view {
     lom_vec3 position, target, up;
     double field_of_view, near_plane;
@@ -91,8 +92,8 @@ typedef struct lom_camera_view {
     double shear[2];          /* oblique: metres right and up a metre of depth (lom_oblique) */
 } lom_camera_view;
 
-/* From the view to clip space, for a picture that is `aspect` times as wide as high: lom_perspective, lom_orthographic or
- * lom_oblique. */
+/* From the view to clip space, for a picture that is `aspect` times as wide as high: lom_perspective, lom_orthographic
+ * or lom_oblique. */
 lom_mat4 lom_camera_projection(const lom_camera_view *camera, double aspect);
 /* Where its rays start (parallel: those of the picture's middle): the position, from which an oblique camera's eye is
  * moved across the view axis so far that the target stays in the middle. */

@@ -38,7 +38,8 @@ void lom_cloud_corners(const struct lom_placed_cloud *cloud, lom_vec3 corner[8])
     }
 }
 
-/* What tells the nearer one of two clouds: the square of the distance; of parallel rays the distance along the view axis. */
+/* What tells the nearer one of two clouds: the square of the distance; of parallel rays the distance along the view
+ * axis. */
 static double nearness(const struct lom_placed_cloud *cloud, const struct lom_cloud_view *view)
 {
     const lom_vec3 away = lom_vec3_subtract(cloud->middle, view->eye);

@@ -51,7 +51,8 @@ static bool starts_in_water(const struct frame *f, lom_vec3 place)
     return lom_is_over_water(&f->reference, place) && place.y < lom_wave_surface_height(&f->waves, place.x, place.z);
 }
 
-/* The ray through a place of the picture in pixels. Each of parallel rays starts at a place of its own, in water or not. */
+/* The ray through a place of the picture in pixels. Each of parallel rays starts at a place of its own, in water or
+ * not. */
 static lom_vec3 see(const struct frame *f, double x, double y)
 {
     struct lom_ray ray;

@@ -60,8 +60,8 @@ struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_ve
 struct lom_haze_uniform lom_scene_haze(const lom_scene *scene, double eye_height, bool mirrored);
 /* From places less the eye to clip space: the view's rotation alone, since it takes the eye to 0. */
 lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view);
-/* Of parallel rays: where the one through the picture's middle meets a height; where it starts when it goes the other way,
- * or runs along it. */
+/* Of parallel rays: where the one through the picture's middle meets a height; where it starts when it goes the other
+ * way, or runs along it. */
 lom_vec3 lom_middle_on_level(const struct lom_scene_view *view, double level);
 /* The row of a matrix for offsets that is `row` for places. */
 void lom_center_row(float out[4], const double row[4], lom_vec3 eye);

@@ -116,8 +116,8 @@ lom_mat4 lom_camera_projection(const lom_camera_view *c, double aspect)
     return lom_oblique(c->height * aspect, c->height, c->near_plane, c->far_plane, c->shear[0], c->shear[1]);
 }
 
-/* The ray through the middle goes (-right, -up, 1) a metre ahead: it meets the target when it starts so much right and up
- * of the position as that comes to over the way. */
+/* The ray through the middle goes (-right, -up, 1) a metre ahead: it meets the target when it starts so much right and
+ * up of the position as that comes to over the way. */
 lom_vec3 lom_camera_eye(const lom_camera_view *c)
 {
     if (c->projection != LOM_PROJECTION_OBLIQUE)

@@ -8,8 +8,8 @@ static void set3(float out[3], lom_vec3 v, double factor)
     out[2] = (float)(v.z * factor);
 }
 
-/* With clip z = p22 z + p23 and w = 1 depth d lies (p23 - d) / p22 along the view axis, where the reach is `longer` times
- * as much. */
+/* With clip z = p22 z + p23 and w = 1 depth d lies (p23 - d) / p22 along the view axis, where the reach is `longer`
+ * times as much. */
 struct lom_eye_uniform lom_find_eye(const lom_mat4 *projection, const lom_mat4 *view, double pixel)
 {
     const double(*p)[4] = projection->m;

@@ -1,5 +1,5 @@
-/* Where the rays of a picture start and which way they go, for the shaders of every model layer: the one place that knows
- * whether they leave an eye or are parallel (lom_view_rays in lom/geometry.h, docs/cameras.md).
+/* Where the rays of a picture start and which way they go, for the shaders of every model layer: the one place that
+ * knows whether they leave an eye or are parallel (lom_view_rays in lom/geometry.h, docs/cameras.md).
  *
  * The reach of a place is what tells the nearer one on a ray: in perspective the distance along the view axis (clip w),
  * of parallel rays the metres along them from the plane across the view axis through the eye. */

@@ -62,7 +62,8 @@ LOM_INLINE lom_float lom_haze_mean_below(const struct lom_haze_uniform *haze, lo
     return lom_select(level, lom_exp(-middle * haze->inverse_height), quotient);
 }
 
-/* A colour at an offset, the end of a path from the eye, as it sees it: color T + air (1 - T), T = exp(-optical depth). */
+/* A colour at an offset, the end of a path from the eye, as it sees it: color T + air (1 - T), T = exp(-optical
+ * depth). */
 LOM_INLINE lom_float3 lom_apply_haze(const struct lom_haze_uniform *haze, const struct lom_eye_uniform *eye,
                                      const float to_light[3], lom_float3 offset, lom_float3 color)
 {

@@ -88,8 +88,8 @@ struct lom_polar_mesh_desc {
 
 /* Rings about a point behind the eye, from below it to the far corner of the quad, in the sector that the view can see.
  * Along a ring vertices are `cell` pixels apart; from ring to ring as well, until waves are lower than a pixel, from
- * where rings may be further apart. Where rays are parallel, rings about the middle of what the picture shows of the plane,
- * vertices `cell` pixels apart everywhere. One connected mesh: there is no seam to stitch. */
+ * where rings may be further apart. Where rays are parallel, rings about the middle of what the picture shows of the
+ * plane, vertices `cell` pixels apart everywhere. One connected mesh: there is no seam to stitch. */
 struct lom_polar_mesh {
     int rings, columns;
     double apex[2];                          /* less the eye */

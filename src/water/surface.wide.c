@@ -85,8 +85,8 @@ static void screen_vertex(lom_vertex *out, const lom_attributes *in, const void 
     out->position = (lom_float4){ x, y, lom_splat(0.5f), lom_splat(1.0f) };
 }
 
-/* The ray through a window position: where it starts, less the eye, and its direction, as long as makes its length along
- * the view axis 1, or its own where rays are parallel. */
+/* The ray through a window position: where it starts, less the eye, and its direction, as long as makes its length
+ * along the view axis 1, or its own where rays are parallel. */
 struct ray {
     lom_float3 start, direction;
 };

@@ -42,8 +42,8 @@ static struct sector find_sector(const struct lom_polar_mesh_desc *desc)
 }
 
 /* The rectangle of the plane that holds all of the slab of the waves which parallel rays of the picture see, within the
- * quad. Where a ray enters the slab is linear over the picture until it is cut to where rays are: the rays of the corners
- * and, when one is cut, their ends hold it. */
+ * quad. Where a ray enters the slab is linear over the picture until it is cut to where rays are: the rays of the
+ * corners and, when one is cut, their ends hold it. */
 static void find_footprint(const struct lom_polar_mesh_desc *desc, const lom_view_rays *rays, double low[2],
                            double high[2])
 {

@@ -31,8 +31,8 @@ LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_fl
 
 /* ---- pictures of the scene ---- */
 
-/* How many pixels wide a rough surface blurs what it mirrors, 2 s, as far as the levels of a picture go; of parallel rays
- * it is as much of the mirrored ray's length. */
+/* How many pixels wide a rough surface blurs what it mirrors, 2 s, as far as the levels of a picture go; of parallel
+ * rays it is as much of the mirrored ray's length. */
 LOM_INLINE lom_float lom_blur_width(const struct lom_surface_uniforms *u, lom_float variance, lom_float length)
 {
     float pixels = 1.0f / (u->eye.pixel * u->eye.pixel);

@@ -1,8 +1,8 @@
-/* Proves what parallel cameras show (docs/cameras.md), by closed forms: metres are as many pixels wherever they are, what
- * recedes is drawn at the length and angle that it was told, a camera that moves by pixels moves the picture by as many,
- * depth is the distance along the view axis, a scene far from the origin is the same; and over every small scene that a
- * crop is the cut-out of the whole, bit for bit, at both widths and any number of threads; that the reference by rays
- * draws the same. */
+/* Proves what parallel cameras show (docs/cameras.md), by closed forms: metres are as many pixels wherever they are,
+ * what recedes is drawn at the length and angle that it was told, a camera that moves by pixels moves the picture by as
+ * many, depth is the distance along the view axis, a scene far from the origin is the same; and over every small scene
+ * that a crop is the cut-out of the whole, bit for bit, at both widths and any number of threads; that the reference by
+ * rays draws the same. */
 #include "check.h"
 #include "key_bases.h"
 #include "small_scene.h"

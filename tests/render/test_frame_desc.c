@@ -93,8 +93,10 @@ static void an_abandoned_frame_leaves_nothing(void)
 
 static void a_camera_is_that_of_a_scene(void)
 {
-    static const char *const moved[] = { "camera.key=[]", "camera.position=[2, 5, 9]", "camera.target=[0, 1.5, 0]",
-                                         "camera.field_of_view=40", "camera.near=0.2" };
+    static const char *const moved[] = {
+        "camera.key=[]",           "camera.position=[2, 5, 9]", "camera.target=[0, 1.5, 0]",
+        "camera.field_of_view=40", "camera.near=0.2",           "camera.projection=perspective"
+    };
     const lom_camera_view camera = { .position = { 2, 5, 9 },
                                      .target = { 0, 1.5, 0 },
                                      .up = { 0, 1, 0 },
@@ -105,7 +107,7 @@ static void a_camera_is_that_of_a_scene(void)
         lom_scene *scene = turned ? NULL : read_base(&bases[i], NULL, 0), *other = NULL;
         if (scene == NULL)
             continue;
-        other = read_base(&bases[i], moved, 5);
+        other = read_base(&bases[i], moved, 6);
         uint64_t expected = other != NULL ? draw_fresh(other, NULL) : 0;
         CHECK(draw_fresh(scene, &(lom_frame_desc){ .camera = &camera }) == expected, "%s", bases[i].name);
         lom_free_scene(scene);

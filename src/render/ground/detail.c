@@ -1,11 +1,11 @@
 /* Level of detail of terrain. In: the whole frame's camera and an error in pixels. Out: a level for each block, the
  * order from near to far, and the triangles of a block.
  *
- * Seen from a distance d, a metre is at most scale / d pixels on the screen, so a level is good enough where
- * error * scale <= pixels * d, with d to the nearest point of the block's box, and 1 of parallel rays. Neighbours are kept within one level of
- * each other; the finer one leaves out every second vertex of the edge they share, which then has the same vertices on
- * both sides, so there are no cracks (Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004, section 4, has the other
- * ways). Compiled for speed. */
+ * Seen from a distance d, a metre is at most scale / d pixels on the screen, so a level is good enough where error *
+ * scale <= pixels * d, with d to the nearest point of the block's box, and 1 of parallel rays. Neighbours are kept
+ * within one level of each other; the finer one leaves out every second vertex of the edge they share, which then has
+ * the same vertices on both sides, so there are no cracks (Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004,
+ * section 4, has the other ways). Compiled for speed. */
 #include "render/ground/ground.h"
 
 /* ---- levels ---- */

@@ -92,10 +92,10 @@ lom_rect lom_water_reach(const struct frame *f, const struct lom_window *window,
     return r;
 }
 
-/* Begins a picture of the frame's size with what the frame shows of it: a surface that is seen there and lies inside the
- * view's plane is the nearest of those inside. The margin, a part of the eye's height over the plane and of how far parallel rays
- * reach, is far more than floats round. Where pixels have several samples a texel is a mixture of surfaces, which may lie
- * on both sides. */
+/* Begins a picture of the frame's size with what the frame shows of it: a surface that is seen there and lies inside
+ * the view's plane is the nearest of those inside. The margin, a part of the eye's height over the plane and of how far
+ * parallel rays reach, is far more than floats round. Where pixels have several samples a texel is a mixture of
+ * surfaces, which may lie on both sides. */
 static void copy_scene(struct frame *f, const struct lom_scene_view *view)
 {
     const lom_renderer *r = f->renderer;

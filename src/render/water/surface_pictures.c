@@ -49,8 +49,8 @@ static double longest_below(const struct frame *f)
     return most;
 }
 
-/* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it,
- * as far away as can be, which for parallel rays is as deep as the scene is. False where it does not meet the surface, or
+/* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it, as
+ * far away as can be, which for parallel rays is as deep as the scene is. False where it does not meet the surface, or
  * does not pass. */
 static bool bend_ray(const struct surface *surface, const struct frame *f, double x, double y, double out[2])
 {
