@@ -28,6 +28,7 @@
 #include <lom/record.h>
 #include <lom/scene.h>
 #include <lom/sea.h>
+#include <lom/stages.h>
 #include <lom/particles.h>
 #include <lom/shallow.h>
 #include <lom/sky.h>

@@ -352,7 +352,8 @@ typedef struct lom_pass_desc {
     lom_load_action color_load[LOM_MAX_COLORS], depth_load;
     float clear_color[LOM_MAX_COLORS][4]; /* linear light */
     float clear_depth;                    /* 0 is the far plane of reversed depth */
-    const char *label;                    /* what records (lom/record.h) call the pass; not copied; may be NULL */
+    bool feedback_only; /* no attachments: its draws fill feedback (lom/stages.h) and nothing is rasterized */
+    const char *label;  /* what records (lom/record.h) call the pass; not copied; may be NULL */
 } lom_pass_desc;
 
 /* Begins a pass, ended by lom_end_pass; one at a time a device. A texture of another device is no attachment of it. */
@@ -398,7 +399,8 @@ typedef enum lom_topology {
     LOM_SPRITES,
     LOM_POINTS,
     LOM_LINES,
-    LOM_LINE_STRIP
+    LOM_LINE_STRIP,
+    LOM_PATCHES /* patch_points vertices each, for tessellation (lom/stages.h) */
 } lom_topology;
 
 typedef enum lom_attribute_kind {
@@ -507,6 +509,13 @@ typedef struct lom_draw_desc {
     int object;        /* a number of the caller's for it, in records */
     lom_culling
         culling; /* with clusters: LOM_TRIANGLES, indices of 32 bits, no first, base_vertex, restart; 1 instance */
+    /* lom/stages.h; NULL: none. Not copied: valid until lom_end_pass. */
+    const struct lom_tessellation *tessellation; /* with LOM_PATCHES, and no patches without it */
+    int patch_points;                            /* vertices of a patch, 1..32 */
+    const struct lom_geometry *geometry;
+    struct lom_feedback *feedback;
+    /* In place of count: the vertices that an earlier pass has written into it, when this pass runs. */
+    const struct lom_feedback *count_from;
 } lom_draw_desc;
 
 /* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */

@@ -3,8 +3,9 @@
  * Steps of use, in order: lom_watch names pixels of textures; passes into those textures are then drawn by the same
  * stages at 4 lanes, in the variant that records (their bytes are the same); lom_watched_pixel gives what was recorded,
  * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
- * there. Sprites, points and lines are drawn, but not recorded. Named values of a shader (lom/notes.h) are recorded where it
- * was compiled in that variant, as lom's own are. Who wants to know of all triangles of a pass instead of some pixels
+ * there. Sprites, points and lines are drawn, but not recorded; of triangles that tessellation or a geometry function made
+ * (lom/stages.h) the vertices have no index, no attributes and no notes, and the number is their primitive's. Named
+ * values of a shader (lom/notes.h) are recorded where it was compiled in that variant, as lom's own are. Who wants to know of all triangles of a pass instead of some pixels
  * calls lom_listen; who wants to count at every texel of a target, lom_tally_target. A device does one of these; all
  * passes of one that does have one sample a pixel, its centre, but where tiles are timed.
  */
@@ -66,7 +67,7 @@ typedef struct lom_note_record {
 } lom_note_record;
 
 typedef struct lom_vertex_record {
-    uint32_t index; /* of the vertex; of one that clipping made: UINT32_MAX */
+    uint32_t index; /* of the vertex; of one that clipping or a later stage made: UINT32_MAX */
     float attribute[LOM_MAX_ATTRIBUTES][4];
     float clip[4], ndc[3], window[3]; /* window: pixels of the frame and depth, before snapping */
     int32_t fixed[2];                 /* 1/256 pixel from the viewport's origin */
@@ -214,7 +215,7 @@ typedef struct lom_listener {
 
 /* Listens from the next pass on; NULL: nobody does. Copied. Instead of whatever was watched: a device watches or is
  * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; sprites, points,
- * lines, and draws of shaders that were not built at 4 lanes, are not told. False, with an error on the device: in a pass. */
+ * lines, what stages of lom/stages.h make, and draws of shaders that were not built at 4 lanes, are not told. False, with an error on the device: in a pass. */
 bool lom_listen(lom_device *device, const lom_listener *listener);
 /* Of a triangle while it is told: its vertices, by the vertex stage, with what their shader names. False: no memory. */
 bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vertex[3]);

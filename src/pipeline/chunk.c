@@ -1,6 +1,7 @@
 /* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
+#include "pipeline/expand.h"
 #include "pipeline/record.h"
 #include "pipeline/variants.h"
 
@@ -159,7 +160,7 @@ static void rebase_corners(struct lom_chunk *chunk)
 }
 
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
-static bool choose_vertices(const struct lom_room *room, struct lom_chunk *chunk)
+bool lom_choose_vertices(const struct lom_room *room, struct lom_chunk *chunk)
 {
     uint32_t low, high;
     struct lom_assembly *assembly = chunk->assembly;
@@ -314,22 +315,25 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly)
 {
     chunk->assembly = assembly;
-    chunk->triangle_count = 0;
-    chunk->triangles_clipped = chunk->vertices_shaded = 0;
+    chunk->triangle_count = chunk->triangles_clipped = chunk->vertices_shaded = 0;
     chunk->any_code = 0;
     chunk->tile_low = INT32_MAX;
     chunk->tile_high = -1;
-    bool sprites = chunk->draw->sprites;
+    const struct lom_draw *draw = chunk->draw;
     const struct lom_room *room = &pass->device->room;
-    chunk->failed =
-        !(sprites ? lom_choose_sprites(room, chunk) : choose_vertices(room, chunk)) || !lom_make_room(room, chunk);
-    if (chunk->failed)
+    if (draw->expands)
+        chunk->failed = !lom_expand_chunk(pass, chunk);
+    else
+        chunk->failed = !(draw->sprites ? lom_choose_sprites(room, chunk) : lom_choose_vertices(room, chunk)) ||
+                        !lom_make_room(room, chunk);
+    if (chunk->failed || !draw->rasterizes)
         return;
     chunk->row_count = chunk->vertex_count;
-    lom_stages_of(chunk->draw->variant)->shade_vertices(pass, chunk);
-    if (sprites)
+    if (!draw->expands)
+        lom_stages_of(draw->variant)->shade_vertices(pass, chunk);
+    if (draw->sprites)
         lom_set_up_sprites(pass, chunk);
-    else if (chunk->draw->lines)
+    else if (draw->lines)
         lom_set_up_lines(pass, chunk);
     else
         assemble(pass, chunk);

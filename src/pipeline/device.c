@@ -1,7 +1,7 @@
 /* Opening and closing a device, and what it owns. In: a descriptor. Out: a device whose first error stays with it. */
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
-#include "pipeline/device.h"
+#include "pipeline/expand.h"
 #include "pipeline/record.h"
 #include "pipeline/renew_texture.h"
 #include "pipeline/share_work.h"
@@ -65,6 +65,7 @@ static void free_chunk(struct lom_chunk *chunk)
     lom_release(chunk->primitives);
     lom_release(chunk->tile_first);
     lom_release(chunk->tile_list);
+    lom_release(chunk->captured);
 }
 
 static void free_assembly(struct lom_assembly *assembly)
@@ -75,6 +76,7 @@ static void free_assembly(struct lom_assembly *assembly)
     lom_release(assembly->codes);
     lom_release(assembly->tile);
     lom_release(assembly->needed);
+    lom_free_expansion(&assembly->expansion);
 }
 
 void lom_close_device(lom_device *device)

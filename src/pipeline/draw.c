@@ -1,7 +1,7 @@
 /* Recording a draw. In: a descriptor. Out: a checked copy of it and of its uniforms, with the pass's defaults filled
  * in. Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
 #include "lanes/variants.h"
-#include "pipeline/device.h"
+#include "pipeline/expand.h"
 
 enum { LARGEST_LINE_WIDTH = 64 };
 
@@ -46,23 +46,14 @@ static bool check_shader(lom_device *device, const lom_draw_desc *desc)
     return true;
 }
 
-static bool is_of_sprites(const lom_draw_desc *desc)
-{
-    return desc->topology == LOM_SPRITES || desc->topology == LOM_POINTS;
-}
-
-static bool is_of_lines(const lom_draw_desc *desc)
-{
-    return desc->topology == LOM_LINES || desc->topology == LOM_LINE_STRIP;
-}
-
 /* What sprites and their shaders must agree on, what lines, points and sprites have not, and what a shader that reads the
  * target's depth needs. */
 static bool check_sprites(lom_device *device, const lom_draw_desc *desc)
 {
-    static const char *const names[] = { "triangles", "triangles", "triangles", "sprites", "points", "lines", "lines" };
+    static const char *const names[] = { "triangles", "triangles", "triangles", "sprites", "points", "lines" };
     const lom_shader *s = desc->shader;
-    const char *name = names[desc->topology];
+    const lom_topology drawn = lom_drawn_topology(desc);
+    const char *name = names[drawn];
     bool sprites = desc->topology == LOM_SPRITES, depth = device->pass.depth != NULL;
     if (sprites != s->sprites)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s is %s, but its draw is of %s.", s->name,
@@ -71,9 +62,9 @@ static bool check_sprites(lom_device *device, const lom_draw_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "Shader %s differentiates a varying, but those of sprites are the same at every pixel.",
                         s->name);
-    if (desc->topology >= LOM_SPRITES && (desc->depth_bias != 0 || desc->depth_bias_slope != 0))
+    if (drawn != LOM_TRIANGLES && (desc->depth_bias != 0 || desc->depth_bias_slope != 0))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A draw of %s has a depth bias (%s).", name, s->name);
-    if (is_of_lines(desc) && (desc->line_width < 0 || desc->line_width > LARGEST_LINE_WIDTH))
+    if (drawn == LOM_LINES && (desc->line_width < 0 || desc->line_width > LARGEST_LINE_WIDTH))
         return lom_fail(&device->error, LOM_ERROR_LIMIT, "Lines are 1 to %d pixels wide, not %d (a draw of %s).",
                         LARGEST_LINE_WIDTH, desc->line_width, s->name);
     if (s->reads_depth && (!depth || !(desc->depth_test_off || desc->depth_write_off) || s->writes_depth))
@@ -88,7 +79,7 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
     if (desc->index_bits != 0 && desc->index_bits != 16 && desc->index_bits != 32)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Indices have 16 or 32 bits, not %d (a draw of %s).",
                         desc->index_bits, name);
-    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_LINE_STRIP)
+    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_PATCHES)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "A draw of %s has a topology or an instance count that is none.", name);
     if (!__builtin_isfinite(desc->depth_bias) || !__builtin_isfinite(desc->depth_bias_slope))
@@ -132,15 +123,15 @@ static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
  * recorded, sprites and points only counted. */
 static int choose_shader_variant(const lom_device *device, const lom_draw_desc *desc)
 {
-    const lom_shader *shader = desc->shader;
-    bool is_recorded =
-        device->pass.is_recorded && !is_of_lines(desc) && (!is_of_sprites(desc) || device->pass.tallier != NULL);
-    if (is_recorded && shader->vertex[LOM_SLOT_4_recorded] != NULL)
+    lom_topology drawn = lom_drawn_topology(desc);
+    bool counted = drawn == LOM_SPRITES || drawn == LOM_POINTS;
+    bool is_recorded = device->pass.is_recorded && drawn != LOM_LINES && (!counted || device->pass.tallier != NULL);
+    if (is_recorded && lom_has_variant(desc, LOM_SLOT_4_recorded))
         return LOM_SLOT_4_recorded;
-    if (shader->vertex[device->variant] != NULL)
+    if (lom_has_variant(desc, device->variant))
         return device->variant;
     for (int variant = 0; variant < LOM_VARIANTS; variant++)
-        if (shader->vertex[variant] != NULL && lom_runs_variant(variant))
+        if (lom_has_variant(desc, variant) && lom_runs_variant(variant))
             return variant;
     return -1;
 }
@@ -157,6 +148,8 @@ static size_t count_triangles(const lom_draw_desc *desc)
         return desc->count / 2;
     case LOM_LINE_STRIP:
         return desc->count < 2 ? 0 : desc->count - 1;
+    case LOM_PATCHES:
+        return desc->count / (size_t)desc->patch_points;
     default:
         return desc->count < 3 ? 0 : desc->count - 2;
     }
@@ -216,7 +209,7 @@ static lom_output_kind output_of(const struct lom_pass *pass, const lom_draw_des
     return bytes && b->source_color == LOM_FACTOR_SOURCE_ALPHA ? OUTPUT_STRAIGHT : OUTPUT_GENERAL;
 }
 
-static void derive(const struct lom_pass *pass, struct lom_draw *draw)
+static void derive(struct lom_pass *pass, struct lom_draw *draw)
 {
     lom_draw_desc *desc = &draw->desc;
     const lom_shader *shader = desc->shader;
@@ -225,10 +218,11 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
     desc->index_bits = desc->index_bits == 0 ? 32 : desc->index_bits;
     desc->instances = desc->instances == 0 ? 1 : desc->instances;
     desc->line_width = desc->line_width == 0 ? 1 : desc->line_width;
-    draw->sprites = is_of_sprites(desc);
-    draw->lines = is_of_lines(desc);
     draw->triangles = count_triangles(desc);
     draw->distances = shader->clip_distances + shader->cull_distances;
+    lom_derive_stages(pass, draw);
+    draw->sprites = draw->drawn == LOM_SPRITES || draw->drawn == LOM_POINTS;
+    draw->lines = draw->drawn == LOM_LINES;
     draw->distance_offset = ROW_HEADER + ((shader->varyings + 3) & ~3);
     draw->axis_offset = draw->distance_offset + ((draw->distances + 3) & ~3);
     draw->row_floats = draw->axis_offset + (draw->sprites ? 4 : 0);
@@ -250,13 +244,21 @@ static void derive(const struct lom_pass *pass, struct lom_draw *draw)
                      !draw->sprites && !shader->reads_depth;
     draw->queues_depth = shader->reads_position || draw->late_depth;
     draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
+    draw->rasterizes = !pass->desc.feedback_only && draw->scissor.width > 0 && draw->scissor.height > 0;
+    draw->constant &= draw->rasterizes;
 }
 
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
-    if (!check_shader(device, desc) || !check_geometry(device, desc) || !check_sprites(device, desc) ||
-        !check_vertices(device, desc) || !check_clusters(device, desc))
+    lom_draw_desc counted;
+    if (desc->count_from != NULL) {
+        counted = *desc;
+        counted.count = desc->count_from->written;
+        desc = &counted;
+    }
+    if (!check_shader(device, desc) || !check_geometry(device, desc) || !lom_check_stages(device, desc) ||
+        !check_sprites(device, desc) || !check_vertices(device, desc) || !check_clusters(device, desc))
         return false;
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");

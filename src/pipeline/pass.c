@@ -188,8 +188,11 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
             return false;
         add_depth(pass);
     }
-    if (pass->width == 0)
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass has no attachment.");
+    if (desc->feedback_only ? pass->width != 0 : pass->width == 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass %s.",
+                        desc->feedback_only ? "for feedback only has an attachment" : "has no attachment");
+    if (desc->feedback_only)
+        pass->width = pass->height = 1;
     if (desc->min_depth == 0 && desc->max_depth == 0)
         pass->desc.max_depth = 1;
     if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 &&

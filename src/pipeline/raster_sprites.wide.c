@@ -14,7 +14,7 @@ enum shape { PARALLELOGRAM, DISC, SQUARE, ROUND_POINT };
 
 static enum shape shape_of(const struct lom_draw *draw)
 {
-    if (draw->desc.topology == LOM_POINTS)
+    if (draw->drawn == LOM_POINTS)
         return draw->desc.shader->round ? ROUND_POINT : SQUARE;
     return draw->desc.shader->round ? DISC : PARALLELOGRAM;
 }

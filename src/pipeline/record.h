@@ -137,6 +137,8 @@ void lom_record_batch(lom_device *device);
 lom_note_record *lom_record_notes(struct record_memory *memory, const struct lom_notes *notes, int lane);
 /* record_vertex.c: the draw's vertices once more, by the vertex stage: of three indices (of instance) what the stage and
  * its shader say. False: memory ran out. */
+void lom_record_made_vertices(const struct lom_pass *pass, const struct lom_chunk *chunk,
+                              const struct record_candidate *candidate, lom_vertex_record vertex[3]);
 bool lom_record_vertices(const struct lom_pass *pass, const struct lom_chunk *chunk, const uint32_t index[3],
                          struct record_memory *memory, lom_vertex_record vertex[3]);
 /* From a clip position and a row of the chunk's to the numbers of a vertex. */

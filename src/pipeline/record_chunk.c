@@ -96,7 +96,8 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     if (i == 0)
         record->count = record->piece_count = 0;
     assembly->candidate = NULL;
-    if (corner[0] == NO_VERTEX || chunk->draw->variant != LOM_SLOT_4_recorded)
+    if (corner[0] == NO_VERTEX || (chunk->draw->expands && pass->recorder->tells) ||
+        chunk->draw->variant != LOM_SLOT_4_recorded)
         return false;
     unsigned any = assembly->codes[corner[0]] | assembly->codes[corner[1]] | assembly->codes[corner[2]];
     bool has_box = (any & (CODE_CLIP | CODE_INVALID)) == 0;
@@ -110,10 +111,14 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
         memcpy(clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof clip[k]);
     if (!pass->recorder->tells && (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, clip)))
         return false;
-    struct record_candidate c = { .number = chunk->first + i, .has_box = has_box, .first_piece = record->piece_count };
+    struct record_candidate c = { .number = chunk->draw->expands ? lom_made_from(chunk, i) : chunk->first + i,
+                                  .has_box = has_box,
+                                  .first_piece = record->piece_count };
     for (int k = 0; k < 3; k++) {
         c.corner[k] = corner[k];
-        c.index[k] = chunk->listed ? assembly->vertex_list[corner[k]] : chunk->vertex_base + corner[k];
+        c.index[k] = chunk->draw->expands ? UINT32_MAX
+                     : chunk->listed      ? assembly->vertex_list[corner[k]]
+                                          : chunk->vertex_base + corner[k];
         c.code[k] = assembly->codes[corner[k]];
     }
     memcpy(c.clip, clip, sizeof c.clip);

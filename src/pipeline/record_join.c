@@ -114,7 +114,9 @@ static lom_triangle_record *add_triangle(const struct joint *j, lom_fate fate)
     *t = (lom_triangle_record){
         .number = j->candidate->number, .instance = j->chunk->instance, .draw = draw, .fate = fate
     };
-    if (!lom_record_vertices(&j->device->pass, j->chunk, j->candidate->index, &j->pixel->memory, t->vertex))
+    if (j->chunk->draw->expands)
+        lom_record_made_vertices(&j->device->pass, j->chunk, j->candidate, t->vertex);
+    else if (!lom_record_vertices(&j->device->pass, j->chunk, j->candidate->index, &j->pixel->memory, t->vertex))
         j->pixel->memory.failed = true;
     lom_triangle_record **last = &draw->triangles;
     while (*last != NULL)

@@ -64,3 +64,15 @@ bool lom_record_vertices(const struct lom_pass *pass, const struct lom_chunk *ch
     lom_release(assembly.codes);
     return done;
 }
+
+/* Of a triangle that tessellation or geometry made: no vertex of the draw, but a row that is still there. */
+void lom_record_made_vertices(const struct lom_pass *pass, const struct lom_chunk *chunk,
+                              const struct record_candidate *candidate, lom_vertex_record vertex[3])
+{
+    size_t pitch = (size_t)chunk->draw->row_floats;
+    for (int k = 0; k < 3; k++) {
+        lom_record_row(pass, chunk->draw, chunk->rows + candidate->corner[k] * pitch, candidate->clip[k], &vertex[k]);
+        vertex[k].index = UINT32_MAX;
+        vertex[k].code = candidate->code[k];
+    }
+}

@@ -1,6 +1,6 @@
 /* Running a pass: batches of chunks, a barrier between the two halves of the pipeline. Work is handed out by a counter;
  * which worker takes what changes nothing, because a chunk and a tile each belong to one worker until they are done. */
-#include "pipeline/device.h"
+#include "pipeline/expand.h"
 #include "pipeline/record.h"
 #include "pipeline/tally.h"
 #include "pipeline/variants.h"
@@ -169,8 +169,11 @@ static bool run_batch(lom_device *device)
         device->counters.triangles += chunk->count;
         device->counters.triangles_clipped += chunk->triangles_clipped;
         device->counters.triangles_binned += chunk->triangle_count;
+        if (chunk->draw->desc.feedback != NULL)
+            lom_append_feedback(chunk);
     }
-    run_all(device, run_tiles);
+    if (!pass->desc.feedback_only)
+        run_all(device, run_tiles);
     if (pass->recorder != NULL)
         lom_record_batch(device);
     pass->chunk_count = 0;
@@ -209,10 +212,10 @@ static bool run_clusters(lom_device *device, const struct lom_draw *draw)
 
 static bool run_draw(lom_device *device, const struct lom_draw *draw)
 {
-    size_t limit = (size_t)device->desc.chunk;
+    size_t limit = draw->unit;
     if (draw->desc.culling.clusters != NULL)
         return run_clusters(device, draw);
-    if (draw->scissor.width == 0 || draw->scissor.height == 0)
+    if (!draw->rasterizes && draw->desc.feedback == NULL)
         return true;
     for (int instance = 0; instance < draw->desc.instances; instance++)
         for (size_t first = 0; first < draw->triangles; first += limit) {
@@ -236,10 +239,10 @@ static void count_work(lom_device *device)
 }
 
 /* Chunks that run_draw will make of a draw. */
-static size_t count_chunks(const lom_device *device, const struct lom_draw *draw)
+static size_t count_chunks(const struct lom_draw *draw)
 {
-    size_t limit = (size_t)device->desc.chunk;
-    if (draw->scissor.width == 0 || draw->scissor.height == 0)
+    size_t limit = draw->unit;
+    if (!draw->rasterizes && draw->desc.feedback == NULL)
         return 0;
     if (draw->desc.culling.clusters != NULL)
         return draw->chunk_count;
@@ -252,7 +255,7 @@ static bool lay_tile_memory(lom_device *device)
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     pass->chunks_left = 0;
     for (size_t i = 0; i < pass->draw_count; i++)
-        pass->chunks_left += count_chunks(device, &device->draws[i]);
+        pass->chunks_left += count_chunks(&device->draws[i]);
     pass->single_batch = pass->chunks_left <= (size_t)device->desc.batch;
     size_t threads = (size_t)device->desc.threads, count = pass->single_batch ? threads : tiles;
     size_t scratch = pass->samples > 1 ? lom_scratch_bytes(pass) : 0;
@@ -285,8 +288,7 @@ static bool cull_draws(lom_device *device)
     device->run_count = 0;
     for (size_t i = 0; i < device->pass.draw_count; i++) {
         struct lom_draw *draw = &device->draws[i];
-        bool draws = draw->scissor.width > 0 && draw->scissor.height > 0;
-        if (draws && draw->desc.culling.clusters != NULL && !lom_find_runs(device, draw))
+        if (draw->rasterizes && draw->desc.culling.clusters != NULL && !lom_find_runs(device, draw))
             return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the clusters of %s.",
                             draw->desc.shader->name);
     }
@@ -298,8 +300,11 @@ bool lom_run_pass(lom_device *device)
     struct lom_pass *pass = &device->pass;
     pass->chunks = device->chunks;
     pass->chunk_count = 0;
-    for (size_t i = 0; i < pass->draw_count; i++)
+    for (size_t i = 0; i < pass->draw_count; i++) {
         note_depth(pass, &device->draws[i]);
+        if (device->draws[i].desc.feedback != NULL)
+            device->draws[i].desc.feedback->written = device->draws[i].desc.feedback->needed = 0;
+    }
     lom_forget_other_samples(pass);
     if (!cull_draws(device))
         return false;

@@ -8,14 +8,12 @@
 /* |D| in square pixels; pixels. The smallest point has sides of 1/256. */
 static const float smallest_area = 0x1p-16f, smallest_point = 0x1p-18f, largest_side = 0x1p16f;
 
-/* The vertex number of sprite i of the chunk; false where there is none. */
-static bool find_number(const struct lom_chunk *chunk, size_t i, uint32_t *number)
+bool lom_find_vertex(const lom_draw_desc *desc, size_t place, uint32_t *number)
 {
-    const lom_draw_desc *desc = &chunk->draw->desc;
-    size_t place = desc->first + chunk->first + i;
-    uint32_t index = desc->indices == NULL    ? (uint32_t)place
-                     : desc->index_bits == 16 ? ((const uint16_t *)desc->indices)[place]
-                                              : ((const uint32_t *)desc->indices)[place];
+    size_t at = desc->first + place;
+    uint32_t index = desc->indices == NULL    ? (uint32_t)at
+                     : desc->index_bits == 16 ? ((const uint16_t *)desc->indices)[at]
+                                              : ((const uint32_t *)desc->indices)[at];
     bool none = desc->restart && desc->indices != NULL && index == (desc->index_bits == 16 ? UINT16_MAX : UINT32_MAX);
     int64_t vertex = (int64_t)index + desc->base_vertex;
     *number = (uint32_t)vertex;
@@ -32,7 +30,8 @@ bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk)
     if (!lom_renew(&assembly->vertex_list, &assembly->vertex_list_capacity, count, sizeof(uint32_t), NULL))
         return false;
     for (size_t i = 0; i < chunk->count; i++)
-        chunk->vertex_count += find_number(chunk, i, &assembly->vertex_list[chunk->vertex_count]);
+        chunk->vertex_count +=
+            lom_find_vertex(&chunk->draw->desc, chunk->first + i, &assembly->vertex_list[chunk->vertex_count]);
     return true;
 }
 
@@ -80,7 +79,7 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
         bound(middle[0], size_of(a[0]) + size_of(b[0]) + more, pass->viewport.x, s->x, s->x + s->width - 1);
     struct extent y =
         bound(middle[1], size_of(a[1]) + size_of(b[1]) + more, pass->viewport.y, s->y, s->y + s->height - 1);
-    if (!(size_of(area) >= (draw->desc.topology == LOM_POINTS ? smallest_point : smallest_area)) || x.low > x.high ||
+    if (!(size_of(area) >= (draw->drawn == LOM_POINTS ? smallest_point : smallest_area)) || x.low > x.high ||
         y.low > y.high)
         return false;
     p->first = (uint32_t)x.low | (uint32_t)y.low << 16;

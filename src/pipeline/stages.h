@@ -81,8 +81,13 @@ struct lom_draw {
     bool depth_write, late_depth, blends, constant, biased;
     bool sampled; /* several samples a pixel, or alpha as coverage */
     lom_output_kind output;
-    bool queues_depth;                        /* the fragment stage needs the depth */
-    struct lom_paint paint;                   /* with `constant`, once the pass runs */
+    bool expands;           /* it has stages between vertices and clipping, or feedback */
+    bool rasterizes;        /* something of it may be drawn */
+    lom_topology drawn;     /* LOM_TRIANGLES, LOM_LINES, LOM_POINTS or LOM_SPRITES: what goes to clipping */
+    int stage_pitch;        /* of rows between stages, in floats */
+    size_t unit;            /* primitives that a chunk has at most */
+    bool queues_depth;      /* the fragment stage needs the depth */
+    struct lom_paint paint; /* with `constant`, once the pass runs */
     size_t first_run, run_count, chunk_count; /* with clusters: which of the device's runs; the chunks they make */
 };
 
@@ -91,6 +96,32 @@ enum { NEEDED_VERTICES = 16 }; /* a whole number of packets at every width */
 enum { MOST_ROWS = 6 };        /* a triangle: a range of vertices that is longer becomes a list */
 
 #define NO_VERTEX UINT32_MAX
+
+enum { LEVEL_WORDS = 6 }; /* of a patch: outer, inner */
+
+/* Rows of vertices between stages that are not projected yet (lom/stages.h), of draw->stage_pitch floats. */
+struct lom_stage_rows {
+    float *row;
+    size_t count, capacity;
+};
+
+/* Points, lines, triangles or patches that are made of them. */
+struct lom_pieces {
+    uint32_t *vertex; /* row numbers, `vertices` a piece */
+    uint32_t *number; /* which primitive of the draw each comes from */
+    size_t count, vertex_capacity, number_capacity;
+    int vertices;
+};
+
+/* What the stages between vertices and clipping need of the chunk at hand (expand.c); zeros where no draw has any. */
+struct lom_expansion {
+    struct lom_stage_rows rows[3]; /* of vertices, of tessellation, of geometry */
+    struct lom_pieces pieces[3];
+    struct lom_pattern *pattern; /* what the patch at hand is cut into */
+    float *point;                /* packets of vertices: of a patch, of a primitive */
+    float *emitted;              /* rows of a packet of primitives */
+    size_t point_capacity, emitted_capacity;
+};
 
 /* What the first half of the pipeline needs of the chunk at hand and nobody after it; a worker's, so that it stays in
  * its cache. */
@@ -104,6 +135,7 @@ struct lom_assembly {
     uint8_t *needed;                    /* a flag for NEEDED_VERTICES of them, in a chunk of clusters */
     size_t corners_capacity, vertex_list_capacity, clip_capacity, codes_capacity, tile_capacity,
         needed_capacity; /* in elements */
+    struct lom_expansion expansion;
 };
 
 /* The most elements that an array of a chunk or of its assembly has needed in the batches before, and a part more. */
@@ -123,7 +155,9 @@ struct lom_chunk {
     uint32_t vertex_base;          /* index of row 0 unless listed */
     size_t vertex_count;           /* rows that were shaded (clipping appends) */
     bool listed;
-    const uint8_t *needed; /* the assembly's, or NULL: all */
+    const uint8_t *needed;  /* the assembly's, or NULL: all */
+    const float *made_rows; /* vertices that a later stage has made (expand.c); NULL: they are to be shaded */
+    float *kept_rows;       /* where shaded ones go for a later stage; NULL: they are projected */
 
     float *rows; /* vertex rows */
     lom_primitive *primitives;
@@ -135,6 +169,8 @@ struct lom_chunk {
     bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
     size_t rows_capacity, primitives_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
     uint64_t triangles_clipped, vertices_shaded;
+    float *captured; /* with feedback: what it keeps of each vertex */
+    size_t captured_capacity, captured_vertices;
     bool failed; /* memory ran out */
 };
 
@@ -185,6 +221,7 @@ struct lom_pass {
     struct lom_chunk *chunks; /* the batch's */
     size_t chunk_count;
     size_t chunks_left;            /* of the pass, the batch's included until it runs */
+    bool feeds_back;               /* a draw has feedback */
     bool single_batch, last_batch; /* the pass is one batch; this is its last one */
     atomic_size_t next;
 
@@ -234,6 +271,12 @@ void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk);
 bool lom_reserve_primitives(struct lom_chunk *chunk, size_t count);
 /* Appends one, for which there is room. */
 void lom_add_primitive(const struct lom_pass *pass, struct lom_chunk *chunk, const lom_primitive *primitive);
+/* The vertex at a place of the draw's index buffer; false where there is none. */
+bool lom_find_vertex(const lom_draw_desc *desc, size_t place, uint32_t *number);
+/* The corners of a chunk's triangles or lines and which vertices they need. */
+bool lom_choose_vertices(const struct lom_room *room, struct lom_chunk *chunk);
+/* Of a chunk whose draw expands: the primitive that its triangle i was made of. */
+size_t lom_made_from(const struct lom_chunk *chunk, size_t i);
 /* Stages 1 and 3 of a chunk of sprites or points: which vertices it needs; a record for each that may cover a pixel centre. */
 bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk);
 void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk);

@@ -4,10 +4,21 @@
 #include "pipeline/variants.h"
 
 #define STAGES(name, variant)                                                                                          \
-    [LOM_SLOT_##variant] = { lom_find_extremes_##variant, lom_rebase_indices_##variant,  lom_shade_vertices_##variant, \
-                             lom_set_up_##variant,        lom_raster_##variant,          lom_flush_##variant,          \
-                             lom_find_paint_##variant,    lom_store_rectangle_##variant, lom_fill_rectangle_##variant, \
-                             lom_fill_words_##variant,    lom_join_rows_##variant,       lom_find_means_##variant },
+    [LOM_SLOT_##variant] = { .find_extremes = lom_find_extremes_##variant,                                             \
+                             .rebase_indices = lom_rebase_indices_##variant,                                           \
+                             .shade_vertices = lom_shade_vertices_##variant,                                           \
+                             .control_patches = lom_control_patches_##variant,                                         \
+                             .evaluate_patch = lom_evaluate_patch_##variant,                                           \
+                             .emit_pieces = lom_emit_pieces_##variant,                                                 \
+                             .set_up = lom_set_up_##variant,                                                           \
+                             .raster = lom_raster_##variant,                                                           \
+                             .flush = lom_flush_##variant,                                                             \
+                             .find_paint = lom_find_paint_##variant,                                                   \
+                             .store_rectangle = lom_store_rectangle_##variant,                                         \
+                             .fill_rectangle = lom_fill_rectangle_##variant,                                           \
+                             .fill_words = lom_fill_words_##variant,                                                   \
+                             .join_rows = lom_join_rows_##variant,                                                     \
+                             .find_means = lom_find_means_##variant },
 
 static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, ) STAGES(, 4_recorded) };
 

@@ -10,8 +10,14 @@ struct lom_stages {
     void (*find_extremes)(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);
     /* Writes index - base for each of them. */
     void (*rebase_indices)(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);
-    /* Shades the chunk's vertices: rows, clip positions and outcodes of vertex_count vertices. */
+    /* Shades the chunk's vertices, or takes them from its made_rows, and projects them unless kept_rows is where they go:
+     * rows, clip positions and outcodes of vertex_count vertices. */
     void (*shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk);
+    /* Levels of a packet of patches from the first one on; the rows of a patch's pattern; what a packet of pieces emits,
+     * and how many vertices each (expand.wide.c). */
+    void (*control_patches)(const struct lom_chunk *chunk, size_t first, float (*levels)[LEVEL_WORDS]);
+    void (*evaluate_patch)(const struct lom_chunk *chunk, size_t patch, const float levels[LEVEL_WORDS], float *rows);
+    void (*emit_pieces)(const struct lom_chunk *chunk, int from, size_t first, int32_t *count);
     /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are three row
      * numbers a triangle; the third is the provoking vertex. */
     void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count);
@@ -39,6 +45,10 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_find_extremes_##variant(const uint32_t *index, size_t count, uint32_t *low, uint32_t *high);              \
     void lom_rebase_indices_##variant(const uint32_t *index, size_t count, uint32_t base, uint32_t *rebased);          \
     void lom_shade_vertices_##variant(const struct lom_pass *pass, struct lom_chunk *chunk);                           \
+    void lom_control_patches_##variant(const struct lom_chunk *chunk, size_t first, float(*levels)[LEVEL_WORDS]);      \
+    void lom_evaluate_patch_##variant(const struct lom_chunk *chunk, size_t patch, const float levels[LEVEL_WORDS],    \
+                                      float *rows);                                                                    \
+    void lom_emit_pieces_##variant(const struct lom_chunk *chunk, int from, size_t first, int32_t *count);             \
     void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners,           \
                               size_t count);                                                                           \
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \

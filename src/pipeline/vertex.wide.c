@@ -2,6 +2,7 @@
  * varyings, distances}, its clip position and its outcode. Invariant: a row is a function of the vertex alone. */
 #include "pipeline/project.h"
 #include "pipeline/record.h"
+#include "pipeline/stage_rows.h"
 #include "pipeline/variants.h"
 
 /* Signed comparison of numbers with the highest bit turned over is unsigned comparison of the numbers. */
@@ -229,6 +230,17 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
     write_codes(chunk, first, codes);
 }
 
+/* Rows between stages: apart, so that the loop of all other draws stays as it is without them. */
+__attribute__((noinline)) static void take_made(const struct lom_chunk *chunk, size_t first, lom_vertex *vertex)
+{
+    load_vertex(chunk->draw, chunk->made_rows, lanes_from(first, chunk->vertex_count), vertex);
+}
+
+__attribute__((noinline)) static void keep(const struct lom_chunk *chunk, size_t first, const lom_vertex *vertex)
+{
+    store_vertex(chunk->draw, chunk->kept_rows + first * (size_t)chunk->draw->stage_pitch, vertex);
+}
+
 void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     const struct lom_draw *draw = chunk->draw;
@@ -241,13 +253,20 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
     for (size_t first = 0; first < chunk->vertex_count; first += LOM_LANES) {
         if (chunk->needed != NULL && !chunk->needed[first / NEEDED_VERTICES])
             continue;
-        chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
-        struct numbers n = find_numbers(chunk, first);
-        memcpy(&in.vertex, n.number, sizeof n.number);
-        fetch(draw, &n, &in);
-        vertex.point_size = lom_splat(1);
-        LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
-        shade(&vertex, &in, draw->uniforms);
-        write_packet(pass, chunk, first, &vertex);
+        if (__builtin_expect(chunk->made_rows != NULL, 0))
+            take_made(chunk, first, &vertex);
+        else {
+            chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
+            struct numbers n = find_numbers(chunk, first);
+            memcpy(&in.vertex, n.number, sizeof n.number);
+            fetch(draw, &n, &in);
+            vertex.point_size = lom_splat(1);
+            LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
+            shade(&vertex, &in, draw->uniforms);
+        }
+        if (__builtin_expect(chunk->kept_rows != NULL, 0))
+            keep(chunk, first, &vertex);
+        else
+            write_packet(pass, chunk, first, &vertex);
     }
 }

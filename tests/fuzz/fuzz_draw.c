@@ -1,7 +1,7 @@
 /* Random descriptors through the public API: textures, passes, draws. Whatever is asked for, either the device holds an
  * error with a sentence, or the attachments hold numbers: no byte is read or written outside what the descriptors name
  * (under a sanitizer), no NaN is stored, and two devices of other threads and tiles draw the same bytes. */
-#include <lom/pipeline.h>
+#include <lom/stages.h>
 
 #include "bytes.h"
 
@@ -95,6 +95,51 @@ LOM_SHADER(fuzz_sprite, place_sprite, show_sprite, .attributes = 2, .varyings = 
            .sprites = true)
 LOM_SHADER(fuzz_soft, place_sprite, show_depth_behind, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
            .reads_position = true, .colors = 1, .sprites = true, .round = true, .reads_depth = true)
+
+/* ---- stages behind the vertices: levels, places and numbers of vertices as wild as the attributes ---- */
+
+static void levels_of_points(lom_levels *out, const lom_patch *in, const void *uniforms)
+{
+    (void)uniforms;
+    for (int i = 0; i < 4; i++)
+        out->outer[i] = in->point[i % in->points].varying[i] * 9.0f;
+    out->inner[0] = in->point[0].varying[1] * 9.0f;
+    out->inner[1] = in->point[in->points - 1].position.x;
+}
+
+static void mix_points(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
+{
+    (void)uniforms;
+    const lom_vertex *a = &in->patch.point[0], *b = &in->patch.point[in->patch.points - 1];
+    out->position = (lom_float4){ a->position.x + in->u * b->position.x, a->position.y + in->v * b->position.y,
+                                  a->position.z + in->w, a->position.w };
+    for (int i = 0; i < 4; i++) {
+        out->varying[i] = a->varying[i] * in->u + in->levels.inner[0];
+        out->distance[i] = in->v - lom_splat(0.25f);
+    }
+    out->point_size = b->varying[0];
+}
+
+static void scatter(lom_primitive_stream *out, const lom_geometry_input *in, const void *uniforms)
+{
+    (void)uniforms;
+    for (int i = 0; i < 9; i++) {
+        lom_vertex v = in->vertex[0];
+        v.position.x += lom_splat((float)(i % 3) * 0.2f);
+        v.position.y += lom_splat((float)(i / 3) * 0.2f);
+        lom_emit_vertex(out, &v, v.varying[0] * 9.0f > (float)i);
+        lom_end_strip(out, (in->number + i) % 4 == 0);
+    }
+}
+
+LOM_TESSELLATION(fuzz_patches, levels_of_points, mix_points, .most = 9)
+LOM_GEOMETRY(fuzz_scatter, scatter, .in = LOM_TRIANGLES, .out = LOM_TRIANGLE_STRIP, .vertices = 7)
+
+struct behind {
+    lom_tessellation tessellation;
+    lom_geometry geometry;
+    lom_feedback feedback;
+};
 
 static const lom_shader *const shaders[] = { &fuzz_show, &fuzz_depth, &fuzz_clipped, &fuzz_lookup, &fuzz_everything };
 enum { SHADERS = sizeof shaders / sizeof *shaders };
@@ -231,6 +276,7 @@ static lom_pass_desc take_pass(fuzz_bytes *in, lom_texture *const textures[TEXTU
     }
     pass.viewport = take_rect(in);
     pass.scissor = take_rect(in);
+    pass.feedback_only = take_choice(in, 32) == 31;
     return pass;
 }
 
@@ -303,6 +349,38 @@ static lom_draw_desc take_draw(fuzz_bytes *in, struct heap *heap, const struct u
     return draw;
 }
 
+/* Stages for a draw that has none yet; `behind` lives as long as the pass. */
+static void take_stages(fuzz_bytes *in, struct heap *heap, struct behind *behind, lom_draw_desc *draw)
+{
+    *behind = (struct behind){ .tessellation = fuzz_patches, .geometry = fuzz_scatter };
+    int which = take_choice(in, 8);
+    if (which & 1) {
+        behind->tessellation.domain = (lom_domain)take_enum(in, 3);
+        behind->tessellation.spacing = (lom_spacing)take_enum(in, 3);
+        behind->tessellation.points = take_bool(in);
+        behind->tessellation.clockwise = take_bool(in);
+        draw->tessellation = &behind->tessellation;
+        draw->topology = LOM_PATCHES;
+        draw->patch_points = take_choice(in, 16) == 15 ? take_int(in) : 1 + take_choice(in, 4);
+    }
+    if (which & 2) {
+        static const lom_topology from[] = { LOM_TRIANGLES, LOM_LINES, LOM_POINTS, LOM_PATCHES };
+        static const lom_topology to[] = { LOM_TRIANGLE_STRIP, LOM_LINE_STRIP, LOM_POINTS, LOM_LINES };
+        behind->geometry.in = from[take_choice(in, 16) % 5 % 4];
+        behind->geometry.out = to[take_choice(in, 16) % 5 % 4];
+        behind->geometry.vertices = take_choice(in, 16) == 15 ? take_int(in) : 1 + take_choice(in, 9);
+        draw->geometry = &behind->geometry;
+    }
+    if (which & 4) {
+        behind->feedback.size = 4 * (size_t)take_byte(in);
+        behind->feedback.data = (float *)(void *)exact_memory(heap, in, behind->feedback.size);
+        behind->feedback.size = behind->feedback.data != NULL ? behind->feedback.size : 0;
+        behind->feedback.position = take_bool(in);
+        behind->feedback.varyings = (uint32_t)take_byte(in);
+        draw->feedback = &behind->feedback;
+    }
+}
+
 /* ---- one run ---- */
 
 static void check_texture(const lom_texture *texture, uint64_t *hash)
@@ -334,19 +412,29 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
     const struct uniforms uniforms = { plain };
     int passes = 1 + take_choice(&in, PASSES);
     bool done = true;
+    uint64_t fed = LOM_HASH_START;
     for (int p = 0; p < passes; p++) {
         lom_pass_desc pass = take_pass(&in, textures);
+        struct behind behind[DRAWS + 1] = { { .feedback = { .size = 0 } } };
         if (take_choice(&in, 32) != 31)
             lom_begin_pass(device, &pass);
         for (int d = take_choice(&in, DRAWS + 1); d > 0; d--) {
             lom_draw_desc draw = take_draw(&in, &heap, &uniforms);
+            if (take_choice(&in, 4) == 3)
+                take_stages(&in, &heap, &behind[d], &draw);
             lom_draw(device, &draw);
         }
         done = lom_end_pass(device);
+        for (int d = 0; done && d <= DRAWS; d++) {
+            const lom_feedback *f = &behind[d].feedback;
+            require(f->written <= f->needed);
+            if (f->written != 0)
+                fed = lom_hash_bytes(fed, f->data, f->written * lom_feedback_stride(f));
+        }
     }
     const lom_error *error = lom_device_error(device);
     require(done == (error->code == LOM_OK) && (error->code == LOM_OK) == (error->text[0] == 0));
-    uint64_t hash = (uint64_t)error->code;
+    uint64_t hash = (uint64_t)error->code + fed;
     for (int i = 0; done && i < TEXTURES; i++)
         check_texture(textures[i], &hash);
     for (int i = 0; i < TEXTURES; i++)

@@ -28,7 +28,7 @@ public() { # the public headers of each layer
     base.h) echo base ;;
     fixed.h | lanes.h | lanes_mathematics.h | lanes_components.h | lanes_matrices.h | lanes_vectors.h | lanes_x86.h | lanes_wasm.h | notes.h) echo lanes ;;
     image.h | texture.h) echo image ;;
-    record.h) echo pipeline ;;
+    record.h | stages.h) echo pipeline ;;
     sea.h | shallow.h) echo waves ;;
     particles.h) echo spray ;;
     lom.h) echo cli ;;

@@ -21,7 +21,7 @@ make_target install
 prefix=$folder/usr
 export PATH="$prefix/bin:$PATH" PKG_CONFIG_PATH="$prefix/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"
 export CC="${CC:-$compiler}"
-cp docs/examples/triangle.c tests/house/triangle.cpp "$folder/"
+cp docs/examples/*.c tests/house/triangle.cpp "$folder/"
 sed -n '/^lom-cc triangle/,/^```/p' README.md | grep -v '^```' >"$folder/readme.sh"
 built=$(cd "$BUILD" && pwd)
 root=$(pwd)
@@ -40,6 +40,13 @@ $CC triangle.o $archive -o triangle || fail lom_cc_builds_all_widths "linking fa
 all=$(./triangle) || fail lom_cc_builds_all_widths "the program fails"
 [ -s triangle.png ] || fail lom_cc_builds_all_widths "no picture is written"
 echo "PASS lom_cc_builds_all_widths"
+
+lom-cc -c fountain.c -o fountain.o || fail stages_are_built_at_all_widths "lom-cc fails"
+$CC fountain.o $archive -o fountain || fail stages_are_built_at_all_widths "linking fails"
+$CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi fountain.c $archive -o fountain1 ||
+    fail stages_are_built_at_all_widths "cc fails"
+[ "$(./fountain)" = "$(./fountain1)" ] && [ -s fountain.png ] || fail stages_are_built_at_all_widths "$(./fountain) is not $(./fountain1)"
+echo "PASS stages_are_built_at_all_widths"
 
 $CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi triangle.c $archive -o single ||
     fail one_width_is_enough "cc fails"
