@@ -18,7 +18,7 @@ while [ $# -gt 0 ]; do
     *) workloads="$workloads $1"; shift ;;
     esac
 done
-[ -n "$workloads" ] || workloads='clear fill blend depth mesh terrain water cloud cloud-skip sprites foliage gradients draws textured'
+[ -n "$workloads" ] || workloads='clear fill blend depth mesh terrain water water-skip cloud cloud-skip sprites foliage gradients draws textured'
 several='' asked=''
 [ "$samples" -eq 1 ] || { several=-$samples-samples; asked=" --samples $samples"; }
 [ -n "$output" ] || output=bench/results/peers-$size$several.md
@@ -28,8 +28,9 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 2' INT TERM
 
 field() { sed -n 's/.*"'"$1"'": *"\{0,1\}\([^",}]*\).*/\1/p'; }
-# The peers' cloud walks every step: it is what cloud-skip is compared with.
-peer_workload() { case $1 in cloud-skip) echo cloud ;; *) echo "$1" ;; esac; }
+# The peers' cloud walks every step, and their water draws its ground three times: what cloud-skip and water-skip are
+# compared with.
+peer_workload() { echo "${1%-skip}"; }
 # The frames of slow peers are bounded by time, 20 s a run.
 run_peer() { bench/peers/run "$1" "$(peer_workload "$2")" "$size" "$frames" -t 20 -samples "$samples" -o "$work/$1.ppm" 2>"$work/log"; }
 median() { sort -n "$1" | awk '{ v[NR] = $1 } END { if (NR) printf "%.2f", (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
@@ -137,7 +138,8 @@ mkdir -p "$(dirname "$output")"
     echo "Milliseconds a frame (median of $repeats repeats, each the median of $frames frames, all in turn in one run);"
     echo "ratio: the peer's time over lom's; PSNR of the two pictures in dB. Definitions: \`bench/peers/README.md\`;"
     echo "limit: the shortest time in which this machine can do the work (\`bench/peers/work.md\`); share: limit over lom;"
-    echo "\`cloud\` walks every step, as the peers do; \`cloud-skip\` draws the same bytes with less work."
+    echo "\`cloud\` walks every step and \`water\` draws its ground three times, as the peers do; \`cloud-skip\` and"
+    echo "\`water-skip\` draw the same bytes with less work."
     echo
     echo "- machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) CPUs"
     echo "- lom: $(cat "$work/device"), $("$lom" version | sed -n 's/^ *compiler *//p')"

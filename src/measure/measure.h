@@ -17,10 +17,10 @@ extern "C" {
 typedef struct lom_workload lom_workload;
 
 int lom_workload_count(void);
-/* "clear", "fill", "blend", "depth", "mesh", "terrain", "water", "cloud", and "cloud-skip", which draws the bytes of
- * "cloud" with less work: empty space is skipped; "sprites", "foliage", "gradients", "draws" and "textured"; "fft256", "fft512", "fft1024", complex Fourier transforms of squares
- * of that size, and "light-grid", the light of 128^3 voxels, whatever size is asked for. NULL outside 0 .. count - 1.
- */
+/* "clear", "fill", "blend", "depth", "mesh", "terrain", "water", "cloud"; "water-skip" and "cloud-skip", which draw their
+ * bytes with less work: no ground is shaded twice that is seen, empty space is skipped; "sprites", "foliage",
+ * "gradients", "draws" and "textured"; "fft256", "fft512", "fft1024", complex Fourier transforms of squares of that size,
+ * and "light-grid", the light of 128^3 voxels, whatever size is asked for. NULL outside 0 .. count - 1. */
 const char *lom_workload_name(int index);
 /* One line that says what is drawn. */
 const char *lom_workload_summary(int index);

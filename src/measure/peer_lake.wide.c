@@ -16,13 +16,6 @@ static void lake_vertex(lom_vertex *out, const lom_attributes *in, const void *u
     out->position = lom_peer_transform(lake->to_clip, in->attribute[0], 1);
 }
 
-/* Distance along the view axis of a depth in 0..1. */
-static lom_float linear_depth(const lom_peer_lake *lake, lom_float z)
-{
-    float n = lake->near_plane, f = lake->far_plane;
-    return 2.0f * n * f / (f + n - (2.0f * z - 1.0f) * (f - n));
-}
-
 /* Normal of the waves; the coordinates of its texture are themselves displaced by a texture, so their derivatives are
  * differences within the quad. */
 static lom_float3 wave_normal(const lom_peer_lake *lake, lom_float s, lom_float t, lom_float2 *offset)
@@ -65,8 +58,9 @@ static void lake_fragment(lom_fragment *out, const lom_varyings *in, const void 
     lom_float s = in->varying[S], t = in->varying[T];
     /* the pixel's centre is C.xy / C.w * 0.5 + 0.5 in texture coordinates, here with y down */
     lom_float2 window = { in->x * lake->per_width, in->y * lake->per_height };
-    lom_float depth =
-        linear_depth(lake, lom_sample_depth(lake->refraction_depth, window.x, window.y)) - linear_depth(lake, in->z);
+    lom_float depth = lom_peer_linear_depth(lake->near_plane, lake->far_plane,
+                                            lom_sample_depth(lake->refraction_depth, window.x, window.y)) -
+                      lom_peer_linear_depth(lake->near_plane, lake->far_plane, in->z);
     lom_float4 d = lom_sample(lake->dudv, s + lake->move, t, lom_lod(lake->dudv, in, S, T));
     lom_float2 offset;
     lom_float3 n = wave_normal(lake, s + d.x * 0.1f, t + (d.y * 0.1f + lake->move), &offset);

@@ -45,6 +45,13 @@ typedef struct lom_peer_lake { /* attributes: position, uv */
     const lom_texture *reflection, *refraction, *refraction_depth, *dudv, *normals;
 } lom_peer_lake;
 
+typedef struct lom_peer_copy { /* the window's strip */
+    float rise[2];             /* height a metre along the view axis: rise[0] + y rise[1] */
+    float eye_height, below;
+    float near_plane, far_plane;
+    const lom_texture *color, *depth;
+} lom_peer_copy;
+
 typedef struct lom_peer_puff { /* attributes: position */
     float to_clip[16];
     float eye[3]; /* in the volume's space */
@@ -69,7 +76,7 @@ typedef struct lom_peer_layer { /* the window's strip; uv = scale * (cos, -sin; 
 
 extern const lom_shader lom_peer_flat_shader, lom_peer_show_shader, lom_peer_lit_shader, lom_peer_depth_shader;
 extern const lom_shader lom_peer_ground_shader, lom_peer_clipped_ground_shader, lom_peer_dome_shader;
-extern const lom_shader lom_peer_lake_shader, lom_peer_puff_shader;
+extern const lom_shader lom_peer_lake_shader, lom_peer_copy_shader, lom_peer_puff_shader;
 extern const lom_shader lom_peer_gradient_shader, lom_peer_sprite_shader, lom_peer_card_shader;
 extern const lom_shader lom_peer_box_shader, lom_peer_layer_shader;
 
@@ -105,6 +112,12 @@ LOM_INLINE lom_float lom_peer_square(lom_float x, int squarings)
     for (int i = 0; i < squarings; i++)
         x = x * x;
     return x;
+}
+
+/* Distance along the view axis of a depth in 0..1. */
+LOM_INLINE lom_float lom_peer_linear_depth(float near_plane, float far_plane, lom_float z)
+{
+    return 2.0f * near_plane * far_plane / (far_plane + near_plane - (2.0f * z - 1.0f) * (far_plane - near_plane));
 }
 
 LOM_INLINE lom_float lom_peer_positive(lom_float x)

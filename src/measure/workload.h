@@ -73,6 +73,7 @@ void lom_draw_depth(lom_workload *workload, lom_device *device);
 void lom_draw_mesh(lom_workload *workload, lom_device *device);
 void lom_draw_terrain(lom_workload *workload, lom_device *device);
 void lom_draw_water(lom_workload *workload, lom_device *device);
+void lom_draw_water_once(lom_workload *workload, lom_device *device); /* the same picture */
 void lom_draw_cloud(lom_workload *workload, lom_device *device);
 void lom_draw_fft(lom_workload *workload, lom_device *device);
 void lom_draw_light(lom_workload *workload, lom_device *device);

@@ -129,7 +129,7 @@ void lom_draw_mesh(lom_workload *w, lom_device *device)
 }
 
 /* The terrain, cut where up * y + offset < 0; up = 0: all of it. */
-static void draw_ground(lom_workload *w, lom_device *device, bool mirrored, float up, float offset)
+static void draw_ground(lom_workload *w, lom_device *device, bool mirrored, float up, float offset, lom_compare compare)
 {
     lom_peer_ground ground = { .albedo = w->albedo, .normals = w->normals, .clip = { 0, up, 0, offset } };
     const float *eye = w->kind->view->eye;
@@ -138,7 +138,7 @@ static void draw_ground(lom_workload *w, lom_device *device, bool mirrored, floa
     memcpy(ground.light, w->light, sizeof ground.light);
     const lom_shader *shader = up != 0 ? &lom_peer_clipped_ground_shader : &lom_peer_ground_shader;
     lom_draw_desc draw = lom_workload_mesh_draw(shader, &w->terrain, 3, &ground);
-    draw.depth_compare = LOM_COMPARE_LESS_EQUAL;
+    draw.depth_compare = compare;
     draw.front_clockwise = mirrored;
     draw.culling.clusters = w->terrain.clusters;
     for (int i = 0; i < 16; i++)
@@ -162,7 +162,7 @@ static void draw_sky(lom_workload *w, lom_device *device, bool mirrored)
 void lom_draw_terrain(lom_workload *w, lom_device *device)
 {
     lom_begin_workload_pass(w, device, LOM_MAIN, 0, 0, 0);
-    draw_ground(w, device, false, 0, 0);
+    draw_ground(w, device, false, 0, 0, LOM_COMPARE_LESS_EQUAL);
     draw_sky(w, device, false);
     lom_end_pass(device);
 }
@@ -192,15 +192,96 @@ static void draw_lake(lom_workload *w, lom_device *device)
 void lom_draw_water(lom_workload *w, lom_device *device)
 {
     lom_begin_workload_pass(w, device, LOM_REFLECTION, 0, 0, 0);
-    draw_ground(w, device, true, 1, 0.05f);
+    draw_ground(w, device, true, 1, 0.05f, LOM_COMPARE_LESS_EQUAL);
     draw_sky(w, device, true);
     lom_end_pass(device);
     lom_begin_workload_pass(w, device, LOM_REFRACTION, 0.02f, 0.10f, 0.18f);
-    draw_ground(w, device, false, -1, 0.2f);
+    draw_ground(w, device, false, -1, 0.2f, LOM_COMPARE_LESS_EQUAL);
     lom_end_pass(device);
     lom_begin_workload_pass(w, device, LOM_MAIN, 0, 0, 0);
-    draw_ground(w, device, false, 0, 0);
+    draw_ground(w, device, false, 0, 0, LOM_COMPARE_LESS_EQUAL);
     draw_sky(w, device, false);
+    draw_lake(w, device);
+    lom_end_pass(device);
+}
+
+/* The rows below the far edge of the lake, and as far above it as look-ups are displaced; with their filter and more. */
+static lom_rect lake_rows(const lom_workload *w)
+{
+    float top = -1;
+    for (size_t i = 0; i < w->water.vertex_count; i++) {
+        const float *p = w->water.vertices[i].position, *m = w->to_clip.m;
+        float y = p[0] * m[1] + p[1] * m[5] + p[2] * m[9] + m[13],
+              away = p[0] * m[3] + p[1] * m[7] + p[2] * m[11] + m[15];
+        if (away > 0 && y / away > top)
+            top = y / away;
+    }
+    float row = (0.5f - 0.5f * (top < 1 ? top : 1) - 0.02f) * (float)w->height - 3;
+    int first = row > 0 ? lom_int_of(row) : 0;
+    return (lom_rect){ 0, first, w->width, w->height - first };
+}
+
+static void begin_part(lom_workload *w, lom_device *device, int target, float r, float g, float b, lom_rect part)
+{
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { w->color[target] },
+                                             .depth = w->depth[target],
+                                             .clip_range = LOM_CLIP_MINUS_W_TO_W,
+                                             .scissor = part,
+                                             .clear_color = { { r, g, b, 1 } },
+                                             .clear_depth = 1 });
+}
+
+/* What the main picture shows below the refraction's plane, less 5 cm. The camera is upright: with f the direction that it
+ * looks along, a pixel's ray rises by f.y + tan(30 degrees) (1 - 2 y / height) |(f.x, f.z)| a metre along f. */
+static void copy_bed(lom_workload *w, lom_device *device)
+{
+    const lom_workload_view *view = w->kind->view;
+    float d[3], tangent = 0.57735027f;
+    for (int k = 0; k < 3; k++)
+        d[k] = view->target[k] - view->eye[k];
+    float flat = __builtin_sqrtf(d[0] * d[0] + d[2] * d[2]), length = __builtin_sqrtf(flat * flat + d[1] * d[1]);
+    float up = tangent * flat / length;
+    const lom_peer_copy copy = { .rise = { d[1] / length + up, -2 * up / (float)w->height },
+                                 .eye_height = view->eye[1],
+                                 .below = 0.2f - 0.05f,
+                                 .near_plane = view->near_plane,
+                                 .far_plane = view->far_plane,
+                                 .color = w->color[LOM_MAIN],
+                                 .depth = w->depth[LOM_MAIN] };
+    lom_draw(device, &(lom_draw_desc){ .shader = &lom_peer_copy_shader,
+                                       .uniforms = &copy,
+                                       .count = 4,
+                                       .vertex_count = 4,
+                                       .topology = LOM_TRIANGLE_STRIP,
+                                       .depth_compare = LOM_COMPARE_ALWAYS });
+}
+
+/* The bed begins as the main picture, so that what is as near is not shaded again; both pictures end at the last row that
+ * the lake looks up. Pixels of several samples have no one place that could be copied. */
+void lom_draw_water_once(lom_workload *w, lom_device *device)
+{
+    if (w->samples > 1) {
+        lom_draw_water(w, device);
+        return;
+    }
+    const lom_rect rows = lake_rows(w);
+    lom_begin_workload_pass(w, device, LOM_MAIN, 0, 0, 0);
+    draw_ground(w, device, false, 0, 0, LOM_COMPARE_LESS_EQUAL);
+    draw_sky(w, device, false);
+    lom_end_pass(device);
+    begin_part(w, device, LOM_REFRACTION, 0.02f, 0.10f, 0.18f, rows);
+    copy_bed(w, device);
+    draw_ground(w, device, false, -1, 0.2f, LOM_COMPARE_LESS);
+    lom_end_pass(device);
+    begin_part(w, device, LOM_REFLECTION, 0, 0, 0, rows);
+    draw_ground(w, device, true, 1, 0.05f, LOM_COMPARE_LESS_EQUAL);
+    draw_sky(w, device, true);
+    lom_end_pass(device);
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { w->color[LOM_MAIN] },
+                                             .depth = w->depth[LOM_MAIN],
+                                             .clip_range = LOM_CLIP_MINUS_W_TO_W,
+                                             .color_load = { LOM_LOAD_KEEP },
+                                             .depth_load = LOM_LOAD_KEEP });
     draw_lake(w, device);
     lom_end_pass(device);
 }
