@@ -54,6 +54,22 @@ static lom_vec3 sun_disc(const lom_reference *reference, lom_vec3 direction)
     return scaled(reference->light, reference->scene->water.optics.glitter / (sine * sine));
 }
 
+/* The lamps that a ray from the water sees as such discs, nearer than `far`. */
+static lom_vec3 lamp_discs(const lom_reference *reference, const struct lom_ray *ray, double far)
+{
+    const double radius = reference->scene->quality.reference.sun, sine = lom_double_sin(radius);
+    const double edge = lom_double_cos(radius), bright = reference->scene->water.optics.glitter / (sine * sine);
+    lom_vec3 light = { 0, 0, 0 };
+    for (size_t i = 0; i < reference->moment.lamp_count; i++) {
+        const struct lom_placed_lamp *lamp = &reference->moment.lamps[i];
+        lom_vec3 to_lamp;
+        double distance, share = lom_lamp_share_at(lamp, ray->origin, &to_lamp, &distance);
+        if (dot(ray->direction, to_lamp) >= edge && distance <= far)
+            light = along(light, (lom_vec3){ lamp->specular[0], lamp->specular[1], lamp->specular[2] }, bright * share);
+    }
+    return light;
+}
+
 /* d on the side of the plane that n points to: mirrored when it is not. */
 static lom_vec3 kept_in_front(lom_vec3 d, lom_vec3 n)
 {
@@ -104,6 +120,8 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
     }
     if (path->in_water)
         return cross_medium(tracer, path, light, crossing.t);
+    if (path->by_water)
+        light = sum(light, lamp_discs(reference, &path->ray, crossing.t));
     light = lom_light_through_haze(reference, &path->ray, crossing.t, light);
     return lom_light_through_clouds(reference, &path->ray, crossing.t, tracer->time, light);
 }

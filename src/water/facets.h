@@ -4,6 +4,7 @@
 #define LOM_WATER_FACETS_H
 
 #include "base/numbers.h"
+#include "shading/lamp.h"
 #include "water/optics.h"
 #include "water/surface.h"
 
@@ -97,32 +98,60 @@ LOM_INLINE lom_float lom_second_share(const struct lom_surface_uniforms *u, lom_
     return lom_select(down, lom_surface_fresnel(u, -up), one);
 }
 
-/* The sun in the facets: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the sun to the eye
- * (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour. */
-LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+/* A light in the facets, over its colour: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the
+ * light to the eye (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour. False:
+ * there is none. */
+LOM_INLINE bool lom_facets_mirror(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
+                                  lom_float3 to_light, lom_float *radiance)
 {
-    lom_float3 sun = lom_uniform3(u->light.to_light), none = { { 0 }, { 0 }, { 0 } };
-    if (!(u->light.to_light[1] > 0) || u->side < 0 || !(u->glitter > 0))
-        return none;
-    lom_float3 h = lom_normalize3(lom_add3(p->to_eye, sun));
+    lom_float3 h = lom_normalize3(lom_add3(p->to_eye, to_light));
     lom_float hy = lom_max(h.y, lom_splat(0.02f)), up = 1.0f / p->normal.y;
     lom_float dx = h.x / hy - p->normal.x * up, dz = h.z / hy - p->normal.z * up;
-    lom_float disc = lom_splat(5e-6f); /* the sun is no point: half its angle, squared */
+    lom_float disc = lom_splat(5e-6f); /* the sun is no point: half its angle, squared; nor is a lamp */
     lom_float vxx = p->slopes.vxx + disc, vzz = p->slopes.vzz + disc, vxz = p->slopes.vxz;
     lom_float determinant = lom_max(vxx * vzz - vxz * vxz, lom_splat(2e-11f));
     lom_float square = (vzz * dx * dx - 2.0f * vxz * dx * dz + vxx * dz * dz) / determinant;
     lom_mask bright = square < 40.0f;
     if (!lom_any(bright))
-        return none;
+        return false;
     lom_float density = lom_exp(-0.5f * square) / ((float)lom_two_pi * lom_sqrt(determinant));
     lom_float variance = 0.5f * (vxx + vzz);
     lom_float seen = lom_max(lom_dot3(p->normal, p->to_eye), lom_splat(0.02f));
-    lom_float lit = lom_max(lom_dot3(p->normal, sun), lom_splat(1e-3f));
+    lom_float lit = lom_max(lom_dot3(p->normal, to_light), lom_splat(1e-3f));
     lom_float shadow = 1.0f / (1.0f + lom_smith_lambda(seen, variance) + lom_smith_lambda(lit, variance));
     lom_float f = lom_surface_fresnel(u, lom_dot3(h, p->to_eye)), square_y = hy * hy;
-    lom_float radiance = (float)lom_pi * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
-    radiance = lom_select(bright, lom_min(radiance, lom_splat(1e4f)), (lom_float){ 0 });
+    lom_float mirrored = (float)lom_pi * u->glitter * f * density * shadow / (4.0f * seen * square_y * square_y);
+    *radiance = lom_select(bright, lom_min(mirrored, lom_splat(1e4f)), (lom_float){ 0 });
+    return true;
+}
+
+/* The sun in the facets. */
+LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    lom_float3 none = { { 0 }, { 0 }, { 0 } };
+    lom_float radiance;
+    if (!(u->light.to_light[1] > 0) || u->side < 0 || !(u->glitter > 0) ||
+        !lom_facets_mirror(u, p, lom_uniform3(u->light.to_light), &radiance))
+        return none;
     return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->offset));
+}
+
+/* Lamps above it in the facets, one after the other. */
+LOM_INLINE lom_float3 lom_lamp_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    lom_float3 light = { { 0 }, { 0 }, { 0 } }, to_lamp;
+    lom_float share, radiance;
+    if (u->side < 0 || !(u->glitter > 0))
+        return light;
+    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset);
+    for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {
+        if (!lom_lamp_share(&walk, lamp, &to_lamp, &share) || !lom_facets_mirror(u, p, to_lamp, &radiance))
+            continue;
+        share = lom_select(to_lamp.y > 0.0f, share * radiance, (lom_float){ 0 });
+        light = lom_add3(light, lom_scale3(lom_uniform3(lamp->specular), share));
+        LOM_NAME_BY(lamp->name, share);
+    }
+    return light;
 }
 
 #endif

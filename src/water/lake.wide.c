@@ -2,6 +2,8 @@
  * the scene, the normal and flow maps. Out: the surface's colour; its alpha fades at the shore. */
 #include "water/lake.h"
 
+#include "shading/lamp.h"
+
 #include <lom/notes.h>
 
 enum { X, Y, Z, VARYINGS };
@@ -102,6 +104,23 @@ static lom_float transmitted_share(const struct lom_lake_uniforms *lake, lom_flo
     return 1.0f - lake->reflectivity * (1.0f - factor);
 }
 
+/* Step 7 of each lamp: light times max(R.E, 0)^shininess. */
+static lom_float3 lamp_highlights(const struct lom_lake_uniforms *lake, lom_float3 offset, lom_float3 normal,
+                                  lom_float3 to_eye)
+{
+    lom_float3 light = lom_splat3(0, 0, 0), to_lamp;
+    lom_float share;
+    struct lom_lamp_walk walk = lom_walk_lamps(&lake->light, offset);
+    for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {
+        if (!lom_lamp_share(&walk, lamp, &to_lamp, &share))
+            continue;
+        share = share * lom_phong_highlight(normal, to_lamp, to_eye, lom_splat(lake->shininess));
+        light = lom_add3(light, lom_scale3(lom_uniform3(lamp->specular), share));
+        LOM_NAME_BY(lamp->name, share);
+    }
+    return light;
+}
+
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_lake_uniforms *lake = uniforms;
@@ -131,6 +150,10 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
         highlight = highlight * lake->specular_strength * lom_saturate(w.depth * lake->inverse_clear);
         LOM_NAME_VALUE(highlight);
         color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));
+        if (lake->light.lamps != NULL) {
+            lom_float part = lake->specular_strength * lom_saturate(w.depth * lake->inverse_clear);
+            color = lom_add3(color, lom_scale3(lamp_highlights(lake, offset, w.normal, to_eye), part));
+        }
     }
     LOM_NAME_VALUE(color);
     lom_float alpha = lake->has_soft_shore ? lom_saturate(w.depth / lake->shore_depth) : lom_splat(1.0f);

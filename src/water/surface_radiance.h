@@ -246,11 +246,28 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
     return lom_smoothstep(lom_splat(0.0f), lom_splat(0.45f), lom_min(cover, lom_splat(1.2f)) - 1.0f + grain);
 }
 
+LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    lom_float3 light = { { 0 }, { 0 }, { 0 } }, to_lamp;
+    lom_float share;
+    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset);
+    for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {
+        if (!lom_lamp_share(&walk, lamp, &to_lamp, &share))
+            continue;
+        lom_float lambert = lom_max(lom_dot3(p->normal, to_lamp), (lom_float){ 0 }) * share;
+        light = lom_add3(light, lom_add3(lom_scale3(lom_uniform3(lamp->ambient), share),
+                                         lom_scale3(lom_uniform3(lamp->diffuse), lambert)));
+    }
+    return light;
+}
+
 LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
     lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->offset);
-    return lom_scale3(lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert)),
-                      lom_splat(0.8f));
+    lom_float3 light = lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert));
+    if (u->light.lamps != NULL)
+        light = lom_add3(light, lom_lamps_on_foam(u, p));
+    return lom_scale3(light, lom_splat(0.8f));
 }
 
 /* ---- all of it ---- */
@@ -292,7 +309,10 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
     }
     lom_float3 transmitted = lom_arriving(u, &u->behind, p, bent, !above, u->bent, 0.25f * variance);
 
-    lom_float3 glitter = lom_glitter(u, p), color = lom_add3(lom_mix3(transmitted, reflected, share), glitter);
+    lom_float3 glitter = lom_glitter(u, p);
+    if (u->light.lamps != NULL)
+        glitter = lom_add3(glitter, lom_lamp_glitter(u, p));
+    lom_float3 color = lom_add3(lom_mix3(transmitted, reflected, share), glitter);
     LOM_NAME_VALUE(reflected);
     LOM_NAME_VALUE(transmitted);
     LOM_NAME_AS(reflected_share, share);

@@ -164,6 +164,33 @@ static void light_from_infinity_is_the_suns(void)
     }
 }
 
+/* On water too, by planar water's highlight and by the facets of waves. */
+static void water_mirrors_lamps_as_the_sun(void)
+{
+    static const char *const waters[2] = {
+        "[water]\nlevel = 0\nnormal_map = 'normal.png'\nshininess = 9\n",
+        "[water]\nlevel = 0\n[water.optics]\nscatter = [0, 0, 0]\n[water.waves]\nkind = 'gerstner'\ncount = 3\n"
+        "height = 0.3\n[quality]\nwater = 'displaced'\n"
+    };
+    static const char head[] = "[output]\nwidth = 33\nheight = 33\nformat = 'rgb32f'\n[camera]\nposition = [0, 4, 12]\n"
+                               "[sky]\ncolor = [0.1, 0.1, 0.1]\n[light]\nintensity = 0\nambient = [0, 0, 0]\n";
+    for (int i = 0; i < 2; i++) {
+        char text[1600];
+        snprintf(text, sizeof text, "%s%s[[lamp]]\ndirection = [0, -1, 2]\nspecular = [0.5, 0.25, 0.125]\n", head,
+                 waters[i]);
+        lom_image *lamp = draw(text);
+        snprintf(text, sizeof text, "%s%s", head, waters[i]);
+        static const char *const sun[] = { "light.direction=[0,-1,2]", "light.intensity=1",
+                                           "light.color=[0.5,0.25,0.125]" };
+        lom_image *other = draw_at(text, sun, 3, 0, 0), *dark = draw(text);
+        CHECK(is_same(lamp, other), "water %d", i);
+        CHECK(!is_same(lamp, dark), "water %d mirrors nothing", i);
+        lom_free_image(lamp);
+        lom_free_image(other);
+        lom_free_image(dark);
+    }
+}
+
 #define TWO                                                                                                            \
     "[[lamp]]\nname = 'a'\nposition = [3, 6, 1]\nrange = 20\ndiffuse = [2, 1, 0.3]\n[[lamp]]\nname = 'b'\n"            \
     "position = [-4, 3, 2]\nrange = 13\ndiffuse = [0.2, 1, 3]\ndirection = [0.3, -1, 0]\ncutoff = 50\n"
@@ -356,6 +383,7 @@ int main(int argc, char **argv)
     RUN(a_reach_ends_without_a_step);
     RUN(a_cone_has_its_edge);
     RUN(light_from_infinity_is_the_suns);
+    RUN(water_mirrors_lamps_as_the_sun);
     RUN(two_lamps_give_the_sum_of_each);
     RUN(l1_no_distance_is_finite);
     RUN(l2_and_l3_what_is_no_lamp_is_refused);
