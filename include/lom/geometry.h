@@ -127,7 +127,10 @@ typedef struct lom_material {
     char name[64];
     float ambient[3], diffuse[3], specular[3]; /* linear, as the file has them */
     float shininess, opacity;
+    float emissive[3];     /* light of its own */
+    float bump;            /* of a normal map that holds heights: white is bump / 64 of its width above black */
     char diffuse_map[256]; /* path relative to the OBJ file's folder; empty when there is none */
+    char emissive_map[256], specular_map[256], gloss_map[256], normal_map[256]; /* likewise */
 } lom_material;
 
 typedef struct lom_mesh_part { /* triangles of one material, in file order */
@@ -150,7 +153,7 @@ typedef struct lom_mesh {
 lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t materials, lom_error *error);
 /* NULL is allowed. */
 void lom_free_mesh(lom_mesh *mesh);
-/* White diffuse, 0.2 ambient, no specular, shininess 1, opaque, no map; name is cut to 63 bytes. */
+/* White diffuse, 0.2 ambient, no specular, no light of its own, shininess 1, opaque, bump 1, no map; name is cut to 63 bytes. */
 lom_material lom_default_material(const char *name);
 
 /* ---- Wavefront OBJ and MTL (Alias|Wavefront, Advanced Visualizer manual, appendices B1 and B2) ----
@@ -170,7 +173,8 @@ lom_material lom_default_material(const char *name);
  * named; a file without faces, whose mesh has all its positions as vertices (normals 0, 1, 0) and no triangle;
  * materials that no file defines, which get lom_default_material; MTL files that cannot be opened; in MTL, newmtl
  * without a name, statements before the first newmtl, maps without a file. A material defined again replaces the first.
- * MTL: newmtl Ka Kd Ks Ns d Tr map_Kd, the rest passed over. Errors begin with "name:line: "; a number that is not
+ * MTL: newmtl Ka Kd Ks Ke Ns d Tr map_Kd map_Ks map_Ke map_Ns map_Bump (bump, norm; with -bm), the rest passed
+ * over. Errors begin with "name:line: "; a number that is not
  * finite, a vertex that is not there or a file without any vertex is one. Files are at most 1 GiB, polygons at most
  * 4096 corners. */
 

@@ -181,9 +181,13 @@ typedef struct lom_haze {
 typedef struct lom_scene_material {
     bool present;
     bool has_ambient, has_diffuse, has_specular, has_shininess; /* false: an entity's mesh keeps its own */
-    double ambient[3], diffuse[3], specular[3];                 /* linear factors */
-    double shininess;                                           /* Phong exponent */
+    bool has_emissive, has_bump;
+    double ambient[3], diffuse[3], specular[3]; /* linear factors */
+    double emissive[3];                         /* linear: light of its own */
+    double shininess;                           /* Phong exponent */
+    double bump;                                /* as of lom_material */
     const char *texture; /* colour texture that multiplies ambient and diffuse; NULL: the mesh's own */
+    const char *emissive_map, *specular_map, *gloss_map, *normal_map; /* likewise, of emissive, specular, shininess */
 } lom_scene_material;
 
 /* ---- [terrain] ---- */
@@ -234,6 +238,8 @@ typedef struct lom_entity {
     lom_vec3 rotation; /* radians: model = T Rz Ry Rx S */
     lom_vec3 scale;    /* no component is 0 */
     lom_scene_material material;
+    lom_scene_material back; /* of back sides, over what the front sides have */
+    bool two_sided;          /* back sides are seen, too; true where the file has a table of them and says no other */
     bool on_ground, visible;
     lom_interpolation interpolation; /* between the keys */
     lom_entity_key *keys;

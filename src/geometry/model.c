@@ -8,7 +8,7 @@
 
 void lom_model_material(lom_mesh_builder *builder, const char *name, double specular, double shininess)
 {
-    lom_material material = { .ambient = { 1, 1, 1 }, .diffuse = { 1, 1, 1 }, .opacity = 1 };
+    lom_material material = { .ambient = { 1, 1, 1 }, .diffuse = { 1, 1, 1 }, .opacity = 1, .bump = 1 };
     size_t length = strlen(name);
     assert(length + 5 <= sizeof material.name);
     memcpy(material.name, name, length);

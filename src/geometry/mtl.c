@@ -10,7 +10,8 @@ struct mtl {
     lom_material *material; /* the one being defined */
     lom_material nameless;  /* takes what belongs to no material that a face can name */
     lom_warnings *warnings;
-    bool named; /* after the first newmtl */
+    bool named;            /* after the first newmtl */
+    const char *statement; /* its word */
     const char *folder;
     size_t folder_length;
 };
@@ -102,14 +103,25 @@ static const struct {
     { "-texres", 1, 0 }, { "-imfchan", 1, 0 }, { "-type", 1, 0 },
 };
 
-/* Passes over one option; false when the next word is none. */
-static bool skip_option(struct lom_text *text)
+/* The number behind an option; *value stays where there is none. */
+static void read_option(struct lom_text text, float *value)
+{
+    struct lom_word word = lom_text_word(&text);
+    double number;
+    if (word.length > 0 && lom_parse_double(word.start, word.length, &number) == word.length)
+        *value = (float)number;
+}
+
+/* Passes over one option, whose number is *bump where it is -bm; false when the next word is none. */
+static bool skip_option(struct lom_text *text, float *bump)
 {
     struct lom_text ahead = *text;
     struct lom_word word = lom_text_word(&ahead);
     for (size_t i = 0; i < sizeof map_options / sizeof *map_options; i++) {
         if (!lom_word_is(word, map_options[i].word))
             continue;
+        if (lom_word_is(word, "-bm"))
+            read_option(ahead, bump);
         for (int k = 0; k < map_options[i].least; k++)
             lom_text_word(&ahead);
         for (int k = 0; k < map_options[i].more; k++) {
@@ -129,11 +141,12 @@ static bool skip_option(struct lom_text *text)
 static bool read_map(struct mtl *mtl, void *target)
 {
     size_t limit = sizeof mtl->material->diffuse_map, folder_length = mtl->folder_length;
-    while (skip_option(&mtl->text)) {
+    float bump = 1;
+    while (skip_option(&mtl->text, &bump)) {
     }
     struct lom_word name = lom_file_name(lom_text_rest(&mtl->text));
     if (name.length == 0) {
-        lom_warn(mtl->warnings, "%s:%zu: map_Kd without a file name.", mtl->text.name, mtl->text.line);
+        lom_warn(mtl->warnings, "%s:%zu: %s without a file name.", mtl->text.name, mtl->text.line, mtl->statement);
         return true;
     }
     if (name.start[0] == '/')
@@ -145,6 +158,8 @@ static bool read_map(struct mtl *mtl, void *target)
     memcpy(path, mtl->folder, folder_length);
     for (size_t i = 0; i < name.length; i++) /* as written on Windows, too */
         path[folder_length + i] = name.start[i] == '\\' ? '/' : name.start[i];
+    if (path == mtl->material->normal_map)
+        mtl->material->bump = bump;
     return true;
 }
 
@@ -160,7 +175,15 @@ static const struct {
     { "Ns", read_shininess, offsetof(lom_material, shininess) },
     { "d", read_opacity, offsetof(lom_material, opacity) },
     { "Tr", read_transparency, offsetof(lom_material, opacity) },
+    { "Ke", read_color, offsetof(lom_material, emissive) },
     { "map_Kd", read_map, offsetof(lom_material, diffuse_map) },
+    { "map_Ke", read_map, offsetof(lom_material, emissive_map) },
+    { "map_Ks", read_map, offsetof(lom_material, specular_map) },
+    { "map_Ns", read_map, offsetof(lom_material, gloss_map) },
+    { "map_Bump", read_map, offsetof(lom_material, normal_map) },
+    { "map_bump", read_map, offsetof(lom_material, normal_map) },
+    { "bump", read_map, offsetof(lom_material, normal_map) },
+    { "norm", read_map, offsetof(lom_material, normal_map) },
 };
 
 static bool read_statement(struct mtl *mtl)
@@ -169,6 +192,7 @@ static bool read_statement(struct mtl *mtl)
     for (size_t i = 0; i < sizeof statements / sizeof *statements; i++) {
         if (!lom_word_is(word, statements[i].word))
             continue;
+        mtl->statement = statements[i].word;
         if (!mtl->named && statements[i].read != read_name) {
             lom_warn(mtl->warnings, "%s:%zu: %s before the first newmtl belongs to no material.", mtl->text.name,
                      mtl->text.line, statements[i].word);

@@ -36,6 +36,15 @@ static lom_bytes list_and_read(void *context, const char *name, lom_error *error
     return lom_read_beside(&list->obj, name, error);
 }
 
+static bool add_maps(struct list *list, const lom_material *m, lom_error *error)
+{
+    const char *const maps[] = { m->diffuse_map, m->emissive_map, m->specular_map, m->gloss_map, m->normal_map };
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (maps[i][0] != 0 && !add(list, maps[i], error))
+            return false;
+    return true;
+}
+
 lom_bytes lom_list_obj_files(const char *path, lom_error *error)
 {
     struct list list = { .obj = path };
@@ -46,8 +55,7 @@ lom_bytes lom_list_obj_files(const char *path, lom_error *error)
     lom_mesh *mesh = lom_decode_obj_with((const char *)file.data, file.size, path, list_and_read, &list, &malformed);
     bool done = malformed.code != LOM_ERROR_MEMORY || lom_pass_error(&malformed, error);
     for (size_t i = 0; mesh != NULL && done && i < mesh->material_count; i++)
-        if (mesh->materials[i].diffuse_map[0] != 0)
-            done = add(&list, mesh->materials[i].diffuse_map, error);
+        done = add_maps(&list, &mesh->materials[i], error);
     lom_free_mesh(mesh);
     lom_release(file.data);
     if (done)

@@ -55,15 +55,33 @@ static bool check_mesh(const lom_mesh *mesh, lom_error *error)
     return true;
 }
 
+/* The maps of a material, and the words before them. */
+enum { MAPS = 5 };
+static const char *const map_words[MAPS] = { "map_Kd", "map_Ke", "map_Ks", "map_Ns", "map_Bump" };
+
+static const char *map_of(const lom_material *m, int i)
+{
+    const char *const maps[MAPS] = { m->diffuse_map, m->emissive_map, m->specular_map, m->gloss_map, m->normal_map };
+    return maps[i];
+}
+
+static bool has_plain_names(const lom_material *m)
+{
+    bool plain = plain_name(m->name, sizeof m->name);
+    for (int i = 0; i < MAPS; i++)
+        plain = plain && (map_of(m, i)[0] == 0 || plain_map(map_of(m, i), sizeof m->diffuse_map));
+    return plain;
+}
+
 static bool check_materials(const lom_mesh *mesh, lom_error *error)
 {
     for (size_t k = 0; k < mesh->material_count; k++) {
         const lom_material *m = &mesh->materials[k];
-        bool map = m->diffuse_map[0] != 0;
-        if (!plain_name(m->name, sizeof m->name) || (map && !plain_map(m->diffuse_map, sizeof m->diffuse_map)))
+        if (!has_plain_names(m))
             return lom_fail(error, LOM_ERROR_USAGE, "Material %zu has a name or map that MTL cannot hold.", k);
         if (!finite_floats(m->ambient, 3) || !finite_floats(m->diffuse, 3) || !finite_floats(m->specular, 3) ||
-            !finite_floats(&m->shininess, 1) || !finite_floats(&m->opacity, 1))
+            !finite_floats(m->emissive, 3) || !finite_floats(&m->shininess, 1) || !finite_floats(&m->opacity, 1) ||
+            !finite_floats(&m->bump, 1))
             return lom_fail(error, LOM_ERROR_USAGE, "Material \"%s\" has a number that is not finite.", m->name);
     }
     return true;
@@ -169,6 +187,20 @@ lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_er
     return finish(&output);
 }
 
+static void put_maps(struct lom_output *output, const lom_material *m)
+{
+    for (int i = 0; i < MAPS; i++) {
+        if (map_of(m, i)[0] == 0)
+            continue;
+        lom_put(output, "\n");
+        lom_put(output, map_words[i]);
+        if (map_of(m, i) == m->normal_map && m->bump != 1)
+            put_floats(output, " -bm", &m->bump, 1);
+        lom_put(output, " ");
+        lom_put(output, map_of(m, i));
+    }
+}
+
 lom_bytes lom_encode_mtl(const lom_mesh *mesh, lom_error *error)
 {
     struct lom_output output = { .error = error };
@@ -184,10 +216,9 @@ lom_bytes lom_encode_mtl(const lom_mesh *mesh, lom_error *error)
         put_floats(&output, "\nKs", m->specular, 3);
         put_floats(&output, "\nNs", &m->shininess, 1);
         put_floats(&output, "\nd", &m->opacity, 1);
-        if (m->diffuse_map[0] != 0) {
-            lom_put(&output, "\nmap_Kd ");
-            lom_put(&output, m->diffuse_map);
-        }
+        if (m->emissive[0] != 0 || m->emissive[1] != 0 || m->emissive[2] != 0)
+            put_floats(&output, "\nKe", m->emissive, 3);
+        put_maps(&output, m);
         lom_put(&output, "\n");
     }
     return finish(&output);

@@ -65,7 +65,11 @@ static bool load_ground(lom_reference *reference, lom_error *error)
                                                    .diffuse = vector(t->material.diffuse),
                                                    .specular = vector(t->material.specular),
                                                    .shininess = t->material.shininess,
-                                                   .picture = LOM_NO_PICTURE };
+                                                   .picture = LOM_NO_PICTURE,
+                                                   .emissive_map = LOM_NO_PICTURE,
+                                                   .specular_map = LOM_NO_PICTURE,
+                                                   .gloss_map = LOM_NO_PICTURE,
+                                                   .normal_map = LOM_NO_PICTURE };
     reference->layers = lom_allocate(t->layer_count, sizeof *reference->layers, error);
     bool done = reference->layers != NULL &&
                 load_layer(reference, &reference->ground_texture, t->texture, true, t->tile, error) &&
@@ -85,22 +89,38 @@ static bool load_ground(lom_reference *reference, lom_error *error)
 
 /* ---- entities ---- */
 
+static bool load_material(lom_reference *reference, const struct lom_world_material *from, lom_error *error)
+{
+    struct lom_ray_material *m = &reference->materials[reference->material_count++];
+    *m = (struct lom_ray_material){ .ambient = vector(from->ambient),
+                                    .diffuse = vector(from->diffuse),
+                                    .specular = vector(from->specular),
+                                    .emissive = vector(from->emissive),
+                                    .shininess = from->shininess };
+    return find_picture(reference, from->texture, true, &m->picture, error) &&
+           find_picture(reference, from->emissive_map, true, &m->emissive_map, error) &&
+           find_picture(reference, from->specular_map, true, &m->specular_map, error) &&
+           find_picture(reference, from->gloss_map, false, &m->gloss_map, error) &&
+           find_picture(reference, from->normal_map, false, &m->normal_map, error);
+}
+
+/* Of the fronts of an entity's parts, then of its backs. */
 static bool load_materials(lom_reference *reference, lom_error *error)
 {
     const struct lom_world *world = reference->world;
     size_t count = 0;
     for (size_t i = 0; i < world->entity_count; i++)
-        count += world->entities[i].mesh->part_count;
+        count += world->entities[i].mesh->part_count * (world->entities[i].entity->two_sided ? 2 : 1);
     reference->materials = lom_allocate(count, sizeof *reference->materials, error);
-    for (size_t i = 0; reference->materials != NULL && i < world->entity_count; i++)
-        for (size_t k = 0; k < world->entities[i].mesh->part_count; k++) {
-            const struct lom_world_material *from = &world->entities[i].parts[k].material;
-            struct lom_ray_material *m = &reference->materials[reference->material_count++];
-            *m = (struct lom_ray_material){ vector(from->ambient), vector(from->diffuse), vector(from->specular),
-                                            from->shininess, LOM_NO_PICTURE };
-            if (!find_picture(reference, from->texture, true, &m->picture, error))
+    for (size_t i = 0; reference->materials != NULL && i < world->entity_count; i++) {
+        const struct lom_world_entity *entity = &world->entities[i];
+        for (size_t k = 0; k < entity->mesh->part_count; k++)
+            if (!load_material(reference, &entity->parts[k].material, error))
                 return false;
-        }
+        for (size_t k = 0; entity->entity->two_sided && k < entity->mesh->part_count; k++)
+            if (!load_material(reference, &entity->parts[k].back, error))
+                return false;
+    }
     return reference->materials != NULL;
 }
 

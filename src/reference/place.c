@@ -70,15 +70,28 @@ static bool add_ground(lom_reference *reference, lom_error *error)
     return ground != NULL;
 }
 
+/* One side of an entity; a back has the triangles the other way round and the normals too. */
+static void add_side(lom_reference *reference, const lom_mesh *mesh, const struct lom_placement *at, bool back,
+                     uint32_t material)
+{
+    lom_mat4 normals = at->normal_from_model;
+    for (int i = 0; i < 16 && back; i++)
+        normals.m[i / 4][i % 4] = -normals.m[i / 4][i % 4];
+    uint32_t first = add_points(reference, mesh, &at->world_from_model, &normals);
+    const bool turned = determinant(&at->world_from_model) < 0;
+    for (size_t k = 0; k < mesh->part_count; k++)
+        add_triangles(reference, mesh, &mesh->parts[k], first, material + (uint32_t)k, turned != back);
+}
+
 static void add_entities(lom_reference *reference)
 {
     uint32_t material = 0;
     for (size_t i = 0; i < reference->world->entity_count; i++) {
-        const lom_mesh *mesh = reference->world->entities[i].mesh;
-        const struct lom_placement *at = &reference->moment.placements[i];
-        uint32_t first = add_points(reference, mesh, &at->world_from_model, &at->normal_from_model);
-        for (size_t k = 0; k < mesh->part_count; k++)
-            add_triangles(reference, mesh, &mesh->parts[k], first, material++, determinant(&at->world_from_model) < 0);
+        const struct lom_world_entity *entity = &reference->world->entities[i];
+        for (int side = 0; side < (entity->entity->two_sided ? 2 : 1); side++) {
+            add_side(reference, entity->mesh, &reference->moment.placements[i], side == 1, material);
+            material += (uint32_t)entity->mesh->part_count;
+        }
     }
 }
 
@@ -89,8 +102,10 @@ static bool allocate(lom_reference *reference, lom_error *error)
     size_t points = ground ? (size_t)(bed->columns + 1) * (size_t)(bed->rows + 1) : 0;
     size_t triangles = ground ? 2 * (size_t)bed->columns * (size_t)bed->rows : 0;
     for (size_t i = 0; i < reference->world->entity_count; i++) {
-        points += reference->world->entities[i].mesh->vertex_count;
-        triangles += reference->world->entities[i].mesh->index_count / 3;
+        const struct lom_world_entity *entity = &reference->world->entities[i];
+        const size_t sides = entity->entity->two_sided ? 2 : 1;
+        points += entity->mesh->vertex_count * sides;
+        triangles += entity->mesh->index_count / 3 * sides;
     }
     if (points >= UINT32_MAX || triangles >= UINT32_MAX / 2)
         return lom_fail(error, LOM_ERROR_LIMIT, "%s: the reference holds at most 2^31 triangles.",

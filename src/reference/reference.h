@@ -13,9 +13,10 @@ enum { LOM_NO_PICTURE = -1 };
 #define LOM_TERRAIN_MATERIAL UINT32_MAX /* of the triangles of the ground */
 
 struct lom_ray_material {
-    lom_vec3 ambient, diffuse, specular;
+    lom_vec3 ambient, diffuse, specular, emissive;
     double shininess;
-    int picture; /* multiplies ambient and diffuse */
+    int picture;                                           /* multiplies ambient and diffuse */
+    int emissive_map, specular_map, gloss_map, normal_map; /* LOM_NO_PICTURE: none */
 };
 
 /* What a corner of a triangle has besides its place, interpolated linearly. */

@@ -13,7 +13,21 @@ static lom_vec3 mixed(lom_vec3 a, lom_vec3 b, double share)
 struct point {
     lom_vec3 place, normal, color;
     double u, v;
+    lom_vec3 along_u, along_v; /* tangents of the triangle, of any length; 0: the texture has no area there */
 };
+
+/* d place / d u and d place / d v, solved for from what both change by along two edges; times the area's magnitude. */
+static void find_tangents(const lom_reference *reference, const uint32_t *index, struct point *p)
+{
+    const struct lom_ray_corner *c0 = &reference->corners[index[0]], *c1 = &reference->corners[index[1]],
+                                *c2 = &reference->corners[index[2]];
+    const lom_vec3 a = difference(reference->points[index[1]], reference->points[index[0]]);
+    const lom_vec3 b = difference(reference->points[index[2]], reference->points[index[0]]);
+    const double ua = c1->u - c0->u, va = c1->v - c0->v, ub = c2->u - c0->u, vb = c2->v - c0->v;
+    const double area = ua * vb - va * ub, sign = area > 0 ? 1 : area < 0 ? -1 : 0;
+    p->along_u = scaled(difference(scaled(a, vb), scaled(b, va)), sign);
+    p->along_v = scaled(difference(scaled(b, ua), scaled(a, ub)), sign);
+}
 
 static struct point find_point(const lom_reference *reference, const struct lom_ray_hit *hit)
 {
@@ -186,6 +200,27 @@ static lom_vec3 ground_normal(const lom_reference *reference, const struct point
     return unit(along(bump, s->normal, texel.z * 2 - 1));
 }
 
+/* ---- entities ---- */
+
+/* White where there is no map. */
+static lom_vec3 look_up(const lom_reference *reference, int picture, const struct point *s)
+{
+    if (picture == LOM_NO_PICTURE)
+        return (lom_vec3){ 1, 1, 1 };
+    return lom_sample_picture(&reference->pictures[picture].picture, s->u, s->v);
+}
+
+/* The normal map's red points along u, its green against v, its blue along the normal. */
+static lom_vec3 mapped_normal(const lom_reference *reference, const struct lom_ray_material *m, const struct point *s)
+{
+    if (m->normal_map == LOM_NO_PICTURE || dot(s->along_u, s->along_u) == 0)
+        return s->normal;
+    const lom_vec3 texel = look_up(reference, m->normal_map, s), n = s->normal;
+    const lom_vec3 right = unit(along(s->along_u, n, -dot(n, s->along_u)));
+    const lom_vec3 down = unit(along(s->along_v, n, -dot(n, s->along_v)));
+    return unit(along(along(scaled(n, texel.z * 2 - 1), right, texel.x * 2 - 1), down, 1 - texel.y * 2));
+}
+
 /* ---- all of it ---- */
 
 lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
@@ -207,10 +242,14 @@ lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray
         return lom_reflect_light(reference, &in, &reference->ground, &facing);
     }
     const struct lom_ray_material *m = &reference->materials[material];
-    facing.albedo = s.color;
-    if (m->picture >= 0)
-        facing.albedo = product(facing.albedo, lom_sample_picture(&reference->pictures[m->picture].picture, s.u, s.v));
-    return lom_reflect_light(reference, &in, m, &facing);
+    find_tangents(reference, reference->opaque.triangles[hit->triangle].corner, &s);
+    facing.albedo = product(s.color, look_up(reference, m->picture, &s));
+    facing.normal = mapped_normal(reference, m, &s);
+    struct lom_ray_material here = *m;
+    here.specular = product(m->specular, look_up(reference, m->specular_map, &s));
+    here.shininess = m->shininess * look_up(reference, m->gloss_map, &s).x;
+    return sum(lom_reflect_light(reference, &in, &here, &facing),
+               product(m->emissive, look_up(reference, m->emissive_map, &s)));
 }
 
 /* shading/gradient.h in double; d of unit length. */

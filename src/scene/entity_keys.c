@@ -9,9 +9,11 @@
 
 static bool check_entity(void *members, const lom_key_check *check)
 {
-    const lom_entity *entity = members;
+    lom_entity *entity = members;
     if (entity->mesh == NULL)
         return check->fail(check, "mesh", "an entity needs a mesh.");
+    if (!check->is_given(check, "two_sided"))
+        entity->two_sided = entity->back.present;
     for (size_t i = 0; i < entity->key_count; i++) {
         const lom_key_check at = check->element(check, "key", i);
         lom_entity_key *key = &entity->keys[i];
@@ -56,6 +58,10 @@ static const lom_key entity[] = {
       { 1, 1, 1 },
       .text = "Along x, y and z, applied first." },
     { "material", LOM_KEY_TABLE, AT(lom_entity, material), .table = &lom_entity_material_keys },
+    { "two_sided", LOM_KEY_BOOL, AT(lom_entity, two_sided),
+      .text = "Show the back sides of its triangles, too, with their normals turned round.",
+      .initial_text = "whether there is a table `back`" },
+    { "back", LOM_KEY_TABLE, AT(lom_entity, back), .table = &lom_entity_back_keys },
     { "on_ground", LOM_KEY_BOOL, AT(lom_entity, on_ground),
       .text = "Measure the position's y from the terrain below instead of from 0." },
     { "visible", LOM_KEY_BOOL, AT(lom_entity, visible), .initial = { 1 }, .text = "Whether it is drawn." },

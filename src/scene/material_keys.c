@@ -14,6 +14,8 @@ static bool check_material(void *members, const lom_key_check *check)
     material->has_diffuse = check->is_given(check, "diffuse");
     material->has_specular = check->is_given(check, "specular");
     material->has_shininess = check->is_given(check, "shininess");
+    material->has_emissive = check->is_given(check, "emissive");
+    material->has_bump = check->is_given(check, "bump");
     return true;
 }
 
@@ -49,7 +51,22 @@ static const lom_key material[] = {
       .text = "Phong exponent of the highlight." },
     { "texture", LOM_KEY_FILE, AT(lom_scene_material, texture),
       .text = "Colour picture that multiplies ambient and diffuse." },
+    { "emissive", LOM_KEY_COLOR, AT(lom_scene_material, emissive), 3, .flags = LOM_KEY_SPREAD, .maximum = 1000,
+      .text = "Light of its own, which falls on nothing else: a lamp does that." },
+    { "emissive_map", LOM_KEY_FILE, AT(lom_scene_material, emissive_map),
+      .text = "Colour picture that multiplies `emissive`." },
+    { "specular_map", LOM_KEY_FILE, AT(lom_scene_material, specular_map),
+      .text = "Colour picture that multiplies `specular`." },
+    { "gloss_map", LOM_KEY_FILE, AT(lom_scene_material, gloss_map),
+      .text = "Picture whose red, from 0 to 1, multiplies `shininess`." },
+    { "normal_map", LOM_KEY_FILE, AT(lom_scene_material, normal_map),
+      .text = "Normals in the mesh's texture coordinates (red to the right, green up the picture, blue off the "
+              "surface), for "
+              "light at each fragment; a grey picture holds heights." },
+    { "bump", LOM_KEY_NUMBER, AT(lom_scene_material, bump), .minimum = -1000, .maximum = 1000, .initial = { 1 },
+      .text = "Of a normal map that holds heights: white is so many 64ths of the picture's width above black." },
 };
+enum { TERRAIN_KEYS = 4 };
 const lom_key_table lom_entity_material_keys = {
     .size = sizeof(lom_scene_material),
     .keys = material,
@@ -57,9 +74,16 @@ const lom_key_table lom_entity_material_keys = {
     .text = "Takes the place of the mesh's own material; what is not given here stays as the mesh has it.",
     .check = check_material
 };
+const lom_key_table lom_entity_back_keys = {
+    .size = sizeof(lom_scene_material),
+    .keys = material,
+    .key_count = COUNT(material),
+    .text = "What the back sides of a two-sided entity are made of; what is not given here is as in front.",
+    .check = check_material
+};
 /* The terrain's colour comes from terrain.texture, so its material has no texture. */
 const lom_key_table lom_terrain_material_keys = { .size = sizeof(lom_scene_material),
                                                   .keys = material,
-                                                  .key_count = COUNT(material) - 1,
+                                                  .key_count = TERRAIN_KEYS,
                                                   .text = "How the terrain answers light.",
                                                   .check = check_material };

@@ -7,6 +7,9 @@
 struct lom_material_uniform {
     float ambient[3], diffuse[3], specular[3], shininess;
     const lom_texture *texture; /* multiplies ambient and diffuse; NULL: white */
+    float emissive[3];
+    bool emits;
+    const lom_texture *emissive_map, *specular_map, *gloss_map, *normal_map; /* likewise; NULL: none */
 };
 
 /* How surfaces reflect (shading/reflection.h): a model, and the thresholds and tones of the toon model. */

@@ -2,10 +2,12 @@
  * decoded once, unless it was released in between. */
 #include "world/materials.h"
 
+#include "base/pass_error.h"
 #include "base/reserve.h"
 
 #include <lom/water.h>
 
+#include <stdio.h>
 #include <string.h>
 
 /* The name of the flow map that is made; no file has it. */
@@ -29,7 +31,7 @@ static struct lom_world_picture *add(struct lom_world *world, const char *path, 
     char *copy = lom_allocate(size, 1, error);
     if (copy == NULL)
         return NULL;
-    world->pictures[world->picture_count] = (struct lom_world_picture){ memcpy(copy, path, size), NULL };
+    world->pictures[world->picture_count] = (struct lom_world_picture){ .path = memcpy(copy, path, size) };
     return &world->pictures[world->picture_count++];
 }
 
@@ -55,12 +57,59 @@ static struct lom_world_picture *keep(struct lom_world *world, const char *path,
     return picture;
 }
 
+/* The file of a path, or the normals that are made of one. */
+static lom_image *read_picture(const struct lom_world_picture *picture, const char *path, lom_error *error)
+{
+    if (picture == NULL || picture->heights == 0)
+        return lom_read_image(path, error);
+    char *file = lom_allocate(picture->heights + 1, 1, error);
+    lom_image *heights = file != NULL ? lom_read_image(memcpy(file, path, picture->heights), error) : NULL;
+    lom_image *normals = heights != NULL ? lom_normals_of_heights(heights, picture->bump, error) : NULL;
+    lom_free_image(heights);
+    lom_release(file);
+    return normals;
+}
+
 const lom_image *lom_world_picture(struct lom_world *world, const char *path, lom_error *error)
 {
     const struct lom_world_picture *picture = find(world, path);
     if (picture == NULL || picture->image == NULL)
-        picture = keep(world, path, lom_read_image(path, error), error);
+        picture = keep(world, path, read_picture(picture, path, error), error);
     return picture == NULL ? NULL : picture->image;
+}
+
+/* Keeps the normals of a picture of heights under a path of their own. */
+static const char *keep_heights(struct lom_world *world, const char *path, float bump, const lom_image *heights,
+                                lom_error *error)
+{
+    const size_t length = strlen(path);
+    char *made = lom_allocate(length + 64, 1, error);
+    if (made == NULL)
+        return NULL;
+    snprintf(made, length + 64, "%s, normals of its heights times %.9g", path, (double)bump);
+    struct lom_world_picture *picture = find(world, made);
+    if (picture == NULL)
+        picture = keep(world, made, lom_normals_of_heights(heights, bump, error), error);
+    lom_release(made);
+    if (picture == NULL)
+        return NULL;
+    picture->heights = length;
+    picture->bump = bump;
+    return picture->path;
+}
+
+bool lom_keep_world_normals(struct lom_world *world, const char *path, float bump, const char **kept, lom_error *error)
+{
+    lom_error failed = { .code = LOM_OK };
+    lom_image *file = lom_read_image(path, error);
+    if (file == NULL)
+        return false;
+    const bool grey = lom_is_grey(file, &failed);
+    *kept = grey ? keep_heights(world, path, bump, file, error) : NULL;
+    lom_free_image(file);
+    if (failed.code != LOM_OK)
+        return lom_pass_error(&failed, error);
+    return grey ? *kept != NULL : lom_keep_world_picture(world, path, kept, error);
 }
 
 bool lom_keep_world_picture(struct lom_world *world, const char *path, const char **kept, lom_error *error)

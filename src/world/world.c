@@ -178,8 +178,12 @@ static void follow_entity(struct lom_world_entity *entity, const lom_scene *scen
 {
     entity->entity = source;
     entity->is_hidden = is_hidden(scene, source);
-    for (size_t i = 0; source->material.texture != NULL && i < entity->mesh->part_count; i++)
-        entity->parts[i].material.texture = source->material.texture;
+    const char *front = source->material.texture, *back = source->back.texture != NULL ? source->back.texture : front;
+    for (size_t i = 0; i < entity->mesh->part_count; i++) {
+        struct lom_world_part *part = &entity->parts[i];
+        part->material.texture = front != NULL ? front : part->material.texture;
+        part->back.texture = back != NULL ? back : part->back.texture;
+    }
 }
 
 void lom_follow_scene(struct lom_world *world, const lom_scene *scene)

@@ -12,13 +12,16 @@
 
 /* A material in which nothing is left open. */
 struct lom_world_material {
-    double ambient[3], diffuse[3], specular[3], shininess;
+    double ambient[3], diffuse[3], specular[3], shininess, emissive[3];
     const char *texture; /* path of the picture that multiplies ambient and diffuse; NULL: white */
+    const char *emissive_map, *specular_map, *gloss_map; /* the same of emissive, specular and shininess */
+    const char *normal_map;                              /* NULL: normals are the mesh's */
 };
 
 struct lom_world_part {    /* the triangles of one material */
     uint32_t first, count; /* indices */
     struct lom_world_material material;
+    struct lom_world_material back; /* of a two-sided entity */
 };
 
 /* A visible entity. */
@@ -39,6 +42,8 @@ struct lom_world_mesh {
 struct lom_world_picture {
     char *path;
     lom_image *image; /* RGBA8, or RGBA16 where the file has more than 8 bits; NULL: released */
+    size_t heights;   /* not 0: it is made of the heights in the file that so much of the path names, */
+    float bump;       /* with this bump */
 };
 
 struct lom_world {

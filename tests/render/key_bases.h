@@ -47,6 +47,12 @@ static const struct base bases[] = {
       "exponent = 2\nattenuation = [1, 0.1, 0.05]\nreach = 30\n[[lamp.key]]\ntime = 0\n"
       "[[lamp.key]]\ntime = 1\nposition = [1, 4, 2]\n[[lamp]]\nname = \"b\"\nposition = [2, 3, 2]\n"
       "range = 7\n[[lamp]]\ndirection = [1, -1, 1]\ndiffuse = 0.1\n" },
+    { "materials", "entity.0.material entity.0.two_sided entity.0.back light.elevation",
+      VIEW
+      "[[entity]]\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\nrotation = [200, 30, 0]\nscale = 2\n[entity.material]\n"
+      "specular = 0.5\nemissive = 0.1\nemissive_map = \"color.png\"\nspecular_map = \"color.png\"\n"
+      "gloss_map = \"color.png\"\nnormal_map = \"normal.png\"\n[entity.back]\nspecular = 0.5\nemissive = 0.1\n"
+      "texture = \"color.png\"\n" },
     { "ranges", "lamp.0.range lamp.0.position", VIEW TERRAIN "[[lamp]]\nposition = [0, 4, 3]\nrange = 7\n" },
     { "orthographic", "camera.projection camera.height camera.far camera.position camera.near",
       "[camera]\nposition = [0, 3, 12]\ntarget = [0, 1, 0]\nprojection = \"orthographic\"\nheight = 9\nfar = "

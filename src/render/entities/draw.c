@@ -28,6 +28,33 @@ static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_entity_p
                                              [LOM_SHADING_GOURAUD] = &lom_entity_gouraud,
                                              [LOM_SHADING_FLAT] = &lom_entity_flat };
 
+static const lom_shader *shader_of(const lom_renderer *renderer, const struct lom_material_uniform *material)
+{
+    const lom_shading shading = renderer->scene->quality.shading;
+    return shading == LOM_SHADING_PHONG && material->normal_map != NULL ? &lom_entity_bumped : shaders[shading];
+}
+
+static void draw_parts(lom_renderer *renderer, const struct lom_drawn_entity *entity,
+                       const struct lom_material_uniform *materials, lom_draw_desc *draw,
+                       struct lom_entity_uniforms *uniforms)
+{
+    for (size_t i = 0; i < entity->source->mesh->part_count; i++) {
+        uniforms->material = materials[i];
+        draw->shader = shader_of(renderer, &materials[i]);
+        draw->first = entity->source->parts[i].first;
+        draw->count = entity->source->parts[i].count;
+        lom_draw(renderer->device, draw);
+    }
+}
+
+/* A back has the front's normals, the other way. */
+static void turn_normals(struct lom_matrix_uniform *normal_from_model)
+{
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k++)
+            normal_from_model->m[i][k] = -normal_from_model->m[i][k];
+}
+
 static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *entity,
                         const struct lom_scene_view *view, const struct lom_view_uniform *uniform)
 {
@@ -41,19 +68,18 @@ static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
                                             .clip_from_model = lom_round_matrix(&clip_from_model),
                                             .offset_from_model = lom_round_matrix(&offset_from_model),
                                             .normal_from_model = lom_round_matrix(&entity->at->normal_from_model) };
-    lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
-                           .uniforms = &uniforms,
+    lom_draw_desc draw = { .uniforms = &uniforms,
                            .cull = LOM_CULL_BACK,
                            .label = entity->source->entity->mesh,
                            .object = LOM_OBJECT_ENTITY + (int)(entity - renderer->entities.items),
                            .front_clockwise = view->mirrored != is_mirroring(&entity->at->world_from_model) };
     set_attributes(&draw, entity->source->mesh);
-    for (size_t i = 0; i < entity->source->mesh->part_count; i++) {
-        uniforms.material = entity->materials[i];
-        draw.first = entity->source->parts[i].first;
-        draw.count = entity->source->parts[i].count;
-        lom_draw(renderer->device, &draw);
-    }
+    draw_parts(renderer, entity, entity->materials, &draw, &uniforms);
+    if (entity->backs == NULL)
+        return;
+    draw.cull = LOM_CULL_FRONT;
+    turn_normals(&uniforms.normal_from_model);
+    draw_parts(renderer, entity, entity->backs, &draw, &uniforms);
 }
 
 void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *entity, const lom_mat4 *clip_from_world)

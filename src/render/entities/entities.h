@@ -12,6 +12,7 @@ struct lom_drawn_entity {
     const struct lom_world_entity *source;
     const struct lom_placement *at;         /* in the frame */
     struct lom_material_uniform *materials; /* one a part */
+    struct lom_material_uniform *backs;     /* behind them, of a two-sided entity; else NULL */
     int shadow_map;                         /* that it is drawn into in this frame; -1: none */
 };
 

@@ -64,12 +64,12 @@ LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
     return (lom_float3){ in->varying[v], in->varying[v + 1], in->varying[v + 2] };
 }
 
-static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_varyings *in)
+/* White where there is no map. */
+static lom_float3 look_up(const lom_texture *map, const lom_varyings *in)
 {
-    const lom_texture *texture = entity->material.texture;
-    if (texture == NULL)
+    if (map == NULL)
         return lom_splat3(1, 1, 1);
-    lom_float4 texel = lom_sample_gradient(texture, in->varying[UV], in->varying[UV + 1], lom_dx(in, UV),
+    lom_float4 texel = lom_sample_gradient(map, in->varying[UV], in->varying[UV + 1], lom_dx(in, UV),
                                            lom_dx(in, UV + 1), lom_dy(in, UV), lom_dy(in, UV + 1));
     return (lom_float3){ texel.x, texel.y, texel.z };
 }
@@ -77,10 +77,18 @@ static lom_float3 albedo(const struct lom_entity_uniforms *entity, const lom_var
 static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
                    lom_float3 textured, lom_float3 highlight)
 {
-    lom_float3 skin = albedo(entity, in), color = lom_add3(lom_mul3(textured, skin), highlight);
+    const struct lom_material_uniform *m = &entity->material;
+    if (m->specular_map != NULL)
+        highlight = lom_mul3(highlight, look_up(m->specular_map, in));
+    lom_float3 skin = look_up(m->texture, in), color = lom_add3(lom_mul3(textured, skin), highlight);
     LOM_NAME_VALUE(textured);
     LOM_NAME_VALUE(highlight);
     LOM_NAME_AS(albedo, skin);
+    if (m->emits) {
+        lom_float3 emitted = lom_mul3(lom_uniform3(m->emissive), look_up(m->emissive_map, in));
+        LOM_NAME_VALUE(emitted);
+        color = lom_add3(color, emitted);
+    }
     LOM_NAME_VALUE(color);
     lom_finish_opaque(out, &entity->view, load3(in, OFFSET), color);
 }
@@ -88,8 +96,45 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
 static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
                   lom_float3 normal)
 {
-    struct lom_lit lit = lom_phong_light(&entity->view, &entity->material, load3(in, OFFSET), normal, lom_splat(1.0f));
+    const struct lom_material_uniform *m = &entity->material;
+    struct lom_lit lit;
+    if (m->gloss_map != NULL) {
+        lom_float3 offset = load3(in, OFFSET);
+        lom_float sky = lom_splat(1.0f), exponent = m->shininess * look_up(m->gloss_map, in).x;
+        LOM_WIDE(lom_phong_light_lanes)(&entity->view, m, &offset, &normal, &sky, &exponent, &lit);
+    } else {
+        lit = lom_phong_light(&entity->view, m, load3(in, OFFSET), normal, lom_splat(1.0f));
+    }
     finish(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
+}
+
+/* The normal of a normal map over the interpolated one. The triangle's tangents are d offset / d s and d offset / d t,
+ * solved for from what both change by along x and y of the screen; each is made upright to the normal, and of unit length.
+ * The map's green points up the picture, against t. Where the texture has no area, the normal stays. */
+static lom_float3 perturb(const lom_varyings *in, const lom_texture *map, lom_float3 normal)
+{
+    lom_float3 px = { lom_dx(in, OFFSET), lom_dx(in, OFFSET + 1), lom_dx(in, OFFSET + 2) };
+    lom_float3 py = { lom_dy(in, OFFSET), lom_dy(in, OFFSET + 1), lom_dy(in, OFFSET + 2) };
+    lom_float sx = lom_dx(in, UV), tx = lom_dx(in, UV + 1), sy = lom_dy(in, UV), ty = lom_dy(in, UV + 1);
+    lom_float area = sx * ty - tx * sy;
+    lom_float sign = lom_select(area < 0.0f, lom_splat(-1.0f), lom_splat(1.0f));
+    lom_float3 along_s = lom_scale3(lom_sub3(lom_scale3(px, ty), lom_scale3(py, tx)), sign);
+    lom_float3 along_t = lom_scale3(lom_sub3(lom_scale3(py, sx), lom_scale3(px, sy)), sign);
+    along_s = lom_normalize3(lom_sub3(along_s, lom_scale3(normal, lom_dot3(normal, along_s))));
+    along_t = lom_normalize3(lom_sub3(along_t, lom_scale3(normal, lom_dot3(normal, along_t))));
+    lom_float3 texel = look_up(map, in);
+    lom_float right = texel.x * 2.0f - 1.0f, up = texel.y * 2.0f - 1.0f, off = texel.z * 2.0f - 1.0f;
+    lom_float3 bent = lom_sub3(lom_add3(lom_scale3(normal, off), lom_scale3(along_s, right)), lom_scale3(along_t, up));
+    bent = lom_normalize3(bent);
+    lom_mask flat = area == 0.0f;
+    return (lom_float3){ lom_select(flat, normal.x, bent.x), lom_select(flat, normal.y, bent.y),
+                         lom_select(flat, normal.z, bent.z) };
+}
+
+static void bumped_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    shade(out, in, entity, perturb(in, entity->material.normal_map, lom_normalize3(load3(in, NORMAL))));
 }
 
 static void phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -110,6 +155,9 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
 LOM_SHADER(lom_entity_phong, vertex, phong_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
            .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1,
            .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_bumped, vertex, bumped_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3),
+           .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 LOM_SHADER(lom_entity_flat, vertex, flat_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
            .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3),
            .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))

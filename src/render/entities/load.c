@@ -7,15 +7,42 @@ static void round3(float out[3], const double in[3])
         out[i] = (float)in[i];
 }
 
+static bool load_map(lom_renderer *renderer, const char *path, bool color, const lom_texture **out, lom_error *error)
+{
+    *out = path == NULL ? NULL : lom_load_texture(renderer, path, color, error);
+    return path == NULL || *out != NULL;
+}
+
 static bool load_material(lom_renderer *renderer, const struct lom_world_material *from,
                           struct lom_material_uniform *out, lom_error *error)
 {
     round3(out->ambient, from->ambient);
     round3(out->diffuse, from->diffuse);
     round3(out->specular, from->specular);
+    round3(out->emissive, from->emissive);
     out->shininess = (float)from->shininess;
-    out->texture = from->texture == NULL ? NULL : lom_load_texture(renderer, from->texture, true, error);
-    return from->texture == NULL || out->texture != NULL;
+    out->emits = out->emissive[0] != 0 || out->emissive[1] != 0 || out->emissive[2] != 0;
+    return load_map(renderer, from->texture, true, &out->texture, error) &&
+           load_map(renderer, from->emissive_map, true, &out->emissive_map, error) &&
+           load_map(renderer, from->specular_map, true, &out->specular_map, error) &&
+           load_map(renderer, from->gloss_map, false, &out->gloss_map, error) &&
+           load_map(renderer, from->normal_map, false, &out->normal_map, error);
+}
+
+/* The materials of the parts' fronts, then those of their backs. */
+static bool load_parts(lom_renderer *renderer, struct lom_drawn_entity *entity, lom_error *error)
+{
+    const struct lom_world_entity *source = entity->source;
+    const size_t parts = source->mesh->part_count, sides = source->entity->two_sided ? 2 : 1;
+    entity->materials = lom_allocate(parts * sides, sizeof *entity->materials, error);
+    if (entity->materials == NULL)
+        return false;
+    entity->backs = sides == 2 ? entity->materials + parts : NULL;
+    for (size_t k = 0; k < parts; k++)
+        if (!load_material(renderer, &source->parts[k].material, &entity->materials[k], error) ||
+            (sides == 2 && !load_material(renderer, &source->parts[k].back, &entity->backs[k], error)))
+            return false;
+    return true;
 }
 
 bool lom_load_entities(lom_renderer *renderer, lom_error *error)
@@ -27,21 +54,23 @@ bool lom_load_entities(lom_renderer *renderer, lom_error *error)
         struct lom_drawn_entity *entity = &entities->items[entities->count++];
         entity->source = &world->entities[i];
         entity->at = &renderer->moment.placements[i];
-        size_t parts = entity->source->mesh->part_count;
-        entity->materials = lom_allocate(parts, sizeof *entity->materials, error);
-        if (entity->materials == NULL)
+        if (!load_parts(renderer, entity, error))
             return false;
-        for (size_t k = 0; k < parts; k++)
-            if (!load_material(renderer, &entity->source->parts[k].material, &entity->materials[k], error))
-                return false;
     }
     return entities->items != NULL;
 }
 
 static void free_materials(lom_renderer *renderer, const struct lom_drawn_entity *entity)
 {
-    for (size_t k = 0; entity->materials != NULL && k < entity->source->mesh->part_count; k++)
-        lom_drop_texture(renderer, entity->materials[k].texture);
+    const size_t count = entity->source->mesh->part_count * (entity->backs != NULL ? 2 : 1);
+    for (size_t k = 0; entity->materials != NULL && k < count; k++) {
+        const struct lom_material_uniform *m = &entity->materials[k];
+        lom_drop_texture(renderer, m->texture);
+        lom_drop_texture(renderer, m->emissive_map);
+        lom_drop_texture(renderer, m->specular_map);
+        lom_drop_texture(renderer, m->gloss_map);
+        lom_drop_texture(renderer, m->normal_map);
+    }
     lom_release(entity->materials);
 }
 

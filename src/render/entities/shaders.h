@@ -16,6 +16,7 @@ struct lom_caster_uniforms {
 };
 
 extern const lom_shader lom_entity_phong, lom_entity_gouraud, lom_entity_flat;
+extern const lom_shader lom_entity_bumped; /* lom_entity_phong with the material's normal map */
 extern const lom_shader lom_caster_shader; /* depth alone */
 
 #endif
