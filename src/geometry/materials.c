@@ -6,7 +6,9 @@
 
 lom_material lom_default_material(const char *name)
 {
-    lom_material material = { .ambient = { .2f, .2f, .2f }, .diffuse = { 1, 1, 1 }, .shininess = 1, .opacity = 1, .bump = 1 };
+    lom_material material = {
+        .ambient = { .2f, .2f, .2f }, .diffuse = { 1, 1, 1 }, .shininess = 1, .opacity = 1, .bump = 1
+    };
     size_t length = strlen(name);
     memcpy(material.name, name, length < sizeof material.name ? length : sizeof material.name - 1);
     return material;

@@ -54,9 +54,10 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_WAVES, "surf surf.height surf.period surf.direction shallow.*" },
     { each_frame, "surf.variation" },
 
-    { LOM_PART_ENTITIES, "entity entity.mesh entity.position entity.rotation entity.scale entity.material.* entity.two_sided "
-                         "entity.back entity.back.* "
-                         "entity.on_ground entity.visible entity.key" },
+    { LOM_PART_ENTITIES,
+      "entity entity.mesh entity.position entity.rotation entity.scale entity.material.* entity.two_sided "
+      "entity.back entity.back.* "
+      "entity.on_ground entity.visible entity.key" },
     { LOM_PART_FOLLOWED, "entity.interpolation entity.key.time entity.key.position entity.key.rotation" },
     { each_frame, "entity.name" },
 
