@@ -159,6 +159,15 @@ static void rebase_corners(struct lom_chunk *chunk)
             chunk->has_gaps && assembly->corners[i] == NO_VERTEX ? NO_VERTEX : assembly->corners[i] - base;
 }
 
+/* Corners that are plain indices, as row numbers. */
+static void make_corners(struct lom_chunk *chunk)
+{
+    if (chunk->plain != NULL)
+        lom_stages_of(chunk->draw->variant)
+            ->rebase_indices(chunk->plain, 3 * chunk->count, chunk->vertex_base, chunk->assembly->corners);
+    chunk->plain = NULL;
+}
+
 /* Which vertices the chunk needs: a range when it is dense (a mesh in order), else a list. */
 bool lom_choose_vertices(const struct lom_room *room, struct lom_chunk *chunk)
 {
@@ -180,10 +189,13 @@ bool lom_choose_vertices(const struct lom_room *room, struct lom_chunk *chunk)
     chunk->vertex_count = low > high ? 0 : (size_t)(high - low) + 1;
     chunk->vertex_base = low;
     chunk->listed = chunk->vertex_count > MOST_ROWS * chunk->count;
-    if (plain != NULL)
-        lom_stages_of(chunk->draw->variant)->rebase_indices(plain, corners, chunk->listed ? 0 : low, assembly->corners);
-    else if (!chunk->listed && chunk->run_count == 0)
+    chunk->plain = chunk->listed ? NULL : plain;
+    if (plain != NULL && chunk->listed)
+        memcpy(assembly->corners, plain, corners * sizeof *plain);
+    else if (plain == NULL && !chunk->listed && chunk->run_count == 0)
         rebase_corners(chunk);
+    if (chunk->draw->expands)
+        make_corners(chunk);
     return !chunk->listed || list_vertices(room, chunk);
 }
 
@@ -195,7 +207,7 @@ struct group { /* triangles on their way to set-up */
 static void send(const struct lom_pass *pass, struct lom_chunk *chunk, struct group *group)
 {
     if (group->count > 0 && !chunk->failed)
-        lom_stages_of(chunk->draw->variant)->set_up(pass, chunk, group->corner[0], (size_t)group->count);
+        lom_stages_of(chunk->draw->variant)->set_up(pass, chunk, group->corner[0], 0, (size_t)group->count);
     group->count = 0;
 }
 
@@ -283,33 +295,47 @@ static void assemble_recorded(const struct lom_pass *pass, struct lom_chunk *chu
     send(pass, chunk, &group);
 }
 
-/* Triangles without outcodes go to set-up as they stand; the others one by one, in order. */
-static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
+/* Triangles without outcodes go to set-up as they stand, as many as follow one another; the others one by one, in order. */
+static void assemble_runs(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
-    struct lom_assembly *assembly = chunk->assembly;
-    const struct lom_stages *stages = lom_stages_of(chunk->draw->variant);
+    const uint32_t *corners = chunk->assembly->corners;
+    void (*set_up)(const struct lom_pass *, struct lom_chunk *, const uint32_t *, uint32_t, size_t) =
+        lom_stages_of(chunk->draw->variant)->set_up;
     struct group group = { .count = 0 };
-    if (pass->recorder != NULL) {
-        assemble_recorded(pass, chunk);
-        return;
-    }
-    if (chunk->any_code == 0 && !chunk->has_gaps) {
-        stages->set_up(pass, chunk, assembly->corners, chunk->count);
-        return;
-    }
-    for (size_t first = 0; first < chunk->count; first += GROUP) {
-        size_t count = chunk->count - first < GROUP ? chunk->count - first : GROUP;
-        const uint32_t *corners = assembly->corners + 3 * first;
-        if (!chunk->has_gaps && are_inside(chunk, corners, count)) {
-            send(pass, chunk, &group);
-            if (!chunk->failed)
-                stages->set_up(pass, chunk, corners, count);
+    for (size_t first = 0, run = 0; first < chunk->count;) {
+        size_t left = chunk->count - first - run, count = left < GROUP ? left : GROUP;
+        bool inside = count > 0 && !chunk->has_gaps && are_inside(chunk, corners + 3 * (first + run), count);
+        if (inside) {
+            run += count;
             continue;
         }
+        if (run > 0) {
+            send(pass, chunk, &group);
+            if (!chunk->failed)
+                set_up(pass, chunk, corners + 3 * first, 0, run);
+        }
+        first += run;
         for (size_t i = 0; i < count; i++)
-            sort_out(pass, chunk, &group, corners + 3 * i);
+            sort_out(pass, chunk, &group, corners + 3 * (first + i));
+        first += count;
+        run = 0;
     }
     send(pass, chunk, &group);
+}
+
+static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    if (chunk->any_code == 0 && !chunk->has_gaps && pass->recorder == NULL) {
+        const uint32_t *corners = chunk->plain != NULL ? chunk->plain : chunk->assembly->corners;
+        lom_stages_of(chunk->draw->variant)
+            ->set_up(pass, chunk, corners, chunk->plain != NULL ? chunk->vertex_base : 0, chunk->count);
+        return;
+    }
+    make_corners(chunk);
+    if (pass->recorder != NULL)
+        assemble_recorded(pass, chunk);
+    else
+        assemble_runs(pass, chunk);
 }
 
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly)
@@ -317,6 +343,8 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->assembly = assembly;
     chunk->triangle_count = chunk->triangles_clipped = chunk->vertices_shaded = 0;
     chunk->any_code = 0;
+    chunk->all_listed = true;
+    chunk->plain = NULL;
     chunk->tile_low = INT32_MAX;
     chunk->tile_high = -1;
     const struct lom_draw *draw = chunk->draw;

@@ -113,10 +113,12 @@ static void fill_packet(struct lom_tile *tile, int number)
                 (lom_float4){ lom_as_float(e.area), 1.0f / lom_to_float(e.area), z0, lom_min(lom_min(z0, z1), z2) });
     store_slots(slots, SLOT_DEPTH1, number,
                 (lom_float4){ c.depth[1] - z0, c.depth[2] - z0, lom_max(lom_max(z0, z1), z2), head.w });
+    lom_int parts = find_parts(tile, first, last, lom_as_int(head.w)), origin = (parts & 255) | (parts & 0xff00) << 8;
+    lom_int cover1 = e.start1 + (lom_dot_pairs(origin, e.pair1) << SUBPIXEL_BITS) + bias1;
+    lom_int cover2 = e.start2 + (lom_dot_pairs(origin, e.pair2) << SUBPIXEL_BITS) + bias2;
     store_slots(slots, SLOT_COVER1, number,
-                (lom_float4){ lom_as_float(e.start1 + bias1), lom_as_float(e.start2 + bias2),
-                              lom_as_float(e.area + bias0 + bias1 + bias2),
-                              lom_as_float(find_parts(tile, first, last, lom_as_int(head.w))) });
+                (lom_float4){ lom_as_float(cover1), lom_as_float(cover2), lom_as_float(e.area + bias0 + bias1 + bias2),
+                              lom_as_float(parts) });
 }
 
 void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile)
@@ -191,16 +193,21 @@ LOM_INLINE int32_t *cover_window(const struct frame *frame, int slot, uint32_t m
 
 /* What the early depth test needs of a slot. */
 struct slot_depth {
-    lom_int bias1, bias2; /* that coverage has in edge functions 1 and 2 */
+    int bias1, bias2; /* that coverage has in edge functions 1 and 2 */
     float inverse, at, by1, by2, low, high;
 };
+
+static int bias_of_pair(int32_t pair)
+{
+    return bias_of((int16_t)(pair & 0xffff), pair >> 16);
+}
 
 static struct slot_depth find_slot_depth(const float *slots, int slot)
 {
     const int32_t *words = (const int32_t *)(const void *)slots;
     return (struct slot_depth){
-        .bias1 = lom_splat_int(words[slot_word(SLOT_COVER1, slot)] - words[slot_word(SLOT_START1, slot)]),
-        .bias2 = lom_splat_int(words[slot_word(SLOT_COVER2, slot)] - words[slot_word(SLOT_START2, slot)]),
+        .bias1 = bias_of_pair(words[slot_word(SLOT_STEP1, slot)]),
+        .bias2 = bias_of_pair(words[slot_word(SLOT_STEP2, slot)]),
         .inverse = slots[slot_word(SLOT_INVERSE, slot)],
         .at = slots[slot_word(SLOT_DEPTH0, slot)],
         .by1 = slots[slot_word(SLOT_DEPTH1, slot)],
@@ -219,33 +226,47 @@ LOM_INLINE lom_mask test_part(struct lom_tile *tile, const struct slot_depth *d,
     return lom_test_depth(tile, place, covered, z);
 }
 
-/* Of a slot; `cut` to bounds, or NULL; the early depth test done, or, with `depth` NULL, not. The third edge function is
- * what the other two leave of the area. */
+/* Edge functions 1 and 2 of a slot, biased, at the pixels of a part, and what they change from a part to the next one on its
+ * right and below; the third one is what they leave of `whole`. */
+struct part_edges {
+    lom_int e1, e2, right1, right2, down1, down2, whole;
+};
+
+LOM_INLINE struct part_edges find_part_edges(const float *slots, int slot)
+{
+    const int32_t *words = (const int32_t *)(const void *)slots;
+    enum { RIGHT = SUBPIXELS * PART_WIDTH, DOWN = SUBPIXELS * PART_HEIGHT };
+    const lom_int pixels = lom_make_pair(lane_x(0), lane_y(0));
+    const lom_int pair1 = lom_splat_int(words[slot_word(SLOT_STEP1, slot)]),
+                  pair2 = lom_splat_int(words[slot_word(SLOT_STEP2, slot)]);
+    return (
+        struct part_edges){ .e1 = (lom_dot_pairs(pixels, pair1) << SUBPIXEL_BITS) + words[slot_word(SLOT_COVER1, slot)],
+                            .e2 = (lom_dot_pairs(pixels, pair2) << SUBPIXEL_BITS) + words[slot_word(SLOT_COVER2, slot)],
+                            .right1 = (pair1 << 16 >> 16) * RIGHT,
+                            .right2 = (pair2 << 16 >> 16) * RIGHT,
+                            .down1 = (pair1 >> 16) * DOWN,
+                            .down2 = (pair2 >> 16) * DOWN,
+                            .whole = lom_splat_int(words[slot_word(SLOT_COVER, slot)]) };
+}
+
+/* Of a slot; `cut` to bounds, or NULL; the early depth test done, or, with `depth` NULL, not. */
 LOM_INLINE int32_t *cover_parts(struct lom_tile *tile, const struct frame *frame, int slot,
                                 const struct lom_bounds *cut, const struct slot_depth *depth, int32_t *to)
 {
     const int32_t *words = (const int32_t *)(const void *)tile->list.slots;
-    lom_int step1 = lom_splat_int(words[slot_word(SLOT_STEP1, slot)]);
-    lom_int step2 = lom_splat_int(words[slot_word(SLOT_STEP2, slot)]);
-    lom_int start1 = lom_splat_int(words[slot_word(SLOT_COVER1, slot)]);
-    lom_int start2 = lom_splat_int(words[slot_word(SLOT_COVER2, slot)]);
-    lom_int whole = lom_splat_int(words[slot_word(SLOT_COVER, slot)]);
     uint32_t parts = (uint32_t)words[slot_word(SLOT_PARTS, slot)];
     int left = (int)(parts & 255), top = (int)(parts >> 8 & 255);
     int right = left + (int)(parts >> 16 & 255) * PART_WIDTH, bottom = top + (int)(parts >> 24) * PART_HEIGHT;
-    const lom_int pixels = lom_make_pair(lane_x(0), lane_y(0));
-    for (int y = top; y < bottom; y += PART_HEIGHT) {
-        lom_int at = pixels + (left | y << 16), codes = frame->codes[0] + code_of(frame, slot, left, y);
-        for (int x = left; x < right; x += PART_WIDTH) {
-            lom_int e1 = (lom_dot_pairs(at, step1) << SUBPIXEL_BITS) + start1;
-            lom_int e2 = (lom_dot_pairs(at, step2) << SUBPIXEL_BITS) + start2;
-            lom_mask covered = (e1 | e2 | (whole - e1 - e2)) >= 0;
+    struct part_edges at = find_part_edges(tile->list.slots, slot);
+    for (int y = top; y < bottom; y += PART_HEIGHT, at.e1 += at.down1, at.e2 += at.down2) {
+        lom_int e1 = at.e1, e2 = at.e2, codes = frame->codes[0] + code_of(frame, slot, left, y);
+        for (int x = left; x < right; x += PART_WIDTH, e1 += at.right1, e2 += at.right2) {
+            lom_mask covered = (e1 | e2 | (at.whole - e1 - e2)) >= 0;
             if (cut != NULL)
                 covered &= inside_bounds(tile, cut, x, y, 0);
             if (depth != NULL && lom_any(covered))
                 covered = test_part(tile, depth, e1, e2, covered, memory_index(tile, x, y));
             to = list_part(to, covered, codes);
-            at += PART_WIDTH;
             codes += PART_WIDTH * 2 + (PART_WIDTH << CODE_X);
         }
     }

@@ -6,10 +6,12 @@
 #include "pipeline/packed.h"
 
 /* Leaves depths in memory, one after the other, since two may go to one place; gives what was there before. */
-LOM_INLINE lom_float exchange(float *memory, const int32_t *pixel, lom_float depth, depth_rule rule)
+LOM_INLINE lom_float exchange(float *memory, lom_int place, lom_float depth, depth_rule rule)
 {
     float old[LOM_LANES], z[LOM_LANES];
+    uint32_t pixel[LOM_LANES];
     lom_store(z, depth);
+    lom_store_int((int32_t *)pixel, place);
     for (int i = 0; i < LOM_LANES; i++) {
         float *at = memory + pixel[i];
         old[i] = *at;
@@ -21,31 +23,17 @@ LOM_INLINE lom_float exchange(float *memory, const int32_t *pixel, lom_float dep
 }
 
 /* The lanes that pass; lanes that are no entries repeat the last one that is, and change nothing. */
-LOM_INLINE lom_mask test_depths(struct lom_tile *tile, lom_int place, lom_float depth)
+LOM_INLINE lom_mask test_depths(struct lom_tile *tile, lom_int place, lom_float depth, depth_rule rule)
 {
-    const struct lom_draw *draw = tile->draw;
     lom_float units = lom_depth_units(tile->pass, depth), old;
-    int32_t pixel[LOM_LANES];
-    lom_store_int(pixel, place);
-    switch (rule_of(draw)) {
-    case DEPTH_LESSER:
-        old = exchange(tile->depth, pixel, units, DEPTH_LESSER);
-        break;
-    case DEPTH_GREATER:
-        old = exchange(tile->depth, pixel, units, DEPTH_GREATER);
-        break;
-    case DEPTH_REPLACED:
-        old = exchange(tile->depth, pixel, units, DEPTH_REPLACED);
-        break;
-    default:
+    if (rule == DEPTH_STAYS)
         old = lom_gather(tile->depth, place);
-        break;
-    }
-    return lom_compare_depth(draw->compare, units, old);
+    else
+        old = exchange(tile->depth, place, units, rule);
+    return lom_compare_depth(tile->draw->compare, units, old);
 }
 
-/* Leaves of the entries that are not tested yet those that pass. */
-static void test_entries(struct lom_tile *tile)
+LOM_INLINE void test_by_rule(struct lom_tile *tile, depth_rule rule)
 {
     struct lom_list *list = &tile->list;
     int passed = list->tested;
@@ -53,7 +41,7 @@ static void test_entries(struct lom_tile *tile)
         struct packed p = take(list, at, list->count);
         lom_float l[3];
         weigh(list, &p, l);
-        lom_mask covered = test_depths(tile, pixel_of(p.code), find_depth_lanes(list, &p, l));
+        lom_mask covered = test_depths(tile, pixel_of(p.code), find_depth_lanes(list, &p, l), rule);
         covered &= lom_lane_index() < p.count;
         step = p.count;
         lom_int next = lom_load_int(list->code + at + step); /* the store of a whole packet may reach them */
@@ -62,6 +50,25 @@ static void test_entries(struct lom_tile *tile)
         passed += (int)lom_count(covered);
     }
     list->count = passed;
+}
+
+/* Leaves of the entries that are not tested yet those that pass. */
+static void test_entries(struct lom_tile *tile)
+{
+    switch (rule_of(tile->draw)) {
+    case DEPTH_STAYS:
+        test_by_rule(tile, DEPTH_STAYS);
+        break;
+    case DEPTH_LESSER:
+        test_by_rule(tile, DEPTH_LESSER);
+        break;
+    case DEPTH_GREATER:
+        test_by_rule(tile, DEPTH_GREATER);
+        break;
+    case DEPTH_REPLACED:
+        test_by_rule(tile, DEPTH_REPLACED);
+        break;
+    }
 }
 
 /* Entries from `at` on. */

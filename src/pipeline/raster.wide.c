@@ -133,10 +133,35 @@ static void raster_others(struct lom_tile *tile, const uint32_t *list, size_t co
         LOM_WIDE(lom_raster_sprites)(tile, list, count);
 }
 
+static void add_to_list(struct lom_tile *tile, uint32_t number)
+{
+    struct lom_list *list = &tile->list;
+    list->number[list->triangles++] = number;
+    if (list->triangles == LIST_TRIANGLES)
+        LOM_WIDE(lom_drain_list)(tile, false);
+}
+
+/* The triangles of a chunk that has none but those that go to the list: their records are not looked at here. */
+static void list_all(struct lom_tile *tile, const uint32_t *from, size_t count)
+{
+    struct lom_list *list = &tile->list;
+    while (count > 0) {
+        size_t room = LIST_TRIANGLES - (size_t)list->triangles, some = count < room ? count : room;
+        for (size_t i = 0; i < some; i++) {
+            __builtin_prefetch(&tile->chunk->primitives[from[i]]);
+            list->number[(size_t)list->triangles + i] = from[i];
+        }
+        list->triangles += (int)some;
+        if (list->triangles == LIST_TRIANGLES)
+            LOM_WIDE(lom_drain_list)(tile, false);
+        from += some;
+        count -= some;
+    }
+}
+
 void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count)
 {
     const struct lom_draw *draw = chunk->draw;
-    struct lom_list *packed = &tile->list;
     bool together = packs(draw) && !tile->pass->one_by_one;
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
@@ -152,12 +177,12 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
         raster_others(tile, list, count);
         return;
     }
-    for (size_t i = folded; i < count; i++) {
+    if (together && chunk->all_listed)
+        list_all(tile, list + folded, count - folded);
+    for (size_t i = folded; i < count && !(together && chunk->all_listed); i++) {
         __builtin_prefetch(&chunk->primitives[list[i + AHEAD < count ? i + AHEAD : count - 1]]);
         if (together && (chunk->primitives[list[i]].state >> TRIANGLE_LISTED & 1) != 0) {
-            packed->number[packed->triangles++] = list[i];
-            if (packed->triangles == LIST_TRIANGLES)
-                LOM_WIDE(lom_drain_list)(tile, false);
+            add_to_list(tile, list[i]);
             continue;
         }
         LOM_WIDE(lom_drain_list)(tile, true);

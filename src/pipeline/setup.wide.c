@@ -17,7 +17,7 @@ struct packet {
     lom_int x0, y0, x1, y1; /* bounds of the vertices, in units */
     lom_int sign;           /* of the area of v[0], v[1], v[2] in their order: 1, -1, or 0 */
     lom_int left, top, right, bottom, kind, cut, clip;
-    lom_mask alive, front, small;
+    lom_mask alive, front, small, listed;
 };
 
 /* Edge functions 0, 1, 2 at a pixel, without the top-left rule; exact where the triangle is small. */
@@ -27,10 +27,12 @@ struct edge_lanes {
 };
 
 /* Where the rows of LOM_LANES triangles' corners begin, as the corners lie: three a triangle. */
-LOM_INLINE void find_rows(const struct lom_chunk *chunk, const uint32_t *corners, int32_t rows[3 * LOM_LANES])
+LOM_INLINE void find_rows(const struct lom_chunk *chunk, const uint32_t *corners, uint32_t base,
+                          int32_t rows[3 * LOM_LANES])
 {
     for (int i = 0; i < 3 * LOM_LANES; i += LOM_LANES)
-        lom_store_int(rows + i, lom_load_int((const int32_t *)corners + i) * (int32_t)chunk->draw->row_floats);
+        lom_store_int(rows + i,
+                      (lom_load_int((const int32_t *)corners + i) - (int32_t)base) * (int32_t)chunk->draw->row_floats);
 }
 
 /* Corner k of LOM_LANES triangles, without where its row is. */
@@ -216,7 +218,7 @@ LOM_INLINE lom_int pack_state(const struct packet *p, lom_int mask)
     lom_int state = lom_select_int(p->kind == TRIANGLE_WINDOW, mask, (lom_int){ 0 });
     lom_int provoking = (p->v[1].row & 1) | (p->v[2].row & 1) << 1;
     return state | p->kind << TRIANGLE_KIND | (p->front & 1) << TRIANGLE_FRONT | (p->cut & 1) << TRIANGLE_CUT |
-           provoking << TRIANGLE_PROVOKING | (are_listed(p) & 1) << TRIANGLE_LISTED | p->clip << TRIANGLE_CLIP;
+           provoking << TRIANGLE_PROVOKING | (p->listed & 1) << TRIANGLE_LISTED | p->clip << TRIANGLE_CLIP;
 }
 
 /* The tiles of the first and the last pixel. */
@@ -264,6 +266,7 @@ static void append(const struct lom_pass *pass, struct lom_chunk *chunk, const s
     int32_t *tile = chunk->assembly->tile + chunk->triangle_count;
     float *to = (float *)(void *)(chunk->primitives + chunk->triangle_count);
     struct tiles tiles = find_tiles(pass, p);
+    chunk->all_listed &= !lom_any(p->alive & ~p->listed);
     range->first = lom_select_int(p->alive, lom_min_int(range->first, tiles.first), range->first);
     range->last = lom_select_int(p->alive, lom_max_int(range->last, tiles.last), range->last);
     lom_int only = lom_select_int(tiles.first == tiles.last, tiles.first, lom_splat_int(SEVERAL_TILES));
@@ -281,12 +284,12 @@ static void append(const struct lom_pass *pass, struct lom_chunk *chunk, const s
     chunk->triangle_count += lom_count(p->alive);
 }
 
-static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, lom_mask alive,
-                          struct tiles *range)
+static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, uint32_t base,
+                          lom_mask alive, struct tiles *range)
 {
     struct packet p;
     int32_t rows[3 * LOM_LANES];
-    find_rows(chunk, corners, rows);
+    find_rows(chunk, corners, base, rows);
     for (int k = 0; k < 3; k++)
         load_corner(chunk, rows, k, &p.v[k]);
     p.alive = alive;
@@ -315,6 +318,7 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     p.clip = (lom_int){ 0 };
     if (chunk->any_code != 0)
         p.clip = crossing_distances(chunk, corners);
+    p.listed = are_listed(&p);
     if (lom_any(p.alive))
         append(pass, chunk, &p, mask, range);
 }
@@ -325,7 +329,8 @@ static void widen_range(struct lom_chunk *chunk, const struct tiles *range)
         lom_widen_tiles(chunk, range->first[i], range->last[i]);
 }
 
-void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count)
+void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, uint32_t base,
+                          size_t count)
 {
     struct tiles range = { lom_splat_int(INT32_MAX), lom_splat_int(-1) };
     if (!lom_reserve_primitives(chunk, chunk->triangle_count + count))
@@ -333,13 +338,13 @@ void LOM_WIDE(lom_set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, 
     for (size_t first = 0; first < count; first += LOM_LANES, corners += 3 * LOM_LANES) {
         size_t live = count - first;
         if (live >= LOM_LANES) {
-            set_up_packet(pass, chunk, corners, lom_splat_int(-1), &range);
+            set_up_packet(pass, chunk, corners, base, lom_splat_int(-1), &range);
             continue;
         }
         uint32_t padded[3 * LOM_LANES];
         for (size_t i = 0; i < LOM_LANES; i++)
             memcpy(padded + 3 * i, corners + 3 * (i < live ? i : 0), 3 * sizeof padded[0]);
-        set_up_packet(pass, chunk, padded, lom_lane_index() < (int32_t)live, &range);
+        set_up_packet(pass, chunk, padded, base, lom_lane_index() < (int32_t)live, &range);
     }
     widen_range(chunk, &range);
 }

@@ -20,7 +20,7 @@ enum {
     SLOT_DEPTH2,
     SLOT_HIGH,
     SLOT_STATE,
-    SLOT_COVER1, /* biased: the edge functions, and what they and the third one add up to */
+    SLOT_COVER1, /* biased: the edge functions at the first part's first pixel, and what they and the third one add up to */
     SLOT_COVER2,
     SLOT_COVER,
     SLOT_PARTS /* struct part_range, 8 bits each: x, y, columns, rows */

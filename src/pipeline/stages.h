@@ -153,7 +153,8 @@ struct lom_chunk {
 
     struct lom_assembly *assembly; /* of the worker that has the chunk */
     uint32_t vertex_base;          /* index of row 0 unless listed */
-    size_t vertex_count;           /* rows that were shaded (clipping appends) */
+    const uint32_t *plain; /* indices that are the corners less vertex_base, where those are not made; or NULL */
+    size_t vertex_count;   /* rows that were shaded (clipping appends) */
     bool listed;
     const uint8_t *needed;  /* the assembly's, or NULL: all */
     const float *made_rows; /* vertices that a later stage has made (expand.c); NULL: they are to be shaded */
@@ -167,6 +168,7 @@ struct lom_chunk {
     size_t row_count, triangle_count;
     unsigned any_code; /* all outcodes together */
     bool has_gaps;     /* a triangle has no corners (a restart index, an index out of range) */
+    bool all_listed;   /* all of its primitives are TRIANGLE_LISTED */
     size_t rows_capacity, primitives_capacity, tile_first_capacity, tile_list_capacity; /* in elements */
     uint64_t triangles_clipped, vertices_shaded;
     float *captured; /* with feedback: what it keeps of each vertex */

@@ -18,9 +18,10 @@ struct lom_stages {
     void (*control_patches)(const struct lom_chunk *chunk, size_t first, float (*levels)[LEVEL_WORDS]);
     void (*evaluate_patch)(const struct lom_chunk *chunk, size_t patch, const float levels[LEVEL_WORDS], float *rows);
     void (*emit_pieces)(const struct lom_chunk *chunk, int from, size_t first, int32_t *count);
-    /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners are three row
-     * numbers a triangle; the third is the provoking vertex. */
-    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, size_t count);
+    /* Sets up `count` triangles of unclipped vertices, in order; appends the visible ones. Corners less `base` are three
+     * row numbers a triangle; the third is the provoking vertex. */
+    void (*set_up)(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners, uint32_t base,
+                   size_t count);
     /* Draws the chunk's triangles of one tile. */
     void (*raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count);
     /* Shades what is left in the queue. */
@@ -50,7 +51,7 @@ const struct lom_stages *lom_stages_of(int variant);
                                       float *rows);                                                                    \
     void lom_emit_pieces_##variant(const struct lom_chunk *chunk, int from, size_t first, int32_t *count);             \
     void lom_set_up_##variant(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t *corners,           \
-                              size_t count);                                                                           \
+                              uint32_t base, size_t count);                                                            \
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
                               size_t count);                                                                           \
     void lom_flush_##variant(struct lom_tile *tile);                                                                   \
