@@ -20,7 +20,7 @@ struct lom_picture_uniform {
 };
 
 /* The coarsest level at which a reflection is looked up: a texel of it is 2^3 pixels. */
-enum { LOM_BLUR_LEVELS = 3 };
+enum { LOM_BLUR_LEVELS = 3, LOM_BLUR_PLACES = 4 };
 
 /* Water as a medium: 1/m of red, green and blue; the light that it sends back per metre and absorption, at the surface;
  * the length of the sun's refracted ray per metre of depth. */
@@ -42,10 +42,12 @@ struct lom_foam_uniform {
     float shift[2]; /* the pattern's coordinates at the eye, less whole repetitions */
 };
 
-/* The mesh: vertex (ring, column) is at apex + radius[ring] (cosine[column], sine[column]), moved into the quad. */
+/* The mesh: vertex (ring, column) is at apex + r (cosine[column], sine[column]), r = radius[ring] clamped to
+ * nearest[column]..farthest[column], between which the column is in the quad. */
 struct lom_polar_mesh_uniform {
     const float *radius, *spacing, *cosine, *sine; /* spacing: metres between neighbours, for the filter */
-    int columns;                                   /* vertices a ring */
+    const float *nearest, *farthest;
+    int columns; /* vertices a ring */
     float apex[2];
 };
 
@@ -89,11 +91,13 @@ struct lom_polar_mesh_desc {
 /* Rings about a point behind the eye, from below it to the far corner of the quad, in the sector that the view can see.
  * Along a ring vertices are `cell` pixels apart; from ring to ring as well, until waves are lower than a pixel, from
  * where rings may be further apart. Where rays are parallel, rings about the middle of what the picture shows of the
- * plane, vertices `cell` pixels apart everywhere. One connected mesh: there is no seam to stitch. */
+ * plane, vertices `cell` pixels apart everywhere. One connected mesh, whose outline is
+ * that of the quad: there is no seam to stitch. */
 struct lom_polar_mesh {
     int rings, columns;
     double apex[2];                          /* less the eye */
     float *radius, *spacing, *cosine, *sine; /* parts of one array */
+    float *nearest, *farthest;               /* of it too */
     uint32_t *indices;
     size_t index_count;
     float *memory;

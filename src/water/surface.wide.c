@@ -51,10 +51,12 @@ static void displaced_vertex(lom_vertex *out, const lom_attributes *in, const vo
     const struct lom_surface_uniforms *u = uniforms;
     const struct lom_polar_mesh_uniform *m = &u->mesh;
     lom_int ring = in->vertex / m->columns, column = in->vertex - ring * m->columns;
-    lom_float radius = lom_gather(m->radius, ring), spacing = lom_gather(m->spacing, ring);
+    lom_float nearest = lom_gather(m->nearest, column), farthest = lom_gather(m->farthest, column);
+    lom_float radius = lom_max(nearest, lom_min(lom_gather(m->radius, ring), farthest));
+    lom_float spacing = lom_gather(m->spacing, ring);
     lom_float x = m->apex[0] + radius * lom_gather(m->cosine, column);
     lom_float z = m->apex[1] + radius * lom_gather(m->sine, column);
-    x = lom_clamp(x, lom_splat(u->quad[0]), lom_splat(u->quad[2]));
+    x = lom_clamp(x, lom_splat(u->quad[0]), lom_splat(u->quad[2])); /* by what floats round */
     z = lom_clamp(z, lom_splat(u->quad[1]), lom_splat(u->quad[3]));
     struct lom_footprint f = { spacing, { 0 }, { 0 }, spacing };
     struct lom_wave_shift shift = lom_displace(&u->waves, x, z, &f);
@@ -66,12 +68,27 @@ static void displaced_vertex(lom_vertex *out, const lom_attributes *in, const vo
     out->varying[REST_Z] = z;
 }
 
+/* A triangle that is seen edge on covers more of the waves than its pixel shows, which has other triangles beside it: a
+ * footprint is not longer than twice that of the level surface there. */
+static void bound_footprint(const struct lom_surface_uniforms *u, lom_float3 offset, struct lom_footprint *f)
+{
+    lom_float3 path = lom_eye_path(&u->eye, offset);
+    lom_float length = lom_sqrt(lom_dot3(path, path)), size = lom_splat(2.0f * u->eye.pixel);
+    if (!u->eye.parallel)
+        size = size * length;
+    lom_float most = size * length / lom_max(lom_abs(path.y), 1e-3f * length);
+    lom_float a = most / lom_max(lom_sqrt(f->ax * f->ax + f->az * f->az), most);
+    lom_float b = most / lom_max(lom_sqrt(f->bx * f->bx + f->bz * f->bz), most);
+    *f = (struct lom_footprint){ f->ax * a, f->az * a, f->bx * b, f->bz * b };
+}
+
 static void displaced_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_surface_uniforms *u = uniforms;
     struct lom_surface_point p = { .x = in->x, .y = in->y, .w = in->w };
     struct lom_footprint f = { lom_dx(in, REST_X), lom_dx(in, REST_Z), lom_dy(in, REST_X), lom_dy(in, REST_Z) };
     p.offset = (lom_float3){ in->varying[OFFSET], in->varying[OFFSET + 1], in->varying[OFFSET + 2] };
+    bound_footprint(u, p.offset, &f);
     shade(out, u, &p, in->varying[REST_X], in->varying[REST_Z], &f);
 }
 

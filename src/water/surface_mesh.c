@@ -3,11 +3,14 @@
  *
  * With h the eye's height and d the distance to a ring, vertices a cell apart on the screen are cell d apart on the
  * ring. Between rings they are as far, times 1 + (d / flat)^2: at the distance `flat` waves are a pixel high, and
- * beyond it only their shading shows. */
+ * beyond it only their shading shows.
+ *
+ * The quad is covered exactly: a column is the part of its ray that lies in the quad, whose rings beyond its ends are at
+ * them, and one column goes through each corner, so an edge of the quad is one of the mesh, however far apart rings are. */
 #include "base/numbers.h"
 #include "water/surface.h"
 
-enum { MAX_RINGS = 4096, MAX_COLUMNS = 8192, MAX_VERTICES = 3000000 };
+enum { MAX_RINGS = 4096, MAX_COLUMNS = 8192, MAX_VERTICES = 3000000, CORNERS = 4 };
 
 /* The directions of the view's corners in the plane, as angles about the middle one; whether the view reaches straight
  * up or down, where every direction is seen. */
@@ -143,7 +146,7 @@ static bool index_mesh(struct lom_polar_mesh *mesh, lom_error *error)
 
 static bool reserve(struct lom_polar_mesh *mesh, lom_error *error)
 {
-    size_t needed = 2 * ((size_t)mesh->rings + (size_t)mesh->columns);
+    size_t needed = 2 * (size_t)mesh->rings + 4 * (size_t)mesh->columns;
     if (needed > mesh->memory_capacity) {
         lom_release(mesh->memory);
         mesh->memory_capacity = 0;
@@ -156,6 +159,8 @@ static bool reserve(struct lom_polar_mesh *mesh, lom_error *error)
     mesh->spacing = mesh->radius + mesh->rings;
     mesh->cosine = mesh->spacing + mesh->rings;
     mesh->sine = mesh->cosine + mesh->columns;
+    mesh->nearest = mesh->sine + mesh->columns;
+    mesh->farthest = mesh->nearest + mesh->columns;
     return true;
 }
 
@@ -192,6 +197,63 @@ static void surround_eye(struct lom_polar_mesh *mesh, const struct lom_polar_mes
     space->far = far_corner(mesh->apex, desc->quad);
 }
 
+/* Angles of the quad's corners about the middle direction, ascending; those outside the sector are at its ends. */
+static void find_corners(double out[CORNERS], const struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc,
+                         double middle, double sector)
+{
+    for (int i = 0; i < CORNERS; i++) {
+        double x = desc->quad[i & 1 ? 2 : 0] - mesh->apex[0], z = desc->quad[i & 2 ? 3 : 1] - mesh->apex[1];
+        double turns = (lom_double_atan2(z, x) - middle) / lom_two_pi;
+        double angle = (turns - lom_double_floor(turns + 0.5)) * lom_two_pi;
+        angle = angle < -sector / 2 ? -sector / 2 : angle > sector / 2 ? sector / 2 : angle;
+        int at = i;
+        for (; at > 0 && out[at - 1] > angle; at--)
+            out[at] = out[at - 1];
+        out[at] = angle;
+    }
+}
+
+/* The part of the ray from the apex along (cosine, sine) that lies in the quad; one point of a ray that misses it. */
+static void cut_column(struct lom_polar_mesh *mesh, const double quad[4], int column, double cosine, double sine)
+{
+    const double along[2] = { cosine, sine };
+    double from = 0, to = 1e30;
+    for (int i = 0; i < 2; i++) {
+        double low = quad[i] - mesh->apex[i], high = quad[2 + i] - mesh->apex[i], d = along[i];
+        if (!(d > 1e-12 || d < -1e-12))
+            continue;
+        from = lom_larger(from, d > 0 ? low / d : high / d);
+        double end = d > 0 ? high / d : low / d;
+        to = end < to ? end : to;
+    }
+    if (from > to)
+        from = to = lom_larger(0, (from + to) / 2);
+    mesh->nearest[column] = (float)from;
+    mesh->farthest[column] = (float)to;
+}
+
+/* `steps` + 1 columns evenly through the sector, and between them one for each corner. */
+static void fill_columns(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, const struct sector *s,
+                         int steps)
+{
+    double sector = s->whole ? lom_two_pi : 2 * s->half, corners[CORNERS];
+    find_corners(corners, mesh, desc, s->middle, sector);
+    for (int c = 0, even = 0, corner = 0; c < mesh->columns; c++) {
+        double angle = sector * ((double)even / steps - 0.5);
+        if (corner < CORNERS && (even > steps || corners[corner] < angle))
+            angle = corners[corner++];
+        else
+            even++;
+        double cosine = lom_double_cos(s->middle + angle), sine = lom_double_sin(s->middle + angle);
+        bool seam = s->whole && c == mesh->columns - 1; /* the last column of a full circle is the first */
+        mesh->cosine[c] = seam ? mesh->cosine[0] : (float)cosine;
+        mesh->sine[c] = seam ? mesh->sine[0] : (float)sine;
+        cut_column(mesh, desc->quad, c, cosine, sine);
+        mesh->nearest[c] = seam ? mesh->nearest[0] : mesh->nearest[c];
+        mesh->farthest[c] = seam ? mesh->farthest[0] : mesh->farthest[c];
+    }
+}
+
 bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error)
 {
     struct sector s = find_sector(desc);
@@ -201,10 +263,12 @@ bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mes
     else
         surround_eye(mesh, desc, &s, &space);
     double sector = s.whole ? lom_two_pi : 2 * s.half;
+    int steps;
     for (;; space.cell *= 1.25) {
         mesh->rings = count_rings(&space);
         double columns = sector * space.round / space.cell;
-        mesh->columns = 2 + lom_int_of(columns < MAX_COLUMNS ? columns : MAX_COLUMNS);
+        steps = 1 + lom_int_of(columns < MAX_COLUMNS ? columns : MAX_COLUMNS);
+        mesh->columns = steps + 1 + CORNERS;
         if (mesh->rings <= MAX_RINGS && mesh->columns <= MAX_COLUMNS && mesh->rings * mesh->columns <= MAX_VERTICES)
             break;
     }
@@ -217,12 +281,7 @@ bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mes
         mesh->spacing[r] = (float)step;
         radius += step;
     }
-    for (int c = 0; c < mesh->columns; c++) {
-        double angle = s.middle + sector * ((double)c / (mesh->columns - 1) - 0.5);
-        bool seam = s.whole && c == mesh->columns - 1; /* the last column of a full circle is the first */
-        mesh->cosine[c] = seam ? mesh->cosine[0] : (float)lom_double_cos(angle);
-        mesh->sine[c] = seam ? mesh->sine[0] : (float)lom_double_sin(angle);
-    }
+    fill_columns(mesh, desc, &s, steps);
     return true;
 }
 

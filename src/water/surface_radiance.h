@@ -7,7 +7,7 @@
 #define LOM_WATER_SURFACE_RADIANCE_H
 
 #include "base/numbers.h"
-#include "water/facets.h"
+#include "water/foam_cover.h"
 
 /* As long as no ray of a scene is. */
 static const float endless = 0x1p100f;
@@ -31,15 +31,26 @@ LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_fl
 
 /* ---- pictures of the scene ---- */
 
-/* How many pixels wide a rough surface blurs what it mirrors, 2 s, as far as the levels of a picture go; of parallel
- * rays it is as much of the mirrored ray's length. */
-LOM_INLINE lom_float lom_blur_width(const struct lom_surface_uniforms *u, lom_float variance, lom_float length)
+/* What a rough surface blurs of a picture, in pixels: how wide, as far as the levels of a picture go, and how far apart
+ * are the LOM_BLUR_PLACES, one above the other, whose mean is taken. */
+struct lom_blur {
+    lom_float width, apart;
+    lom_mask alone; /* one texel, unfiltered */
+};
+
+/* Facets whose slopes vary by s turn what they mirror by 2 s up and down, and less sideways where the eye looks along the
+ * surface: a blur that is wider than the levels go is drawn out upright. Of parallel rays it is as much of the mirrored
+ * ray's length. */
+LOM_INLINE struct lom_blur lom_blur_of(const struct lom_surface_uniforms *u, lom_float variance, lom_float length)
 {
+    const float widest = (float)(1 << LOM_BLUR_LEVELS);
     float pixels = 1.0f / (u->eye.pixel * u->eye.pixel);
     if (u->eye.parallel)
         variance = variance * lom_min(length * length, lom_splat(endless));
-    lom_float width = lom_sqrt(lom_max(variance * pixels, lom_splat(1.0f)));
-    return lom_min(width, lom_splat((float)(1 << LOM_BLUR_LEVELS)));
+    lom_float spread = lom_sqrt(lom_max(variance * pixels, lom_splat(1.0f)));
+    lom_float width = lom_min(spread, lom_splat(widest));
+    lom_float apart = lom_min((spread - width) / (float)LOM_BLUR_PLACES, lom_splat(2.0f * widest));
+    return (struct lom_blur){ width, apart, { 0 } };
 }
 
 struct lom_lookup {
@@ -60,12 +71,6 @@ LOM_INLINE lom_float lom_picture_w(const struct lom_surface_uniforms *u, const s
                                    lom_float s, lom_float t)
 {
     return lom_depth_reach(&u->eye, lom_sample_depth(picture->depth, s, t));
-}
-
-/* Where the picture shows what the fragment hides. */
-LOM_INLINE lom_float2 lom_own_place(const struct lom_picture_uniform *picture, const struct lom_surface_point *p)
-{
-    return (lom_float2){ p->x * picture->scale[0] + picture->shift[0], p->y * picture->scale[1] + picture->shift[1] };
 }
 
 LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, lom_float2 own, struct lom_lookup at)
@@ -128,17 +133,64 @@ LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, co
     return u->eye.parallel ? p->w - 20.0f * u->eye.pixel : p->w * 0.98f;
 }
 
-/* The width of blur at a place in a picture: none where anything nearer than the surface stands within it, which would
- * bleed into what is mirrored beyond. */
-LOM_INLINE lom_float lom_clear_width(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
-                                     const struct lom_surface_point *p, struct lom_hit hit, lom_float width)
+/* Whether anything nearer than the surface stands at (s +- x, t +- y) of a picture. */
+LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                  const struct lom_surface_point *p, struct lom_hit at, lom_float x, lom_float y)
 {
-    lom_float bound = lom_before_surface(u, p), x = width * (1.5f * u->pixel[0]), y = width * (1.5f * u->pixel[1]);
+    lom_float bound = lom_before_surface(u, p);
     lom_mask hidden = { 0 };
-    for (int i = 0; i < 4 && lom_any(width > 1.0f); i++)
+    for (int i = 0; i < 4; i++)
         hidden =
-            hidden | ~(lom_picture_w(u, picture, i & 1 ? hit.s + x : hit.s - x, i & 2 ? hit.t + y : hit.t - y) > bound);
-    return lom_select(hidden, lom_splat(1.0f), width);
+            hidden | ~(lom_picture_w(u, picture, i & 1 ? at.s + x : at.s - x, i & 2 ? at.t + y : at.t - y) > bound);
+    return hidden;
+}
+
+/* The blur at a place in a picture. It does not reach beyond the place that a level surface mirrors, on whose other side
+ * may be the shore's edge, which no facet shows; and there is as little of it as keeps out what is nearer than the
+ * surface, which would bleed into what is mirrored beyond. */
+LOM_INLINE struct lom_blur lom_clear_blur(const struct lom_surface_uniforms *u,
+                                          const struct lom_picture_uniform *picture, const struct lom_surface_point *p,
+                                          struct lom_hit hit, struct lom_blur blur)
+{
+    if (!lom_any(blur.width > 1.0f))
+        return blur;
+    lom_float x = blur.width * (1.5f * u->pixel[0]), y = blur.width * (1.5f * u->pixel[1]);
+    lom_mask hidden = lom_is_hidden(u, picture, p, hit, x, y);
+    lom_float moved = lom_abs(hit.t - lom_own_place(picture, p).y) / u->pixel[1];
+    blur.apart = lom_clamp((moved - blur.width) * (2.0f / (float)LOM_BLUR_PLACES), (lom_float){ 0 }, blur.apart);
+    blur.alone = hidden & (blur.width > 1.0f);
+    blur.width = lom_select(hidden, lom_splat(1.0f), blur.width);
+    for (int i = 0; i < LOM_BLUR_PLACES / 2 && lom_any(blur.apart > 0.0f); i++)
+        hidden = hidden | lom_is_hidden(u, picture, p, hit, x, blur.apart * (((float)i + 0.5f) * u->pixel[1]));
+    blur.apart = lom_select(hidden, (lom_float){ 0 }, blur.apart);
+    return blur;
+}
+
+LOM_INLINE lom_float4 lom_blurred(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                  struct lom_hit hit, struct lom_blur blur)
+{
+    const float columns = (float)lom_texture_width(picture->color), rows = (float)lom_texture_height(picture->color);
+    lom_float lod = lom_log2(blur.width);
+    hit.s = lom_select(blur.alone, (lom_floor(hit.s * columns) + 0.5f) / columns, hit.s);
+    hit.t = lom_select(blur.alone, (lom_floor(hit.t * rows) + 0.5f) / rows, hit.t);
+    if (!lom_any(blur.apart > 0.0f))
+        return lom_sample(picture->color, hit.s, hit.t, lod);
+    lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
+    const float part = 1.0f / (float)LOM_BLUR_PLACES;
+    for (int i = 0; i < LOM_BLUR_PLACES; i++) {
+        lom_float at = blur.apart * (((float)i - 0.5f * (float)(LOM_BLUR_PLACES - 1)) * u->pixel[1]);
+        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t + at, lod);
+        sum = (lom_float4){ sum.x + texel.x * part, sum.y + texel.y * part, sum.z + texel.z * part,
+                            sum.w + texel.w * part };
+    }
+    return sum;
+}
+
+/* What lies beyond the edge of a picture is not known. Under water, where the bed or the shore's rim is everywhere, what is
+ * as far within stands for it; above, what is at the edge, mostly sky: no boat is seen twice. */
+LOM_INLINE lom_float lom_onto_picture(const struct lom_surface_uniforms *u, lom_float s)
+{
+    return u->side < 0 ? 1.0f - lom_abs(1.0f - lom_abs(s)) : s;
 }
 
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
@@ -152,8 +204,9 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     lom_float length = lom_clamp(further, (lom_float){ 0 }, lom_splat(100.0f)) * p->distance;
     length = lom_min(length, longest);
     struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, length)));
-    struct lom_hit hit = { at.w > 0.0f, length, lom_clamp(at.s, own.x - u->reach, own.x + u->reach),
-                           lom_clamp(at.t, own.y - u->reach, own.y + u->reach) };
+    struct lom_hit hit = { at.w > 0.0f, length,
+                           lom_onto_picture(u, lom_clamp(at.s, own.x - u->reach, own.x + u->reach)),
+                           lom_onto_picture(u, lom_clamp(at.t, own.y - u->reach, own.y + u->reach)) };
     lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > lom_before_surface(u, p));
     hit.s = lom_select(hidden, own.x, hit.s);
     hit.t = lom_select(hidden, own.y, hit.t);
@@ -207,9 +260,10 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
             hit.t = lom_select(met.found, met.t, hit.t);
             hit.found = hit.found | met.found;
         }
-        lom_float width = above ? lom_blur_width(u, variance, hit.length) : lom_splat(1.0f);
-        width = lom_clear_width(u, picture, p, hit, width);
-        lom_float4 texel = lom_sample(picture->color, hit.s, hit.t, lom_log2(width));
+        struct lom_blur blur = { lom_splat(1.0f), { 0 }, { 0 } };
+        if (above)
+            blur = lom_clear_blur(u, picture, p, hit, lom_blur_of(u, variance, hit.length));
+        lom_float4 texel = lom_blurred(u, picture, hit, blur);
         share = lom_select(hit.found, texel.w, (lom_float){ 0 });
         color = lom_scale3((lom_float3){ texel.x, texel.y, texel.z },
                            lom_select(hit.found, lom_splat(1.0f), (lom_float){ 0 }));
@@ -219,55 +273,6 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
         return lom_cross_water(&u->medium, color, length, (lom_float){ 0 }, -d.y);
     lom_float3 sky = lom_sky_radiance(&u->sky, d, variance);
     return lom_add3(color, lom_scale3(sky, 1.0f - share));
-}
-
-/* ---- foam ---- */
-
-/* How much of the point foam covers: what broke, and the shore, through a pattern. */
-LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
-                                    const struct lom_footprint *f)
-{
-    const struct lom_foam_uniform *foam = &u->foam;
-    lom_float cover = p->slopes.foam * foam->amount;
-    if (foam->shore_depth > 0 && u->behind.depth != NULL && u->side > 0) {
-        lom_float2 own = lom_own_place(&u->behind, p);
-        lom_float further = lom_picture_w(u, &u->behind, own.x, own.y) / p->w - 1.0f;
-        lom_float depth = lom_max(further, (lom_float){ 0 }) * -p->path.y;
-        lom_float band = lom_saturate(1.0f - lom_abs(depth) / foam->shore_depth);
-        lom_float lines = 0.5f + 0.5f * lom_sin(12.0f * band - (float)lom_two_pi * foam->move);
-        cover = cover + band * band * (0.55f + 0.45f * lines);
-    }
-    if (!lom_any(cover > 0.0f))
-        return (lom_float){ 0 };
-    lom_float s = p->offset.x * foam->inverse_tile + foam->shift[0];
-    lom_float t = p->offset.z * foam->inverse_tile + foam->shift[1];
-    lom_float lod = lom_wave_lod(foam->pattern, f, foam->inverse_tile);
-    lom_float grain = lom_sample(foam->pattern, s, t, lod).x;
-    return lom_smoothstep(lom_splat(0.0f), lom_splat(0.45f), lom_min(cover, lom_splat(1.2f)) - 1.0f + grain);
-}
-
-LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
-{
-    lom_float3 light = { { 0 }, { 0 }, { 0 } }, to_lamp;
-    lom_float share;
-    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset);
-    for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {
-        if (!lom_lamp_share(&walk, lamp, &to_lamp, &share))
-            continue;
-        lom_float lambert = lom_max(lom_dot3(p->normal, to_lamp), (lom_float){ 0 }) * share;
-        light = lom_add3(light, lom_add3(lom_scale3(lom_uniform3(lamp->ambient), share),
-                                         lom_scale3(lom_uniform3(lamp->diffuse), lambert)));
-    }
-    return light;
-}
-
-LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
-{
-    lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->offset);
-    lom_float3 light = lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert));
-    if (u->light.lamps != NULL)
-        light = lom_add3(light, lom_lamps_on_foam(u, p));
-    return lom_scale3(light, lom_splat(0.8f));
 }
 
 /* ---- all of it ---- */

@@ -216,6 +216,58 @@ static void the_mesh_closes_and_reaches_the_corners(void)
     lom_free_polar_mesh(&mesh);
 }
 
+static bool is_on_edge(const double quad[4], double x, double z)
+{
+    bool inside = x >= quad[0] - 0.01 && x <= quad[2] + 0.01 && z >= quad[1] - 0.01 && z <= quad[3] + 0.01;
+    return inside &&
+           (near(x, quad[0], 0.01) || near(x, quad[2], 0.01) || near(z, quad[1], 0.01) || near(z, quad[3], 0.01));
+}
+
+static void find_end(const struct lom_polar_mesh *mesh, int column, float radius, double out[2])
+{
+    out[0] = mesh->apex[0] + (double)radius * mesh->cosine[column];
+    out[1] = mesh->apex[1] + (double)radius * mesh->sine[column];
+}
+
+/* Rings of calm water are kilometres apart. The outermost one is the edge of the quad all the same, corners and all: also
+ * halfway between two columns. So is the innermost one where the eye is outside of the quad. */
+static void the_outline_is_that_of_the_quad(void)
+{
+    static const double quads[][4] = {
+        { -3000, -3000, 3000, 3000 }, { -40, -2000, 2500, 35 }, { 200, -150, 500, 100 }, { 50, 300, 350, 2000 }
+    };
+    struct lom_polar_mesh mesh = { .rings = 0 };
+    for (size_t i = 0; i < sizeof quads / sizeof quads[0]; i++) {
+        struct lom_polar_mesh_desc desc = { .projection = lom_perspective(1.2, 1.6, 0.1),
+                                            .view = lom_look_at((lom_vec3){ 0, 3, 0 }, (lom_vec3){ 1, 3, 0.3 },
+                                                                (lom_vec3){ 0, 1, 0 }),
+                                            .level = -3,
+                                            .near_plane = 0.1,
+                                            .cell = 6,
+                                            .pixel_angle = 0.001 };
+        lom_error error = { 0 };
+        memcpy(desc.quad, quads[i], sizeof desc.quad);
+        CHECK(lom_fill_polar_mesh(&mesh, &desc, &error), "%s", error.text);
+        int seen = 0;
+        for (int c = 0; c + 1 < mesh.columns; c++) {
+            double a[2], b[2];
+            find_end(&mesh, c, mesh.farthest[c], a);
+            find_end(&mesh, c + 1, mesh.farthest[c + 1], b);
+            if (!(mesh.nearest[c] < mesh.farthest[c]) || !(mesh.nearest[c + 1] < mesh.farthest[c + 1]))
+                continue; /* beside the quad */
+            seen++;
+            CHECK(mesh.farthest[c] <= mesh.radius[mesh.rings - 1], "quad %zu: no ring is at the end of column %d", i,
+                  c);
+            CHECK(is_on_edge(desc.quad, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2), "quad %zu: column %d cuts a corner", i,
+                  c);
+            find_end(&mesh, c, mesh.nearest[c], a);
+            CHECK(mesh.nearest[c] == 0 || is_on_edge(desc.quad, a[0], a[1]), "quad %zu: column %d begins within", i, c);
+        }
+        CHECK(seen > 30, "quad %zu: %d columns are in it", i, seen);
+    }
+    lom_free_polar_mesh(&mesh);
+}
+
 /* Waves grow and fall, and cells change: what is kept of the mesh of the frame before shows nowhere. */
 static void a_mesh_is_that_of_its_frame_alone(void)
 {
@@ -257,6 +309,7 @@ int main(int argc, char **argv)
     RUN(phases_are_exact_after_years);
     RUN(bounds_and_height_hold);
     RUN(the_mesh_closes_and_reaches_the_corners);
+    RUN(the_outline_is_that_of_the_quad);
     RUN(a_mesh_is_that_of_its_frame_alone);
     return check_result();
 }

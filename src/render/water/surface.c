@@ -24,9 +24,14 @@ static bool fill_mesh(struct surface *surface, struct frame *f, lom_error *error
                                         .pixel_angle = (double)u->eye.pixel };
     if (!lom_fill_polar_mesh(mesh, &desc, error))
         return false;
-    u->mesh =
-        (struct lom_polar_mesh_uniform){ mesh->radius, mesh->spacing, mesh->cosine,
-                                         mesh->sine,   mesh->columns, { (float)mesh->apex[0], (float)mesh->apex[1] } };
+    u->mesh = (struct lom_polar_mesh_uniform){ .radius = mesh->radius,
+                                               .spacing = mesh->spacing,
+                                               .cosine = mesh->cosine,
+                                               .sine = mesh->sine,
+                                               .nearest = mesh->nearest,
+                                               .farthest = mesh->farthest,
+                                               .columns = mesh->columns,
+                                               .apex = { (float)mesh->apex[0], (float)mesh->apex[1] } };
     return true;
 }
 

@@ -9,8 +9,9 @@ static lom_rect lookups(const struct frame *f, const struct lom_window *window, 
 {
     lom_rect r = lom_water_reach(f, window, f->scene->water.optics.reach, lom_texture_width(picture),
                                  lom_texture_height(picture));
-    /* Levels of detail: a lookup reads texels up to two of the coarsest level away. */
-    int more = 3 << LOM_BLUR_LEVELS, x1 = r.x + r.width + more, y1 = r.y + r.height + more;
+    /* Levels of detail: a lookup reads texels up to two of the coarsest level away, and of places that are up to two
+     * apart. */
+    int more = (3 + LOM_BLUR_PLACES) << LOM_BLUR_LEVELS, x1 = r.x + r.width + more, y1 = r.y + r.height + more;
     r.x = r.x > more ? r.x - more : 0;
     r.y = r.y > more ? r.y - more : 0;
     r.width = (x1 < lom_texture_width(picture) ? x1 : lom_texture_width(picture)) - r.x;

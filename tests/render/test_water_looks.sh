@@ -1,0 +1,55 @@
+#!/bin/sh
+# Proves of water with waves what the eye saw wrong once, by numbers of pictures: a still surface is the same on the mesh
+# as on two triangles, at the horizon and at its corners; no pixel of it is much darker than all that are beside it; what
+# it mirrors has no teeth; the foam of a far shore is one line; outside of Snell's window nothing is drawn out in streaks.
+. "$(dirname "$0")/render.sh"
+scenes=assets/scenes
+flat() { # SCENE and options: largest difference of the mesh and the two triangles, in levels
+    for model in displaced normal_map; do
+        "$lom" render "$scenes/$1" --size 320x180 --set quality.water=$model -o "$folder/$model.ppm" -q ${2:+$2 $3 $4 $5 $6 $7 $8 $9}
+    done
+    "$lom" compare "$folder/displaced.ppm" "$folder/normal_map.ppm" --json | sed 's/.*"max_delta": \([0-9]*\).*/\1/'
+}
+why=
+for view in "gale.toml --set water.waves.wind_level=calm" "swell.toml --set water.waves.height=0 --set camera.yaw=0" \
+    "swell.toml --set water.waves.height=0 --set camera.yaw=45 --set water.size=[300,300]"; do
+    # shellcheck disable=SC2086
+    most=$(flat $view)
+    [ "${most:-99}" -le 4 ] || why="$view differ by $most"
+done
+verdict still_water_ends_where_its_quad_does "$why"
+
+# Of a crop's gray: pixels that are $2 levels darker than their 8 neighbours, that are as far from both beside them to the
+# same side, that are as the one above, and that are as much lighter than the one above and the one below.
+count() { # dark|teeth|streaks|dashes LEVELS SCENE --size WxH --crop X,Y,W,H and options
+    what=$1 levels=$2 scene=$3
+    shift 3
+    "$lom" render "$scenes/$scene" "$@" -q -o "$folder/crop.ppm" && "$lom" convert "$folder/crop.ppm" "$folder/crop.pgm" &&
+        python3 - "$folder/crop.pgm" "$what" "$levels" <<'CODE'
+import sys
+data = open(sys.argv[1], "rb").read()
+width, height = map(int, data.split(None, 4)[1:3])
+rows = [data[len(data) - width * (height - y):][:width] for y in range(height)]
+what, levels, found = sys.argv[2], int(sys.argv[3]), 0
+for y in range(1, height - 1):
+    for x in range(1, width - 1):
+        c, beside = rows[y][x], (rows[y][x - 1], rows[y][x + 1])
+        around = beside + tuple(rows[y + j][x + i] for j in (-1, 1) for i in (-1, 0, 1))
+        found += {"dark": c <= min(around) - levels, "streaks": abs(c - rows[y - 1][x]) < levels,
+                  "teeth": c <= min(beside) - levels or c >= max(beside) + levels,
+                  "dashes": c >= max(rows[y - 1][x], rows[y + 1][x]) + levels}[what]
+print(found)
+CODE
+}
+few() { # name, how many at most, what count takes
+    name=$1 most=$2
+    shift 2
+    found=$(count "$@")
+    [ "${found:-999999}" -le "$most" ] && why= || why="$found, at most $most: $*"
+    verdict "$name" "$why"
+}
+few what_a_rough_sea_mirrors_is_no_single_pixels 12 dark 8 sunset.toml --size 640x360 --crop 10,200,200,110
+few crests_far_away_are_no_single_pixels 8 teeth 4 surf.toml --frame 60 --size 960x540 --crop 540,206,420,30
+few the_mirror_has_no_teeth 20 teeth 12 cove.toml --frame 30 --size 1280x720 --crop 850,370,300,100
+few a_far_shore_is_no_dashes 35 dashes 40 surf.toml --frame 60 --size 960x540 --crop 205,225,60,40
+few outside_of_the_window_nothing_is_drawn_out 200 streaks 1 reef.toml --size 640x360 --crop 578,0,50,24

@@ -1,0 +1,54 @@
+/* Proves the foam of a shore at every width: where a pixel holds one depth it is that of the depth, where it holds more
+ * the mean over them; of a shore that is narrower than a pixel it is the shore's share, wherever in the pixel that lies. */
+#include "check.h"
+
+#include "water/foam_cover.h"
+
+static const struct lom_foam_uniform foam = { .shore_depth = 0.5f, .move = 0.3f };
+
+static double foam_at(double middle, double range, double cover)
+{
+    struct lom_depths depths = { lom_splat((float)middle), lom_splat((float)range) };
+    lom_mask shore = lom_abs(depths.middle) < foam.shore_depth + 0.5f * depths.range;
+    return lom_shore_foam(&foam, depths, shore, lom_splat((float)cover), lom_splat(0.7f))[LOM_LANES - 1];
+}
+
+/* Fine sums over a pixel's depths, of which the four places of the shader are an approximation. */
+static double mean_of(double middle, double range, double cover)
+{
+    const int count = 4000;
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += foam_at(middle + range * ((i + 0.5) / count - 0.5), 0, cover);
+    return sum / count;
+}
+
+static void a_pixel_of_one_depth_has_its_foam(void)
+{
+    for (int i = -20; i <= 20; i++) {
+        double depth = 0.04 * i, whole = foam_at(depth, 0, 0), narrow = foam_at(depth, 2e-3, 0);
+        CHECK(whole - narrow < 0.05 && narrow - whole < 0.05, "depth %g: %g, of a range %g", depth, whole, narrow);
+        CHECK((depth >= 0.5 || depth <= -0.5) ? whole == 0 : whole >= 0, "depth %g: %g", depth, whole);
+        CHECK(foam_at(depth, 0, 2) == 1, "under foam that covers all: %g", foam_at(depth, 0, 2));
+    }
+}
+
+static void a_narrow_shore_is_its_share(void)
+{
+    for (int k = 0; k < 6; k++) {
+        double range = 1.5 * (1 << k), all = mean_of(0, range, 0);
+        for (int i = -8; i <= 8; i++) {
+            double middle = (range / 2 - 0.5) * i / 8, here = foam_at(middle, range, 0);
+            CHECK(here - all < 0.12 * all + 1e-3 && all - here < 0.12 * all + 1e-3,
+                  "a range of %g about %g: %g, the mean is %g", range, middle, here, all);
+        }
+        CHECK(foam_at(range, range, 0) == 0, "beyond the shore: %g", foam_at(range, range, 0));
+    }
+}
+
+int main(int argc, char **argv)
+{
+    RUN(a_pixel_of_one_depth_has_its_foam);
+    RUN(a_narrow_shore_is_its_share);
+    return check_result();
+}
