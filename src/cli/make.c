@@ -119,16 +119,26 @@ static bool make_sky_box(const recipe *r, const parameters *p, const char *path,
     return done;
 }
 
-/* The textures that the mesh names, in the folder that is the first characters of path; all of them belong to the seed
- * of the table. */
+/* The picture of a map that a mesh names, in the folder that is the first characters of path: the texture of that name,
+ * which belongs to the seed of the table. */
+static bool write_texture(const char *map, const char *path, int folder, lom_error *error)
+{
+    char *name = lom_path_print(error, "%.*s%s", folder, path, map);
+    char *texture = lom_path_print(error, "%.*s", (int)strcspn(map, "."), map);
+    lom_albedo_desc desc = { .name = texture, .seed = 1 };
+    bool done = name != NULL && texture != NULL && write_and_free(name, lom_make_albedo(&desc, error), error);
+    lom_release(name);
+    lom_release(texture);
+    return done;
+}
+
 static bool write_textures(const lom_mesh *mesh, const char *path, int folder, lom_error *error)
 {
     bool done = true;
-    for (size_t i = 0; done && i < mesh->material_count; i++) {
-        char *name = lom_path_print(error, "%.*s%s", folder, path, mesh->materials[i].diffuse_map);
-        lom_albedo_desc desc = { .name = mesh->materials[i].name, .seed = 1 };
-        done = name != NULL && write_and_free(name, lom_make_albedo(&desc, error), error);
-        lom_release(name);
+    for (size_t i = 0; i < mesh->material_count; i++) {
+        const lom_material *m = &mesh->materials[i];
+        done = done && (m->diffuse_map[0] == 0 || write_texture(m->diffuse_map, path, folder, error)) &&
+               (m->emissive_map[0] == 0 || write_texture(m->emissive_map, path, folder, error));
     }
     return done;
 }
@@ -192,6 +202,13 @@ static const recipe recipes[] = {
     { "entity", "stones", "entities/stones.obj", make_entity, { .seed = 1 } },
     { "entity", "reeds", "entities/reeds.obj", make_entity, { .seed = 1 } },
     { "entity", "aircraft", "entities/aircraft.obj", make_entity, { .seed = 1 } },
+    { "entity", "lit_cabin", "entities/lit_cabin.obj", make_entity, { .seed = 1 } },
+    { "entity", "lantern", "entities/lantern.obj", make_entity, { .seed = 1 } },
+    { "entity", "lamp_post", "entities/lamp_post.obj", make_entity, { .seed = 1 } },
+    { "entity", "fire", "entities/fire.obj", make_entity, { .seed = 1 } },
+    { "entity", "ball", "entities/ball.obj", make_entity, { .seed = 1 } },
+    { "entity", "bowl", "entities/bowl.obj", make_entity, { .seed = 1 } },
+    { "entity", "slab", "entities/slab.obj", make_entity, { .seed = 1 } },
 };
 enum { RECIPE_COUNT = sizeof recipes / sizeof recipes[0] };
 

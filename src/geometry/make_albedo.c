@@ -92,11 +92,22 @@ static const struct albedo {
     int size; /* when none is asked for */
     void (*paint)(lom_canvas *canvas);
 } albedos[] = {
-    { "grass", 512, lom_paint_grass },   { "forest", 512, lom_paint_forest },   { "rock", 512, lom_paint_rock },
-    { "shore", 512, lom_paint_shore },   { "snow", 256, lom_paint_snow },       { "planks", 256, lom_paint_planks },
-    { "paint", 256, lom_paint_paint },   { "log", 256, lom_paint_log },         { "shingles", 256, lom_paint_shingles },
-    { "bark", 256, lom_paint_bark },     { "masonry", 256, lom_paint_masonry }, { "needles", 256, lom_paint_needles },
-    { "reed", 128, lom_paint_reed },     { "window", 128, lom_paint_window },   { "stone", 256, lom_paint_rock },
+    { "grass", 512, lom_paint_grass },
+    { "forest", 512, lom_paint_forest },
+    { "rock", 512, lom_paint_rock },
+    { "shore", 512, lom_paint_shore },
+    { "snow", 256, lom_paint_snow },
+    { "planks", 256, lom_paint_planks },
+    { "paint", 256, lom_paint_paint },
+    { "log", 256, lom_paint_log },
+    { "shingles", 256, lom_paint_shingles },
+    { "bark", 256, lom_paint_bark },
+    { "masonry", 256, lom_paint_masonry },
+    { "needles", 256, lom_paint_needles },
+    { "reed", 128, lom_paint_reed },
+    { "window", 128, lom_paint_window },
+    { "lit_window", 128, lom_paint_lit_window },
+    { "stone", 256, lom_paint_rock },
     { "livery", 512, lom_paint_livery },
 };
 

@@ -9,9 +9,14 @@ static const struct entity {
     void (*build)(lom_mesh_builder *builder, uint64_t seed);
     double units; /* coordinates are multiples of 1 / units */
 } entities[] = {
-    { "boat", lom_build_boat, 1000 },     { "jetty", lom_build_jetty, 1000 }, { "cabin", lom_build_cabin, 1000 },
-    { "spruce", lom_build_spruce, 100 },  { "pine", lom_build_pine, 100 },    { "boulder", lom_build_boulder, 1000 },
-    { "stones", lom_build_stones, 1000 }, { "reeds", lom_build_reeds, 1000 }, { "aircraft", lom_build_aircraft, 1000 },
+    { "boat", lom_build_boat, 1000 },         { "jetty", lom_build_jetty, 1000 },
+    { "cabin", lom_build_cabin, 1000 },       { "spruce", lom_build_spruce, 100 },
+    { "pine", lom_build_pine, 100 },          { "boulder", lom_build_boulder, 1000 },
+    { "stones", lom_build_stones, 1000 },     { "reeds", lom_build_reeds, 1000 },
+    { "aircraft", lom_build_aircraft, 1000 }, { "lit_cabin", lom_build_lit_cabin, 1000 },
+    { "lantern", lom_build_lantern, 1000 },   { "lamp_post", lom_build_lamp_post, 1000 },
+    { "fire", lom_build_fire, 1000 },         { "ball", lom_build_ball, 1000 },
+    { "bowl", lom_build_bowl, 1000 },         { "slab", lom_build_slab, 1000 },
 };
 
 const char *lom_entity_name(size_t index)

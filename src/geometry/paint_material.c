@@ -208,6 +208,14 @@ void lom_paint_reed(lom_canvas *c)
 }
 
 /* Four panes in a white frame; the sky's brightness in old glass. */
+/* 1 on the four panes of a window, 0 on its frame. */
+static double pane_at(double u, double v)
+{
+    double a = u < 0.5 ? u : 1 - u, b = v < 0.5 ? v : 1 - v;
+    return lom_smooth_step(0.09, 0.11, a) * lom_smooth_step(0.48, 0.46, a) * lom_smooth_step(0.09, 0.11, b) *
+           lom_smooth_step(0.48, 0.46, b);
+}
+
 void lom_paint_window(lom_canvas *c)
 {
     const lom_tint frame = lom_tint_of(206, 198, 180), glass = lom_tint_of(44, 58, 68),
@@ -215,11 +223,24 @@ void lom_paint_window(lom_canvas *c)
     for (int y = 0; y < c->size; y++)
         for (int x = 0; x < c->size; x++) {
             double u = (x + 0.5) / c->size, v = (y + 0.5) / c->size;
-            double a = u < 0.5 ? u : 1 - u, b = v < 0.5 ? v : 1 - v;
-            double pane = lom_smooth_step(0.09, 0.11, a) * lom_smooth_step(0.48, 0.46, a) *
-                          lom_smooth_step(0.09, 0.11, b) * lom_smooth_step(0.48, 0.46, b);
+            double pane = pane_at(u, v);
             double gleam = lom_smooth_step(0.9, 0.2, v + 0.5 * (u - 0.5) + 0.25 * wavy(c, u, v, 4, 3, 0.1));
             double worn = 1 + 0.2 * grain_at(c, u, v, 0.4);
             lom_put_tint(c, x, y, lom_mix_tint(lom_scale_tint(frame, worn), lom_mix_tint(glass, bright, gleam), pane));
+        }
+}
+
+/* The light in it: a lamp within, low in the middle, behind curtains at the sides. */
+void lom_paint_lit_window(lom_canvas *c)
+{
+    const lom_tint dark = lom_tint_of(0, 0, 0), dim = lom_tint_of(176, 120, 62), bright = lom_tint_of(255, 226, 160);
+    for (int y = 0; y < c->size; y++)
+        for (int x = 0; x < c->size; x++) {
+            double u = (x + 0.5) / c->size, v = (y + 0.5) / c->size, side = u - 0.5, low = v - 0.62;
+            double lamp = lom_smooth_step(0.62, 0.0, lom_double_sqrt(side * side + 0.7 * low * low));
+            double curtain = lom_smooth_step(0.22, 0.34, side < 0 ? -side : side);
+            double fold = 1 - 0.28 * curtain * (0.5 + 0.5 * lom_double_sin(78 * u + wavy(c, u, v, 2, 2, 0.6)));
+            lom_tint light = lom_scale_tint(lom_mix_tint(dim, bright, lamp), (1 - 0.25 * curtain) * fold);
+            lom_put_tint(c, x, y, lom_mix_tint(dark, light, pane_at(u, v)));
         }
 }
