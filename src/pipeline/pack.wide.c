@@ -151,8 +151,9 @@ void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
             LOM_WIDE(lom_test_entry_samples)(tile, before);
         else if (tile->tests_early)
             test_entries(tile);
-        tile->fragments += (uint64_t)(list->count - before);
-        if (tile->rejects_early)
+        if (tile->pass->samples == 1)
+            tile->fragments += (uint64_t)(list->count - before);
+        if (tile->rejects_early && tile->pass->samples == 1)
             test_entries(tile);
         if (shades)
             shade_entries(tile, false);

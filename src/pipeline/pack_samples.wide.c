@@ -89,7 +89,8 @@ LOM_INLINE void test_row(struct lom_tile *tile, const struct packed *p, int firs
         covered[k] &= lom_compare_depth(draw->compare, units[k], before[k]);
 }
 
-/* Samples and place of LOM_LANES entries, as list_samples holds them. Of `count` samples, which the callers know. */
+/* Samples and place of LOM_LANES entries, as list_samples holds them. Of `count` samples, which the callers know. Counts the
+ * fragments: what the early test leaves, or, where it only spares the shader what fails after it, all. */
 LOM_INLINE lom_int find_samples(struct lom_tile *tile, const struct packed *p, int count)
 {
     const struct entry_edges centre = find_entry_edges(&tile->list, p);
@@ -107,10 +108,14 @@ LOM_INLINE lom_int find_samples(struct lom_tile *tile, const struct packed *p, i
         weigh_entries(&e, l);
         units[s] = lom_depth_units(tile->pass, interpolate_entries(&plane, l));
     }
-    for (int first = 0; first < count && tile->tests_early; first += 4)
+    lom_mask counted = { 0 };
+    for (int s = 0; s < count && tile->rejects_early; s++)
+        counted |= covered[s];
+    for (int first = 0; first < count && (tile->tests_early || tile->rejects_early); first += 4)
         test_row(tile, p, first, count - first < 4 ? count - first : 4, covered + first, units + first);
     for (int s = 0; s < count; s++)
         samples |= covered[s] & 1 << s;
+    tile->fragments += lom_count(tile->rejects_early ? counted : samples != 0);
     return samples | place << ENTRY_PLACE;
 }
 

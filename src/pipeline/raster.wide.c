@@ -95,7 +95,7 @@ static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *dr
 {
     bool stays = !draw->depth_write || (draw->compare != LOM_COMPARE_NOT_EQUAL && draw->compare != LOM_COMPARE_ALWAYS);
     return tile->depth != NULL && draw->late_depth && !draw->desc.shader->writes_depth && stays &&
-           !tile->pass->one_by_one && tile->pass->samples == 1;
+           !tile->pass->one_by_one && !draw->desc.per_sample;
 }
 
 static void raster_alone(struct lom_tile *tile, int32_t number)

@@ -172,21 +172,24 @@ static lom_float depth_of(const struct lom_tile *tile, const struct sampled *g, 
     return z;
 }
 
-/* Depths at the samples, and their early test. */
+/* The early test of the depths at the samples. */
 static void test_samples(struct lom_tile *tile, const struct sampled *g, const struct at *at, struct coverage *c,
-                         lom_float depth[LOM_MAX_SAMPLES])
+                         const lom_float depth[LOM_MAX_SAMPLES])
+{
+    lom_test_sample_depths(tile, pixels_of(tile, at), c->lanes, depth);
+    c->any = (lom_mask){ 0 };
+    for (int s = 0; s < g->samples; s++)
+        c->any |= c->lanes[s];
+}
+
+static void find_depths(const struct lom_tile *tile, const struct sampled *g, const struct at *at,
+                        lom_float depth[LOM_MAX_SAMPLES])
 {
     for (int s = 0; s < g->samples; s++) {
         lom_float l[3];
         weigh(g, at, s, l);
         depth[s] = depth_of(tile, g, l);
     }
-    if (!tile->tests_early)
-        return;
-    lom_test_sample_depths(tile, pixels_of(tile, at), c->lanes, depth);
-    c->any = (lom_mask){ 0 };
-    for (int s = 0; s < g->samples; s++)
-        c->any |= c->lanes[s];
 }
 
 /* Where fragments are shaded: at the centre where that is covered (in whole quads everywhere), else at the first sample that
@@ -253,9 +256,13 @@ static void raster_part(struct lom_tile *tile, const struct sampled *g, const st
     if (shades && !each)
         place_shading(tile, g, at, &c, &f);
     if (tile->depth != NULL || draw->queues_depth)
+        find_depths(tile, g, at, depth);
+    if (tile->tests_early)
         test_samples(tile, g, at, &c, depth);
     if (!each || !shades)
         tile->fragments += lom_count(c.any);
+    if (tile->rejects_early)
+        test_samples(tile, g, at, &c, depth);
     if (!shades || !lom_any(c.any))
         return;
     f.triangle = lom_splat_int(g->number);

@@ -5,7 +5,8 @@
 
 #include "pipeline/packet.h"
 
-/* Early depth test of LOM_LANES different pixels: leaves of covered[s] the lanes that pass at sample s. */
+/* Early depth test of LOM_LANES different pixels: leaves of covered[s] the lanes that pass at sample s. Of draws that are
+ * tested after their shader nothing is written. */
 LOM_INLINE void lom_test_sample_depths(struct lom_tile *tile, lom_int pixel, lom_mask *covered, const lom_float *depth)
 {
     const struct lom_draw *draw = tile->draw;
@@ -22,7 +23,7 @@ LOM_INLINE void lom_test_sample_depths(struct lom_tile *tile, lom_int pixel, lom
             covered[first + k] = passed;
             any |= passed;
         }
-        if (draw->depth_write && lom_any(any))
+        if (draw->depth_write && !draw->late_depth && lom_any(any))
             lom_scatter_rows(tile->depth, at, (lom_float4){ stored[0], stored[1], stored[2], stored[3] });
     }
 }
