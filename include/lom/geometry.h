@@ -133,17 +133,19 @@ typedef struct lom_material {
     char emissive_map[256], specular_map[256], gloss_map[256], normal_map[256]; /* likewise */
 } lom_material;
 
-typedef struct lom_mesh_part { /* triangles of one material, in file order */
+typedef struct lom_mesh_part { /* triangles (or lines, or points) of one material, in file order */
     uint32_t first_index, index_count;
     int material; /* index into materials, -1 for none */
 } lom_mesh_part;
 
 typedef struct lom_mesh {
     lom_mesh_vertex *vertices;
-    uint32_t *indices; /* triangles, counter-clockwise from the front */
-    lom_mesh_part *parts;
+    uint32_t *indices;    /* triangles, counter-clockwise from the front; behind them lines, two each; then points */
+    lom_mesh_part *parts; /* of the triangles, behind them those of the lines, then of the points */
     lom_material *materials;
-    size_t vertex_count, index_count, part_count, material_count;
+    size_t vertex_count, index_count, part_count, material_count; /* indices, parts: of the triangles alone */
+    size_t line_index_count, point_count;                         /* indices of lines, of points */
+    size_t line_part_count, point_part_count;
     size_t source_triangles; /* n - 2 for every polygon of the source */
     lom_warnings warnings;   /* what a lenient reader passed over */
 } lom_mesh;
@@ -151,6 +153,14 @@ typedef struct lom_mesh {
 /* A mesh with zeroed arrays of these lengths, for callers that fill it themselves. At most 2^32 - 1 vertices and
  * indices, 2^31 - 1 parts and materials. */
 lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t materials, lom_error *error);
+typedef struct lom_mesh_counts { /* lengths of a mesh's arrays, as lom_mesh has them */
+    size_t vertices, indices, line_indices, points, parts, line_parts, point_parts, materials;
+} lom_mesh_counts;
+
+/* The same with lines and points; the limits are of the sums. */
+lom_mesh *lom_create_mesh_of(const lom_mesh_counts *counts, lom_error *error);
+/* The parts of all kinds: how many mesh->parts has. */
+size_t lom_mesh_parts(const lom_mesh *mesh);
 /* NULL is allowed. */
 void lom_free_mesh(lom_mesh *mesh);
 /* White diffuse, 0.2 ambient, no specular, no light of its own, shininess 1, opaque, bump 1, no map; name is cut to 63 bytes. */
@@ -161,16 +171,17 @@ lom_material lom_default_material(const char *name);
  * v x y z [w] [r g b]: w weighs free-form curves and is ignored. vt u [v [w]]. vn as the file has it, not normalised.
  * f in its four forms, negative indices count back from the statement, positive ones may point forward. A polygon is
  * cut by ear clipping in the plane of its normal into n - 2 triangles, always. Corners with equal (v, vt, vn) become
- * one vertex; vertices are numbered by first use in triangles. A backslash at the end of a line continues it. '#' at
+ * one vertex; vertices are numbered by first use in triangles, then in lines, then in points. l joins each vertex to the one
+ * before it, a segment each; p is a point a vertex; both have v, v/vt and, as faces do, v/vt/vn. A backslash at the end of a line continues it. '#' at
  * the start of a word begins a comment, but the names of materials and files go on to the end of their line ("Material
  * #25"); a comment behind one is told from it when what stands before '#' is a material or file that is there, or, for
  * a map, ends with an extension; and a material that is used and that no file defines is the one whose name it is before
  * a comment ("usemtl red", "newmtl red # warm"), when there is one such. Other statements (g, o, s) are passed over.
  * Missing normals: the normalised sum of the unit normals of all faces (polygons, not triangles) that share the v; the
- * first of these faces decides where the sum is 0, and (0, 1, 0) where all are degenerate.
- * mesh->warnings tells, once for each sort with its number: points, lines and curves, which are passed over; faces of
- * fewer than 3 corners, passed over; normals and texture coordinates that a face names and the file lacks, taken as not
- * named; a file without faces, whose mesh has all its positions as vertices (normals 0, 1, 0) and no triangle;
+ * first of these faces decides where the sum is 0, and (0, 1, 0) where all are degenerate or there is none.
+ * mesh->warnings tells, once for each sort with its number: curves and surfaces, which are passed over; faces of
+ * fewer than 3 corners and lines of fewer than 2, passed over; normals and texture coordinates that a face names and the file lacks, taken as not
+ * named; a file without faces, lines and points, whose mesh has all its positions as vertices (normals 0, 1, 0) and nothing else;
  * materials that no file defines, which get lom_default_material; MTL files that cannot be opened; in MTL, newmtl
  * without a name, statements before the first newmtl, maps without a file. A material defined again replaces the first.
  * MTL: newmtl Ka Kd Ks Ke Ns d Tr map_Kd map_Ks map_Ke map_Ns map_Bump (bump, norm; with -bm), the rest passed
@@ -192,7 +203,7 @@ lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, l
  * exist or not, and of the maps in them; one after the other, each ended by a zero byte (size 0: none). As far as the
  * files are well formed. Freed with lom_release. */
 lom_bytes lom_list_obj_files(const char *path, lom_error *error);
-/* Writes positions, uv, normals and usemtl groups, numbers as lom_print_float; material_file (may be NULL) goes to
+/* Writes positions, uv, normals and usemtl groups (faces, then l, then p), numbers as lom_print_float; material_file (may be NULL) goes to
  * mtllib. Colours are written when any is not 1, 1, 1 (alpha never). Reading it back gives the same mesh when its
  * vertices are numbered by first use, but for uv below 2^-30. Fails for numbers that are not finite. */
 lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_error *error);
@@ -233,6 +244,10 @@ lom_mesh *lom_make_torus(double major, double minor, int columns, int rows, lom_
 lom_mesh *lom_make_cylinder(double bottom, double top, double height, int slices, lom_error *error);
 
 /* ---- working on meshes ---- */
+
+/* The edges of its triangles, each once (vertices at equal positions count as one): two indices of vertices each, in the
+ * order of first mention. *count: of indices. NULL on failure; freed with lom_release. */
+uint32_t *lom_mesh_edges(const lom_mesh *mesh, size_t *count, lom_error *error);
 
 /* Of all vertices; empty (low > high) when there are none. */
 lom_box lom_mesh_bounds(const lom_mesh *mesh);

@@ -31,10 +31,10 @@ static const lom_command_line line = {
     .details =
         "Meshes are *.obj, scenes *.toml, anything else is read as a picture, a volume, a cube (of six faces) or an\n"
         "array (of pictures of one size), with the mip levels that the file holds. Triangles count n - 2 a\n"
-        "polygon; vertices are those left after equal corners became one; bounds are the lowest and the highest x, y\n"
-        "and z. What a lenient reader passed over is told as warnings. The\n"
-        "hash of an image covers its size, its format and its samples; that of a mesh its vertices, its triangles and\n"
-        "their materials; that of a scene the bytes of all its files.",
+        "polygon, lines n - 1 a polyline; vertices are those left after equal corners became one; bounds are the\n"
+        "lowest and the highest x, y and z. What a lenient reader passed over is told as warnings. The hash of an\n"
+        "image covers its size, its format and its samples; that of a mesh its vertices, its triangles, lines and\n"
+        "points and their materials; that of a scene the bytes of all its files.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
@@ -45,7 +45,7 @@ static const lom_command_line line = {
 /* What is known of a file; -1 is what its kind does not have. */
 struct facts {
     const char *file, *kind, *format;
-    int64_t width, height, depth, levels, channels, bits, vertices, triangles, materials, warnings;
+    int64_t width, height, depth, levels, channels, bits, vertices, triangles, lines, points, materials, warnings;
     lom_box bounds; /* of a mesh */
     uint64_t hash;
 };
@@ -76,9 +76,10 @@ static uint64_t hash_mesh(const lom_mesh *mesh)
         hash = hash_floats(hash, vertex->uv, 2);
         hash = hash_floats(hash, vertex->color, 4);
     }
-    for (size_t i = 0; i < mesh->index_count; i++)
+    const size_t indices = mesh->index_count + mesh->line_index_count + mesh->point_count;
+    for (size_t i = 0; i < indices; i++)
         hash = hash_word(hash, mesh->indices[i]);
-    for (size_t i = 0; i < mesh->part_count; i++) {
+    for (size_t i = 0; i < lom_mesh_parts(mesh); i++) {
         hash = hash_word(hash, mesh->parts[i].first_index);
         hash = hash_word(hash, mesh->parts[i].index_count);
         hash = hash_word(hash, (uint32_t)mesh->parts[i].material);
@@ -94,6 +95,8 @@ static bool find_mesh_facts(const char *path, struct facts *facts, lom_error *er
     facts->kind = "mesh";
     facts->vertices = (int64_t)mesh->vertex_count;
     facts->triangles = (int64_t)mesh->source_triangles;
+    facts->lines = (int64_t)mesh->line_index_count / 2;
+    facts->points = (int64_t)mesh->point_count;
     facts->materials = (int64_t)mesh->material_count;
     facts->warnings = (int64_t)mesh->warnings.count;
     facts->bounds = lom_mesh_bounds(mesh);
@@ -171,9 +174,9 @@ static const struct {
 static bool find_facts(const char *path, struct facts *facts, lom_error *error)
 {
     *facts = (struct facts){ .file = path };
-    int64_t *const numbers[] = { &facts->width,     &facts->height,  &facts->depth,    &facts->levels,
-                                 &facts->channels,  &facts->bits,    &facts->vertices, &facts->triangles,
-                                 &facts->materials, &facts->warnings };
+    int64_t *const numbers[] = { &facts->width,    &facts->height, &facts->depth,     &facts->levels,
+                                 &facts->channels, &facts->bits,   &facts->vertices,  &facts->triangles,
+                                 &facts->lines,    &facts->points, &facts->materials, &facts->warnings };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         *numbers[i] = -1;
     size_t kind = 0;
@@ -190,8 +193,8 @@ static void print_json(const struct facts *facts)
     } numbers[] = {
         { "width", facts->width },       { "height", facts->height },       { "depth", facts->depth },
         { "levels", facts->levels },     { "channels", facts->channels },   { "bits", facts->bits },
-        { "vertices", facts->vertices }, { "triangles", facts->triangles }, { "materials", facts->materials },
-        { "warnings", facts->warnings },
+        { "vertices", facts->vertices }, { "triangles", facts->triangles }, { "lines", facts->lines },
+        { "points", facts->points },     { "materials", facts->materials }, { "warnings", facts->warnings },
     };
     lom_json json = lom_json_begin(stdout);
     lom_json_text(&json, "file", facts->file);
@@ -237,8 +240,13 @@ static void print_line(const struct facts *facts)
         print_point(" to", facts->bounds.high);
     }
     if (facts->vertices >= 0)
-        printf(", %" PRId64 " vertices, %" PRId64 " triangles, %" PRId64 " materials", facts->vertices,
-               facts->triangles, facts->materials);
+        printf(", %" PRId64 " vertices, %" PRId64 " triangles", facts->vertices, facts->triangles);
+    if (facts->lines > 0)
+        printf(", %" PRId64 " lines", facts->lines);
+    if (facts->points > 0)
+        printf(", %" PRId64 " points", facts->points);
+    if (facts->vertices >= 0)
+        printf(", %" PRId64 " materials", facts->materials);
     printf(", hash %016" PRIx64 "\n", facts->hash);
 }
 

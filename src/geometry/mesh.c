@@ -2,8 +2,18 @@
  * stated lengths. Compiled for speed. */
 #include <lom/geometry.h>
 
-lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t materials, lom_error *error)
+/* The sum, or SIZE_MAX. */
+static size_t add_up(size_t a, size_t b, size_t c)
 {
+    size_t sum = a + b < a ? SIZE_MAX : a + b;
+    return sum + c < sum ? SIZE_MAX : sum + c;
+}
+
+lom_mesh *lom_create_mesh_of(const lom_mesh_counts *counts, lom_error *error)
+{
+    const size_t vertices = counts->vertices, materials = counts->materials;
+    const size_t indices = add_up(counts->indices, counts->line_indices, counts->points);
+    const size_t parts = add_up(counts->parts, counts->line_parts, counts->point_parts);
     if (vertices > UINT32_MAX || indices > UINT32_MAX || parts > INT32_MAX || materials > INT32_MAX) {
         lom_fail(error, LOM_ERROR_LIMIT, "A mesh of %zu vertices and %zu indices does not fit 32-bit indices.",
                  vertices, indices);
@@ -21,11 +31,26 @@ lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t 
         return NULL;
     }
     mesh->vertex_count = vertices;
-    mesh->index_count = indices;
-    mesh->part_count = parts;
+    mesh->index_count = counts->indices;
+    mesh->line_index_count = counts->line_indices;
+    mesh->point_count = counts->points;
+    mesh->part_count = counts->parts;
+    mesh->line_part_count = counts->line_parts;
+    mesh->point_part_count = counts->point_parts;
     mesh->material_count = materials;
-    mesh->source_triangles = indices / 3;
+    mesh->source_triangles = counts->indices / 3;
     return mesh;
+}
+
+lom_mesh *lom_create_mesh(size_t vertices, size_t indices, size_t parts, size_t materials, lom_error *error)
+{
+    return lom_create_mesh_of(
+        &(lom_mesh_counts){ .vertices = vertices, .indices = indices, .parts = parts, .materials = materials }, error);
+}
+
+size_t lom_mesh_parts(const lom_mesh *mesh)
+{
+    return mesh->part_count + mesh->line_part_count + mesh->point_part_count;
 }
 
 void lom_free_mesh(lom_mesh *mesh)

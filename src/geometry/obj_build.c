@@ -1,6 +1,6 @@
 /* Reads Wavefront OBJ, stage 2 of 2: arrays to a mesh. In: struct lom_obj. Out: a mesh with n - 2 triangles a polygon
- * in file order, one vertex for each different (v, vt, vn), numbered by first use in triangles: so what is written as
- * triangles is numbered the same when it is read. The hash only finds equal corners; it never orders anything. */
+ * in file order, n - 1 segments a line, one vertex for each different (v, vt, vn), numbered by first use in triangles, then
+ * in lines, then in points: so what is written in that order is numbered the same when it is read. The hash only finds equal corners; it never orders anything. */
 #include "obj.h"
 #include "polygon.h"
 
@@ -15,8 +15,9 @@ struct build {
     uint32_t *slots;         /* hash table of vertex numbers + 1 */
     size_t slot_count;       /* a power of two */
     struct obj_corner *keys; /* of the vertices */
-    uint32_t *order;         /* corners of the triangles, then their vertices; all corners when there is no triangle */
+    uint32_t *order; /* corners of triangles, lines, points, then their vertices; all corners when there are none */
     size_t order_count, vertex_count;
+    bool has_elements;
 };
 
 /* ---- indices ---- */
@@ -29,17 +30,18 @@ static bool drop_lacking(int32_t *index, size_t count)
     return lacking;
 }
 
-static bool check_indices(struct lom_obj *obj)
+static bool check_indices(struct lom_obj *obj, enum obj_kind kind)
 {
-    for (size_t k = 0; k < obj->face_count; k++) {
-        const struct obj_face *face = &obj->faces[k];
+    static const char *const names[OBJ_KINDS] = { "face", "line", "point" };
+    for (size_t k = 0; k < obj->elements[kind].count; k++) {
+        const struct obj_face *face = &obj->elements[kind].items[k];
         bool lacking = false;
         for (uint32_t i = 0; i < face->count; i++) {
             struct obj_corner *corner = &obj->corners[face->first + i];
             obj->text.line = face->line;
             if ((size_t)corner->v >= obj->position_count)
-                return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The face names vertex %d, and the file has %zu.",
-                                     (int)corner->v + 1, obj->position_count);
+                return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The %s names vertex %d, and the file has %zu.",
+                                     names[kind], (int)corner->v + 1, obj->position_count);
             lacking |= drop_lacking(&corner->vt, obj->texture_count);
             lacking |= drop_lacking(&corner->vn, obj->normal_count);
         }
@@ -71,8 +73,9 @@ static lom_vec3 face_normal(struct build *build, const struct obj_face *face)
 static bool sum_normals(struct build *build)
 {
     struct lom_obj *obj = build->obj;
+    const struct obj_elements *faces = &obj->elements[OBJ_FACES];
     bool missing = false;
-    for (size_t k = 0; obj->face_count > 0 && k < obj->corner_count; k++)
+    for (size_t k = 0; faces->count > 0 && k < obj->corner_count; k++)
         missing = missing || obj->corners[k].vn < 0;
     if (!missing)
         return true;
@@ -81,8 +84,8 @@ static bool sum_normals(struct build *build)
     build->last_faces = lom_allocate(obj->position_count, sizeof *build->last_faces, obj->text.error);
     if (build->sums == NULL || build->first_faces == NULL || build->last_faces == NULL)
         return false;
-    for (size_t k = 0; k < obj->face_count; k++) {
-        const struct obj_face *face = &obj->faces[k];
+    for (size_t k = 0; k < faces->count; k++) {
+        const struct obj_face *face = &faces->items[k];
         lom_vec3 normal = face_normal(build, face);
         if (lom_vec3_dot(normal, normal) == 0)
             continue;
@@ -106,32 +109,60 @@ static void computed_normal(struct build *build, size_t v, float normal[3])
     if (build->sums != NULL && lom_vec3_length(build->sums[v]) > 1e-12)
         unit = lom_vec3_normalize(build->sums[v]);
     else if (build->sums != NULL && build->first_faces[v] != 0)
-        unit = face_normal(build, &build->obj->faces[build->first_faces[v] - 1]);
+        unit = face_normal(build, &build->obj->elements[OBJ_FACES].items[build->first_faces[v] - 1]);
     normal[0] = (float)unit.x;
     normal[1] = (float)unit.y;
     normal[2] = (float)unit.z;
 }
 
-/* ---- triangles ---- */
+/* ---- triangles, segments, points ---- */
+
+static uint32_t *order_face(struct build *build, const struct obj_face *face, uint32_t *order)
+{
+    uint32_t *end = order + 3 * (face->count - 2);
+    load_polygon(build, face);
+    lom_polygon_triangulate(build->polygon, order);
+    for (; order < end; order++)
+        *order += face->first;
+    return end;
+}
+
+static uint32_t *order_line(struct build *build, const struct obj_face *line, uint32_t *order)
+{
+    (void)build;
+    for (uint32_t i = 0; i + 1 < line->count; i++) {
+        *order++ = line->first + i;
+        *order++ = line->first + i + 1;
+    }
+    return order;
+}
+
+static uint32_t *order_points(struct build *build, const struct obj_face *points, uint32_t *order)
+{
+    (void)build;
+    for (uint32_t i = 0; i < points->count; i++)
+        *order++ = points->first + i;
+    return order;
+}
 
 static bool order_corners(struct build *build)
 {
+    static uint32_t *(*const put[OBJ_KINDS])(struct build *, const struct obj_face *,
+                                             uint32_t *) = { order_face, order_line, order_points };
     const struct lom_obj *obj = build->obj;
-    build->order_count = obj->face_count > 0 ? 3 * (obj->corner_count - 2 * obj->face_count) : obj->corner_count;
+    for (int kind = 0; kind < OBJ_KINDS; kind++)
+        build->order_count += obj->elements[kind].indices;
+    build->has_elements = build->order_count > 0;
+    build->order_count = build->has_elements ? build->order_count : obj->corner_count;
     build->order = lom_allocate(build->order_count, sizeof *build->order, obj->text.error);
     if (build->order == NULL)
         return false;
-    for (size_t k = 0; obj->face_count == 0 && k < build->order_count; k++)
+    for (size_t k = 0; !build->has_elements && k < build->order_count; k++)
         build->order[k] = (uint32_t)k;
-    uint32_t *triangles = build->order;
-    for (size_t k = 0; k < obj->face_count; k++) {
-        const struct obj_face *face = &obj->faces[k];
-        uint32_t *end = triangles + 3 * (face->count - 2);
-        load_polygon(build, face);
-        lom_polygon_triangulate(build->polygon, triangles);
-        for (; triangles < end; triangles++)
-            *triangles += face->first;
-    }
+    uint32_t *order = build->order;
+    for (int kind = 0; kind < OBJ_KINDS; kind++)
+        for (size_t k = 0; k < obj->elements[kind].count; k++)
+            order = put[kind](build, &obj->elements[kind].items[k], order);
     return true;
 }
 
@@ -195,28 +226,39 @@ static void fill_vertices(struct build *build, lom_mesh *mesh)
 
 /* ---- parts and materials ---- */
 
-static size_t count_parts(const struct lom_obj *obj)
+static size_t count_parts(const struct obj_elements *elements)
 {
-    size_t parts = obj->face_count > 0;
-    for (size_t k = 1; k < obj->face_count; k++)
-        parts += obj->faces[k].material != obj->faces[k - 1].material;
+    size_t parts = elements->count > 0;
+    for (size_t k = 1; k < elements->count; k++)
+        parts += elements->items[k].material != elements->items[k - 1].material;
     return parts;
 }
 
-static void fill_parts(const struct lom_obj *obj, lom_mesh *mesh)
+/* The parts of a kind, whose indices begin at *first, moved past them; the next part. */
+static lom_mesh_part *fill_parts(const struct lom_obj *obj, enum obj_kind kind, lom_mesh_part *part, uint32_t *first)
 {
-    uint32_t first = 0;
-    lom_mesh_part *part = mesh->parts;
-    for (size_t k = 0; k < obj->face_count; k++) {
-        const struct obj_face *face = &obj->faces[k];
-        uint32_t count = 3 * (face->count - 2);
+    const struct obj_elements *elements = &obj->elements[kind];
+    for (size_t k = 0; k < elements->count; k++) {
+        const struct obj_face *face = &elements->items[k];
+        uint32_t count = kind == OBJ_FACES   ? 3 * (face->count - 2)
+                         : kind == OBJ_LINES ? 2 * (face->count - 1)
+                                             : face->count;
         if (k > 0 && face->material != face[-1].material)
             part++;
         if (part->index_count == 0)
-            *part = (lom_mesh_part){ .first_index = first, .material = face->material };
+            *part = (lom_mesh_part){ .first_index = *first, .material = face->material };
         part->index_count += count;
-        first += count;
+        *first += count;
     }
+    return part + (elements->count > 0);
+}
+
+static void fill_all_parts(const struct lom_obj *obj, lom_mesh *mesh)
+{
+    lom_mesh_part *part = mesh->parts;
+    uint32_t first = 0;
+    for (int kind = 0; kind < OBJ_KINDS; kind++)
+        part = fill_parts(obj, (enum obj_kind)kind, part, &first);
 }
 
 /* A material that is used and that no file defines is the one whose name it is before a comment ("newmtl red # warm"),
@@ -260,9 +302,10 @@ static void warn_of_passed(struct lom_obj *obj)
     static const struct {
         const char *one, *many;
     } texts[OBJ_PASSED_COUNT] = {
-        [OBJ_NO_FACES] = { "the file has no face: nothing of it is drawn", "" },
-        [OBJ_POINTS] = { "a point, line, curve or surface is passed over",
-                         "points, lines, curves or surfaces are passed over, this one first" },
+        [OBJ_NO_FACES] = { "the file has no face, line or point: nothing of it is drawn", "" },
+        [OBJ_CURVES] = { "a curve or surface is passed over", "curves or surfaces are passed over, this one first" },
+        [OBJ_FEW_ENDS] = { "a line of fewer than 2 vertices, or a point of none, is passed over",
+                           "lines of fewer than 2 vertices, or points of none, are passed over, this one first" },
         [OBJ_FEW_CORNERS] = { "a face of fewer than 3 corners is passed over",
                               "faces of fewer than 3 corners are passed over, this one first" },
         [OBJ_LACKING] = { "a face names normals or texture coordinates that the file lacks",
@@ -277,20 +320,35 @@ static void warn_of_passed(struct lom_obj *obj)
     }
 }
 
+static lom_mesh *create_mesh(const struct build *build)
+{
+    const struct obj_elements *elements = build->obj->elements;
+    const lom_mesh_counts counts = { .vertices = build->vertex_count,
+                                     .indices = elements[OBJ_FACES].indices,
+                                     .line_indices = elements[OBJ_LINES].indices,
+                                     .points = elements[OBJ_POINTS].indices,
+                                     .parts = count_parts(&elements[OBJ_FACES]),
+                                     .line_parts = count_parts(&elements[OBJ_LINES]),
+                                     .point_parts = count_parts(&elements[OBJ_POINTS]),
+                                     .materials = build->obj->materials.count };
+    return lom_create_mesh_of(&counts, build->obj->text.error);
+}
+
 lom_mesh *lom_build_obj(struct lom_obj *obj)
 {
     struct build build = { .obj = obj };
     lom_mesh *mesh = NULL;
     build.polygon = lom_allocate(1, sizeof *build.polygon, obj->text.error);
-    if (build.polygon != NULL && check_indices(obj) && sum_normals(&build) && order_corners(&build) &&
-        number_vertices(&build))
-        mesh = lom_create_mesh(build.vertex_count, obj->face_count > 0 ? build.order_count : 0, count_parts(obj),
-                               obj->materials.count, obj->text.error);
+    bool checked = build.polygon != NULL;
+    for (int kind = 0; kind < OBJ_KINDS; kind++)
+        checked = checked && check_indices(obj, (enum obj_kind)kind);
+    if (checked && sum_normals(&build) && order_corners(&build) && number_vertices(&build))
+        mesh = create_mesh(&build);
     if (mesh != NULL) {
         fill_vertices(&build, mesh);
-        if (mesh->index_count > 0)
-            memcpy(mesh->indices, build.order, mesh->index_count * sizeof *mesh->indices);
-        fill_parts(obj, mesh);
+        if (build.has_elements)
+            memcpy(mesh->indices, build.order, build.order_count * sizeof *mesh->indices);
+        fill_all_parts(obj, mesh);
         fill_materials(obj, mesh);
         warn_of_passed(obj);
         mesh->warnings = obj->warnings;

@@ -6,6 +6,47 @@
 #include "obj.h"
 
 #include <string.h>
+#include <unistd.h>
+
+enum { MATERIAL_FILE_LIMIT = 1 << 26 };
+
+size_t lom_folder_length(const char *path, size_t length)
+{
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    return length;
+}
+
+/* A name is never the standard input: "./" goes before it. */
+char *lom_path_beside(const char *path, const char *name, lom_error *error)
+{
+    size_t folder = lom_folder_length(path, strlen(path)), length = strlen(name);
+    char *joined = lom_allocate(folder + length + 3, 1, error);
+    if (joined == NULL)
+        return NULL;
+    if (folder == 0) {
+        path = "./";
+        folder = 2;
+    }
+    if (name[0] == '/')
+        folder = 0;
+    memcpy(joined, path, folder);
+    memcpy(joined + folder, name, length + 1);
+    return joined;
+}
+
+/* A file that is there and cannot be read is no missing one. */
+lom_bytes lom_read_beside(void *context, const char *name, lom_error *error)
+{
+    char *path = lom_path_beside(*(const char **)context, name, error);
+    if (path == NULL)
+        return (lom_bytes){ 0 };
+    lom_bytes file = lom_read_file(path, MATERIAL_FILE_LIMIT, error);
+    if (file.data == NULL && error->code == LOM_ERROR_FILE && access(path, F_OK) == 0)
+        error->code = LOM_ERROR_INPUT;
+    lom_release(path);
+    return file;
+}
 
 struct list {
     const char *obj;

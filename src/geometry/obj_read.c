@@ -7,12 +7,10 @@
 #include "polygon.h"
 
 #include <string.h>
-#include <unistd.h>
 
 enum {
     CORNER_LIMIT = 1 << 28, /* of all faces: their indices fit 32 bits after triangulation */
-    FILE_LIMIT = 1 << 30,
-    MATERIAL_FILE_LIMIT = 1 << 26
+    FILE_LIMIT = 1 << 30
 };
 
 /* ---- v, vt, vn ---- */
@@ -73,7 +71,7 @@ static bool read_normal(struct lom_obj *obj)
     return true;
 }
 
-/* ---- f ---- */
+/* ---- f, l, p ---- */
 
 enum { LACKING = INT32_MAX }; /* an index that no file can hold */
 
@@ -135,13 +133,13 @@ static bool read_corner(struct lom_obj *obj, struct lom_word word, struct obj_co
     return true;
 }
 
-static bool add_corner(struct lom_obj *obj, const struct obj_face *face, struct obj_corner corner)
+static bool add_corner(struct lom_obj *obj, const struct obj_face *face, enum obj_kind kind, struct obj_corner corner)
 {
-    if (face->count == LOM_POLYGON_CORNERS)
+    if (kind == OBJ_FACES && face->count == LOM_POLYGON_CORNERS)
         return lom_text_fail(&obj->text, LOM_ERROR_LIMIT, "A polygon of more than %d corners.", LOM_POLYGON_CORNERS);
     if (obj->corner_count == CORNER_LIMIT)
         return lom_text_fail(&obj->text, LOM_ERROR_LIMIT, "More than %d corners.", CORNER_LIMIT);
-    if (face->count > 0) {
+    if (kind == OBJ_FACES && face->count > 0) {
         const struct obj_corner *first = &obj->corners[face->first];
         if ((first->vt < 0) != (corner.vt < 0) || (first->vn < 0) != (corner.vn < 0))
             return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The corners of one face have different forms.");
@@ -153,25 +151,49 @@ static bool add_corner(struct lom_obj *obj, const struct obj_face *face, struct 
     return true;
 }
 
-static bool read_face(struct lom_obj *obj)
+static bool read_element(struct lom_obj *obj, enum obj_kind kind)
 {
+    static const struct {
+        uint32_t least, part, fewer; /* corners; an element of n has part (n - fewer) indices */
+        enum obj_passed passed;
+    } kinds[] = { [OBJ_FACES] = { 3, 3, 2, OBJ_FEW_CORNERS },
+                  [OBJ_LINES] = { 2, 2, 1, OBJ_FEW_ENDS },
+                  [OBJ_POINTS] = { 1, 1, 0, OBJ_FEW_ENDS } };
+    struct obj_elements *elements = &obj->elements[kind];
     struct obj_face face = { .first = (uint32_t)obj->corner_count,
                              .line = (uint32_t)obj->text.line,
                              .material = obj->material };
     for (struct lom_word word; (word = lom_text_word(&obj->text)).length > 0; face.count++) {
         struct obj_corner corner;
-        if (!read_corner(obj, word, &corner) || !add_corner(obj, &face, corner))
+        if (!read_corner(obj, word, &corner) || !add_corner(obj, &face, kind, corner))
             return false;
     }
-    if (face.count < 3) {
-        lom_pass_over(obj, OBJ_FEW_CORNERS, face.line);
+    if (face.count < kinds[kind].least) {
+        lom_pass_over(obj, kinds[kind].passed, face.line);
         obj->corner_count = face.first;
         return true;
     }
-    if (!lom_reserve(&obj->faces, &obj->face_capacity, obj->face_count + 1, sizeof *obj->faces, obj->text.error))
+    if (!lom_reserve(&elements->items, &elements->capacity, elements->count + 1, sizeof *elements->items,
+                     obj->text.error))
         return false;
-    obj->faces[obj->face_count++] = face;
+    elements->items[elements->count++] = face;
+    elements->indices += (size_t)kinds[kind].part * (face.count - kinds[kind].fewer);
     return true;
+}
+
+static bool read_face(struct lom_obj *obj)
+{
+    return read_element(obj, OBJ_FACES);
+}
+
+static bool read_line(struct lom_obj *obj)
+{
+    return read_element(obj, OBJ_LINES);
+}
+
+static bool read_points(struct lom_obj *obj)
+{
+    return read_element(obj, OBJ_POINTS);
 }
 
 /* ---- materials ---- */
@@ -194,13 +216,6 @@ static bool read_usemtl(struct lom_obj *obj)
     return obj->material >= 0;
 }
 
-static size_t folder_length(const char *path, size_t length)
-{
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    return length;
-}
-
 enum found { FOUND, MISSING, FAILED };
 
 /* Reads one material file; in messages it is called by the OBJ's folder and its own name. */
@@ -208,7 +223,7 @@ static enum found read_library(struct lom_obj *obj, struct lom_word word)
 {
     lom_error error = { 0 };
     const char *name = obj->text.name;
-    size_t folder = folder_length(name, strlen(name)), length = folder + word.length;
+    size_t folder = lom_folder_length(name, strlen(name)), length = folder + word.length;
     char *path = lom_allocate(length + 1, 1, obj->text.error);
     if (path == NULL)
         return FAILED;
@@ -223,7 +238,7 @@ static enum found read_library(struct lom_obj *obj, struct lom_word word)
             lom_text_fail(&obj->text, error.code == LOM_OK ? LOM_ERROR_FILE : error.code, "%s",
                           error.code == LOM_OK ? "A material file gave nothing." : error.text);
     } else if (!lom_decode_mtl(&obj->materials, file, path[folder] == '/' ? path + folder : path, path + folder,
-                               folder_length(path + folder, word.length), &obj->warnings, obj->text.error)) {
+                               lom_folder_length(path + folder, word.length), &obj->warnings, obj->text.error)) {
         found = FAILED;
     }
     lom_release(file.data);
@@ -263,21 +278,20 @@ void lom_pass_over(struct lom_obj *obj, enum obj_passed what, size_t line)
         obj->passed[what].line = line;
 }
 
-/* Shapes other than faces. */
-static bool pass_over(struct lom_obj *obj)
+static bool pass_over_curve(struct lom_obj *obj)
 {
-    lom_pass_over(obj, OBJ_POINTS, obj->text.line);
+    lom_pass_over(obj, OBJ_CURVES, obj->text.line);
     return true;
 }
 
-/* Without faces every position is a vertex. */
+/* Without faces, lines and points every position is a vertex. */
 static bool keep_positions(struct lom_obj *obj)
 {
     if (obj->position_count == 0)
         return lom_text_fail(&obj->text, LOM_ERROR_INPUT, "The file ends without a face, and without a vertex.");
     obj->corner_count = 0;
     for (size_t i = 0; i < obj->position_count; i++)
-        if (!add_corner(obj, &(struct obj_face){ .count = 0 }, (struct obj_corner){ (int32_t)i, -1, -1 }))
+        if (!add_corner(obj, &(struct obj_face){ .count = 0 }, OBJ_POINTS, (struct obj_corner){ (int32_t)i, -1, -1 }))
             return false;
     lom_pass_over(obj, OBJ_NO_FACES, obj->text.line);
     return true;
@@ -287,9 +301,9 @@ static const struct {
     const char *word;
     bool (*read)(struct lom_obj *obj);
 } statements[] = {
-    { "v", read_position }, { "vt", read_texture },    { "vn", read_normal },     { "f", read_face },
-    { "fo", read_face },    { "usemtl", read_usemtl }, { "mtllib", read_mtllib }, { "p", pass_over },
-    { "l", pass_over },     { "curv", pass_over },     { "curv2", pass_over },    { "surf", pass_over },
+    { "v", read_position }, { "vt", read_texture },      { "vn", read_normal },        { "f", read_face },
+    { "fo", read_face },    { "usemtl", read_usemtl },   { "mtllib", read_mtllib },    { "p", read_points },
+    { "l", read_line },     { "curv", pass_over_curve }, { "curv2", pass_over_curve }, { "surf", pass_over_curve },
 };
 
 static bool read_statement(struct lom_obj *obj)
@@ -307,7 +321,10 @@ static bool read_statements(struct lom_obj *obj)
         if (!read_statement(obj))
             return false;
     } while (lom_text_next(&obj->text));
-    return obj->face_count > 0 || keep_positions(obj);
+    bool any = false;
+    for (int kind = 0; kind < OBJ_KINDS; kind++)
+        any = any || obj->elements[kind].count > 0;
+    return any || keep_positions(obj);
 }
 
 lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, lom_read_material read_material,
@@ -329,7 +346,8 @@ lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, l
     lom_release(obj.texture);
     lom_release(obj.normals);
     lom_release(obj.corners);
-    lom_release(obj.faces);
+    for (int kind = 0; kind < OBJ_KINDS; kind++)
+        lom_release(obj.elements[kind].items);
     lom_free_materials(&obj.materials);
     lom_pass_error(&own, error);
     return mesh;
@@ -338,37 +356,6 @@ lom_mesh *lom_decode_obj_with(const char *text, size_t size, const char *name, l
 lom_mesh *lom_decode_obj(const char *text, size_t size, const char *name, lom_error *error)
 {
     return lom_decode_obj_with(text, size, name, NULL, NULL, error);
-}
-
-/* A name is never the standard input: "./" goes before it. */
-char *lom_path_beside(const char *path, const char *name, lom_error *error)
-{
-    size_t folder = folder_length(path, strlen(path)), length = strlen(name);
-    char *joined = lom_allocate(folder + length + 3, 1, error);
-    if (joined == NULL)
-        return NULL;
-    if (folder == 0) {
-        path = "./";
-        folder = 2;
-    }
-    if (name[0] == '/')
-        folder = 0;
-    memcpy(joined, path, folder);
-    memcpy(joined + folder, name, length + 1);
-    return joined;
-}
-
-/* A file that is there and cannot be read is no missing one. */
-lom_bytes lom_read_beside(void *context, const char *name, lom_error *error)
-{
-    char *path = lom_path_beside(*(const char **)context, name, error);
-    if (path == NULL)
-        return (lom_bytes){ 0 };
-    lom_bytes file = lom_read_file(path, MATERIAL_FILE_LIMIT, error);
-    if (file.data == NULL && error->code == LOM_ERROR_FILE && access(path, F_OK) == 0)
-        error->code = LOM_ERROR_INPUT;
-    lom_release(path);
-    return file;
 }
 
 lom_mesh *lom_read_obj(const char *path, lom_error *error)

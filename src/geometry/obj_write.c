@@ -34,6 +34,28 @@ static bool plain_map(const char *map, size_t size)
     return map[0] != '-' && plain_name(map, size) && lom_file_name(rest).length == rest.length;
 }
 
+/* Each part lies within the indices of its kind and holds whole elements. */
+static bool check_parts(const lom_mesh *mesh, lom_error *error)
+{
+    const struct {
+        size_t parts, indices;
+        uint32_t corners;
+    } kinds[] = { { mesh->part_count, mesh->index_count, 3 },
+                  { mesh->line_part_count, mesh->line_index_count, 2 },
+                  { mesh->point_part_count, mesh->point_count, 1 } };
+    size_t number = 0, low = 0;
+    for (size_t kind = 0; kind < 3; low += kinds[kind++].indices)
+        for (size_t k = 0; k < kinds[kind].parts; k++, number++) {
+            const lom_mesh_part *part = &mesh->parts[number];
+            if (part->first_index < low || part->first_index - low > kinds[kind].indices ||
+                part->index_count > kinds[kind].indices - (part->first_index - low) ||
+                part->index_count % kinds[kind].corners != 0 ||
+                (part->material >= 0 && (size_t)part->material >= mesh->material_count))
+                return lom_fail(error, LOM_ERROR_USAGE, "Part %zu of the mesh is out of range.", number);
+        }
+    return true;
+}
+
 static bool check_mesh(const lom_mesh *mesh, lom_error *error)
 {
     for (size_t k = 0; k < mesh->vertex_count; k++) {
@@ -42,17 +64,12 @@ static bool check_mesh(const lom_mesh *mesh, lom_error *error)
             !finite_floats(v->color, 3))
             return lom_fail(error, LOM_ERROR_USAGE, "Vertex %zu of the mesh has a number that is not finite.", k);
     }
-    for (size_t k = 0; k < mesh->index_count; k++)
+    const size_t index_count = mesh->index_count + mesh->line_index_count + mesh->point_count;
+    for (size_t k = 0; k < index_count; k++)
         if (mesh->indices[k] >= mesh->vertex_count)
             return lom_fail(error, LOM_ERROR_USAGE, "Index %zu of the mesh is %u, and it has %zu vertices.", k,
                             (unsigned)mesh->indices[k], mesh->vertex_count);
-    for (size_t k = 0; k < mesh->part_count; k++) {
-        const lom_mesh_part *part = &mesh->parts[k];
-        if (part->first_index > mesh->index_count || part->index_count > mesh->index_count - part->first_index ||
-            part->index_count % 3 != 0 || (part->material >= 0 && (size_t)part->material >= mesh->material_count))
-            return lom_fail(error, LOM_ERROR_USAGE, "Part %zu of the mesh is out of range.", k);
-    }
-    return true;
+    return check_parts(mesh, error);
 }
 
 /* The maps of a material, and the words before them. */
@@ -154,6 +171,88 @@ static void put_face(struct lom_output *output, const uint32_t corners[3])
     lom_put(output, "\n");
 }
 
+/* A flag a vertex: triangles have it. */
+static bool *find_face_vertices(const lom_mesh *mesh, lom_error *error)
+{
+    bool *of_faces = lom_allocate(mesh->vertex_count, sizeof *of_faces, error);
+    for (size_t k = 0; of_faces != NULL && k < mesh->index_count; k++)
+        of_faces[mesh->indices[k]] = true;
+    return of_faces;
+}
+
+/* A vertex of a line or point, in the shortest form that gives it back: the normal that the reader computes without a
+ * face is 0, 1, 0, the texture coordinates of none are 0, 0. */
+static void put_end(struct lom_output *output, const lom_mesh *mesh, const bool *of_faces, uint32_t vertex)
+{
+    const lom_mesh_vertex *v = &mesh->vertices[vertex];
+    bool normal = of_faces[vertex] || v->normal[0] != 0 || v->normal[1] != 1 || v->normal[2] != 0;
+    int count = normal ? 3 : v->uv[0] != 0 || v->uv[1] != 0 ? 2 : 1;
+    for (int k = 0; k < count; k++) {
+        lom_put(output, k == 0 ? " " : "/");
+        lom_put_index(output, vertex + 1);
+    }
+}
+
+enum { STATEMENT = 32 }; /* vertices of a line or points in one statement */
+
+/* Segments that go on from one another are one l. */
+static void put_lines(struct lom_output *output, const lom_mesh *mesh, const bool *of_faces, const uint32_t *ends,
+                      uint32_t count)
+{
+    uint32_t length = 0;
+    for (uint32_t i = 0; i < count; i += 2) {
+        if (length == 0 || length == STATEMENT || ends[i] != ends[i - 1]) {
+            lom_put(output, length == 0 ? "l" : "\nl");
+            put_end(output, mesh, of_faces, ends[i]);
+            length = 1;
+        }
+        put_end(output, mesh, of_faces, ends[i + 1]);
+        length++;
+    }
+    lom_put(output, "\n");
+}
+
+static void put_points(struct lom_output *output, const lom_mesh *mesh, const bool *of_faces, const uint32_t *points,
+                       uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (i % STATEMENT == 0)
+            lom_put(output, i == 0 ? "p" : "\np");
+        put_end(output, mesh, of_faces, points[i]);
+    }
+    lom_put(output, "\n");
+}
+
+static void put_part(struct lom_output *output, const lom_mesh *mesh, const bool *of_faces, size_t number)
+{
+    const lom_mesh_part *part = &mesh->parts[number];
+    const uint32_t *indices = mesh->indices + part->first_index;
+    if (number >= mesh->part_count + mesh->line_part_count)
+        put_points(output, mesh, of_faces, indices, part->index_count);
+    else if (number >= mesh->part_count)
+        put_lines(output, mesh, of_faces, indices, part->index_count);
+    for (uint32_t i = 0; number < mesh->part_count && i < part->index_count; i += 3)
+        put_face(output, indices + i);
+}
+
+static void put_parts(struct lom_output *output, const lom_mesh *mesh, const bool *of_faces)
+{
+    const size_t count = lom_mesh_parts(mesh);
+    int material = -1;
+    for (size_t k = 0; k < count; k++) {
+        const lom_mesh_part *part = &mesh->parts[k];
+        if (part->index_count == 0)
+            continue;
+        if (part->material != material) {
+            material = part->material;
+            lom_put(output, material >= 0 ? "usemtl " : "usemtl");
+            lom_put(output, material >= 0 ? mesh->materials[material].name : "");
+            lom_put(output, "\n");
+        }
+        put_part(output, mesh, of_faces, k);
+    }
+}
+
 lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_error *error)
 {
     struct lom_output output = { .error = error };
@@ -163,6 +262,9 @@ lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_er
         lom_fail(error, LOM_ERROR_USAGE, "OBJ cannot hold the name of the material file \"%s\".", material_file);
         return (lom_bytes){ 0 };
     }
+    bool *of_faces = find_face_vertices(mesh, error);
+    if (of_faces == NULL)
+        return (lom_bytes){ 0 };
     if (material_file != NULL) {
         lom_put(&output, "mtllib ");
         lom_put(&output, material_file);
@@ -172,18 +274,8 @@ lom_bytes lom_encode_obj(const lom_mesh *mesh, const char *material_file, lom_er
     lom_enter_float_state(&state);
     put_vertices(&output, mesh);
     lom_leave_float_state(&state);
-    int material = -1;
-    for (size_t k = 0; k < mesh->part_count; k++) {
-        const lom_mesh_part *part = &mesh->parts[k];
-        if (part->material != material) {
-            material = part->material;
-            lom_put(&output, material >= 0 ? "usemtl " : "usemtl");
-            lom_put(&output, material >= 0 ? mesh->materials[material].name : "");
-            lom_put(&output, "\n");
-        }
-        for (uint32_t i = 0; i < part->index_count; i += 3)
-            put_face(&output, mesh->indices + part->first_index + i);
-    }
+    put_parts(&output, mesh, of_faces);
+    lom_release(of_faces);
     return finish(&output);
 }
 

@@ -60,21 +60,24 @@ bad_files() {
 
 # What other readers take with a warning: a mesh, its bounds, and how many warnings there are.
 lenient_meshes() {
-    printf 'v 0 -1 0\nv 1 2 3.5\nl 1 2\np 1\n' >lines.obj
+    printf 'v 0 -1 0\nv 1 2 3.5\nl 1 2 1\np 1\ncurv 0 1 1 2\n' >lines.obj
     printf 'mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1/1/1 2/2/2 3/3/3\n' >lacking.obj
     printf 'newmtl\nKd 1 0 0\nnewmtl red\nmap_Kd photo.jpg\n' >odd.mtl
     printf 'Material #1\n' >photo.jpg
-    exits 0 "$lom" info lines.obj && says "lines.obj: mesh, from 0 -1 0 to 1 2 3.5, 2 vertices, 0 triangles" &&
-        complains "lom: warning: lines.obj:5: the file has no face" && complains "lines.obj:3: 2 points, lines" &&
+    exits 0 "$lom" info lines.obj && says "lines.obj: mesh, from 0 -1 0 to 1 2 3.5, 2 vertices, 0 triangles, 2 lines, 1 points, 0 materials" &&
+        complains "lom: warning: lines.obj:5: a curve or surface is passed over" &&
         exits 0 "$lom" info --json lacking.obj lines.obj && says '"warnings": 2, "bounds": [[0, 0, 0], [1, 1, 0]]' &&
-        says '"warnings": 2, "bounds": [[0, -1, 0], [1, 2, 3.5]]' && complains "odd.mtl:1: newmtl without a name" &&
+        says '"warnings": 1, "bounds": [[0, -1, 0], [1, 2, 3.5]]' && says '"lines": 2, "points": 1,' && complains "odd.mtl:1: newmtl without a name" &&
         complains "lacking.obj:6: a face names normals or texture coordinates that the file lacks" &&
         exits 0 "$lom" convert lacking.obj again.obj && complains "lacking.obj:6: a face names normals" &&
-        exits 0 "$lom" convert again.obj twice.obj && exits 0 "$lom" convert lines.obj points.obj || return 1
+        exits 0 "$lom" convert again.obj twice.obj && exits 0 "$lom" convert lines.obj points.obj &&
+        exits 0 "$lom" convert points.obj back.obj && cmp points.obj back.obj && grep -q '^l 1 2 1$' back.obj &&
+        exits 0 "$lom" info points.obj lines.obj || return 1
+    [ "$(sed 's/.*hash //' out | sort -u | wc -l)" = 1 ] || return 1
     sed 's/twice.mtl/again.mtl/' twice.obj | cmp - again.obj || return 1
     printf '[output]\nwidth = 32\nheight = 18\n[camera]\nposition = [0, 0, 3]\n' >odd.toml
     printf '[[entity]]\nmesh = "lacking.obj"\n[[entity]]\nmesh = "lines.obj"\n' >>odd.toml
-    exits 0 "$lom" render odd.toml -o odd.png && complains "photo.jpg" && complains "lines.obj:3: 2 points" &&
+    exits 0 "$lom" render odd.toml -o odd.png && complains "photo.jpg" && complains "lines.obj:5: a curve" &&
         exits 0 "$lom" render odd.toml -o odd.png --quiet && [ ! -s err ] &&
         exits 0 "$lom" render odd.toml -o odd.png --set 'quality.water="reference"' && complains "photo.jpg"
 }

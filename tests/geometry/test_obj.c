@@ -31,11 +31,14 @@ static void refuse(const char *text, const char *start, const char *part)
 static bool same_mesh(const lom_mesh *a, const lom_mesh *b)
 {
     if (a->vertex_count != b->vertex_count || a->index_count != b->index_count || a->part_count != b->part_count ||
-        a->material_count != b->material_count)
+        a->material_count != b->material_count || a->line_index_count != b->line_index_count ||
+        a->point_count != b->point_count || a->line_part_count != b->line_part_count ||
+        a->point_part_count != b->point_part_count)
         return false;
+    size_t indices = a->index_count + a->line_index_count + a->point_count;
     return memcmp(a->vertices, b->vertices, a->vertex_count * sizeof *a->vertices) == 0 &&
-           memcmp(a->indices, b->indices, a->index_count * sizeof *a->indices) == 0 &&
-           memcmp(a->parts, b->parts, a->part_count * sizeof *a->parts) == 0 &&
+           memcmp(a->indices, b->indices, indices * sizeof *a->indices) == 0 &&
+           memcmp(a->parts, b->parts, lom_mesh_parts(a) * sizeof *a->parts) == 0 &&
            memcmp(a->materials, b->materials, a->material_count * sizeof *a->materials) == 0;
 }
 
@@ -78,7 +81,7 @@ static void syntax(void)
         "# head \\\n v\t0 0 0 # c\nv 1 0 0 #\nv 1.0 +1. .0e3\n  v 0 1e0 0e-9\n\n\nf 1 2 3 4 #",
         "v 0 0 \\\n0\nv 1 0 0\\\r\n\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n  3 \\\n 4\n",
         "v 0 0 0 1\nv 1 0 0 2 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0\nf 1 2 3 4\n",
-        "o thing\ng a b\ns off\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\np 1\nvp 1 2\ncstype bezier\nf 1 2 3 4\n",
+        "o thing\ng a b\ns off\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvp 1 2\ncstype bezier\nf 1 2 3 4\n",
         "f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nfo 1 2 3 4\nusemtl\n",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng x \\\n y \\\nf 1 1 1\nf 1 2 3 4\n",
@@ -100,7 +103,11 @@ static void syntax(void)
 static void refusals(void)
 {
     refuse("", "a.obj:1: ", "without a face");
-    refuse("vn 0 0 1\nl 1 2\n\n", "a.obj:4: ", "without a face");
+    refuse("vn 0 0 1\n\n", "a.obj:3: ", "without a face");
+    refuse("vn 0 0 1\nl 1 2\n\n", "a.obj:2: ", "The line names vertex 1, and the file has 0");
+    refuse("v 0 0 0\np 1 3\n", "a.obj:2: ", "The point names vertex 3, and the file has 1");
+    refuse("v 0 0 0\np 0\n", "a.obj:2: ", "index of 0");
+    refuse("v 0 0 0\nl 1 x\n", "a.obj:2: ", "is not a corner");
     refuse("v 0 0\n", "a.obj:1: ", "numbers");
     refuse("v 0 0 0 0 0\n", "a.obj:1: ", "numbers");
     refuse("v 0 0 0 0 0 0 0 0\n", "a.obj:1: ", "More than 7");
@@ -143,12 +150,12 @@ static void passed_over(void)
         size_t vertices, triangles, warnings;
     } cases[] = {
         { "v 0 0 0\nv 1 2 3\n", "a.obj:3: the file has no face", 2, 0, 1 },
-        { "v 0 0 0\nv 1 2 3\np 1\n", "a.obj:3: a point", 2, 0, 2 },
-        { "v 0 0 0\nv 1 2 3\nl 1 2\nl 2 1\n", "a.obj:3: 2 points, lines", 2, 0, 2 },
-        { "v 0 0 0\nv 1 2 3\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2\n", "a.obj:3: 2 points, lines", 2, 0, 2 },
+        { "v 0 0 0\nv 1 2 3\np\n", "a.obj:3: a line of fewer", 2, 0, 2 },
+        { "v 0 0 0\nv 1 2 3\nl 1\nl\n", "a.obj:3: 2 lines of fewer", 2, 0, 2 },
+        { "v 0 0 0\nv 1 2 3\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2\n", "a.obj:3: 2 curves", 2, 0, 2 },
         { SQUARE "f 1 2\n", "a.obj:11: a face of fewer", 4, 0, 2 },
         { SQUARE "f 1 2\nf 1 2 3\nf\nf 1\n", "a.obj:11: 3 faces of fewer", 3, 1, 1 },
-        { SQUARE "l 1 2\nf 1 2 3\n", "a.obj:11: a point, line", 3, 1, 1 },
+        { SQUARE "curv 1 2\nf 1 2 3\n", "a.obj:11: a curve", 3, 1, 1 },
         { SQUARE "f 1/1 2/2 3/5\n", "a.obj:11: a face names", 3, 1, 1 },
         { SQUARE "f 1//1 2//2 3//3\n", "a.obj:11: a face names", 3, 1, 1 },
         { SQUARE "f 1//1 2//2 3//0\n", "a.obj:11: a face names", 3, 1, 1 },
@@ -176,6 +183,69 @@ static void passed_over(void)
     /* what is not given is computed: only the corner that lacks its normal, from all faces around it */
     lom_mesh *mesh = decode(SQUARE "f 1//2 2//2 3//7\n");
     CHECK(mesh != NULL && near3(mesh->vertices[0].normal, 0, 0, 2, 0) && near3(mesh->vertices[2].normal, 0, 0, 1, 0));
+    lom_free_mesh(mesh);
+}
+
+/* A mesh's lines and points: two vertices a segment and one a point, behind the triangles, parts by their materials. */
+static void lines_and_points(void)
+{
+    lom_mesh *mesh =
+        decode(SQUARE "usemtl a\nl 1 2 3\np 4 1\nf 1//1 2//1 3//1\nl -1/1 -2/2\nusemtl b\nl 2//2 4//2\np 2\n");
+    /* 0..2 of the face; 3, 4, 5 of l 1 2 3; 6, 7 of l 4/1 3/2; 8, 9 of l 2//2 4//2; 10 of p 4; 1 and 2 again */
+    static const uint32_t indices[] = { 0, 1, 2, 3, 4, 4, 5, 6, 7, 8, 9, 10, 3, 4 };
+    static const lom_mesh_part parts[] = { { 0, 3, 0 }, { 3, 6, 0 }, { 9, 2, 1 }, { 11, 2, 0 }, { 13, 1, 1 } };
+    if (mesh == NULL)
+        return;
+    CHECK(mesh->vertex_count == 11 && mesh->index_count == 3 && mesh->line_index_count == 8 && mesh->point_count == 3,
+          "%zu vertices, %zu, %zu, %zu indices", mesh->vertex_count, mesh->index_count, mesh->line_index_count,
+          mesh->point_count);
+    CHECK(mesh->part_count == 1 && mesh->line_part_count == 2 && mesh->point_part_count == 2 &&
+          lom_mesh_parts(mesh) == 5 && mesh->source_triangles == 1 && mesh->warnings.count == 0);
+    CHECK(memcmp(mesh->indices, indices, sizeof indices) == 0);
+    CHECK(memcmp(mesh->parts, parts, sizeof parts) == 0);
+    CHECK(near3(mesh->vertices[6].position, 0, 1, 0, 0) && mesh->vertices[6].uv[1] == 1);
+    /* a normal that is not named: of the faces around, else up */
+    CHECK(near3(mesh->vertices[3].normal, 0, 0, 1, 0) && near3(mesh->vertices[10].normal, 0, 1, 0, 0));
+    CHECK(near3(mesh->vertices[8].normal, 0, 0, 2, 0));
+    lom_error error = { 0 };
+    lom_bytes text = lom_encode_obj(mesh, NULL, &error);
+    lom_mesh *back = lom_decode_obj((const char *)text.data, text.size, "b.obj", &error);
+    CHECK(back != NULL && same_mesh(mesh, back), "%s\n%.*s", error.text, (int)text.size, (const char *)text.data);
+    char written[2048];
+    snprintf(written, sizeof written, "%.*s", (int)text.size, (const char *)text.data);
+    CHECK(strstr(written, "\nl 4/4/4 5/5/5 6/6/6\nl 7/7 8/8/8\nusemtl b\nl 9/9/9 10/10/10\nusemtl a\np 11 4/4/4\n") !=
+              NULL,
+          "%s", written);
+    lom_release(text.data);
+    lom_free_mesh(back);
+    mesh->parts[1].first_index = 2; /* a line that begins among the triangles */
+    CHECK(lom_encode_obj(mesh, NULL, &error).data == NULL && strstr(error.text, "Part 1") != NULL, "%s", error.text);
+    lom_free_mesh(mesh);
+}
+
+/* A line longer than a statement of the writer, and one that closes, come back the same. */
+static void long_lines(void)
+{
+    char text[4096];
+    size_t length = 0;
+    for (int i = 0; i < 100; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "v %d 0 0\n", i);
+    length += (size_t)snprintf(text + length, sizeof text - length, "l");
+    for (int i = 0; i <= 100; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, " %d", i % 100 + 1);
+    length += (size_t)snprintf(text + length, sizeof text - length, "\np");
+    for (int i = 100; i >= 1; i--)
+        length += (size_t)snprintf(text + length, sizeof text - length, " %d", i);
+    lom_error error = { 0 };
+    lom_mesh *mesh = decode(text);
+    if (mesh == NULL)
+        return;
+    CHECK(mesh->vertex_count == 100 && mesh->line_index_count == 200 && mesh->point_count == 100);
+    lom_bytes written = lom_encode_obj(mesh, NULL, &error);
+    lom_mesh *back = lom_decode_obj((const char *)written.data, written.size, "b.obj", &error);
+    CHECK(back != NULL && same_mesh(mesh, back), "%s", error.text);
+    lom_release(written.data);
+    lom_free_mesh(back);
     lom_free_mesh(mesh);
 }
 
@@ -663,6 +733,8 @@ int main(int argc, char **argv)
     RUN(syntax);
     RUN(refusals);
     RUN(passed_over);
+    RUN(lines_and_points);
+    RUN(long_lines);
     RUN(warnings_are_counted);
     RUN(dedupe);
     RUN(cube_normals);

@@ -415,6 +415,38 @@ static void failures(void)
     lom_free_mesh(empty);
 }
 
+/* Euler: V - E + F = 2 of closed shapes, 0 of a torus, 1 of a disc, where vertices at one place are one. */
+static void edges_are_listed_once(void)
+{
+    lom_error error = { 0 };
+    const struct {
+        lom_mesh *mesh;
+        size_t edges;
+    } cases[] = { { lom_make_box((lom_vec3){ 1, 2, 3 }, &error), 18 },      /* 12, and a diagonal a face */
+                  { lom_make_quad(2, 2, &error), 5 },                       /* 4 - 5 + 2 = 1 */
+                  { lom_make_grid(3, 2, 3, 2, &error), 3 * 3 + 2 * 4 + 6 }, /* rows, columns, diagonals */
+                  { lom_make_torus(3, 1, 8, 5, &error), 8 * 5 * 3 } };      /* V - E + 2 V = 0 but for rounding */
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t count = 0;
+        uint32_t *edges = lom_mesh_edges(cases[i].mesh, &count, &error);
+        CHECK(edges != NULL && (i == 3 ? count >= 2 * cases[i].edges : count == 2 * cases[i].edges), "case %zu: %zu", i,
+              count / 2);
+        for (size_t a = 0; a < count; a += 2)
+            for (size_t b = a + 2; b < count; b += 2)
+                CHECK(edges[a] != edges[b] || edges[a + 1] != edges[b + 1], "case %zu: edge %zu is edge %zu", i, a, b);
+        for (size_t a = 0; a < count; a += 2)
+            CHECK(edges[a] < edges[a + 1], "case %zu: edge %zu", i, a);
+        lom_release(edges);
+        lom_free_mesh(cases[i].mesh);
+    }
+    lom_mesh *none = lom_create_mesh(3, 0, 0, 0, &error);
+    size_t count = 9;
+    uint32_t *edges = lom_mesh_edges(none, &count, &error);
+    CHECK(edges != NULL && count == 0);
+    lom_release(edges);
+    lom_free_mesh(none);
+}
+
 int main(int argc, char **argv)
 {
     RUN(closed_shapes);
@@ -427,5 +459,6 @@ int main(int argc, char **argv)
     RUN(triangles_without_area_face_up);
     RUN(tubes_are_closed);
     RUN(failures);
+    RUN(edges_are_listed_once);
     return check_result();
 }
