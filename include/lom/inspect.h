@@ -67,6 +67,8 @@ const lom_explained *lom_followed(const lom_explanation *explanation, uint64_t p
 const lom_tap *lom_main_tap(const lom_note_record *lookup);
 /* The shader's or the draw's own name of a draw. */
 const char *lom_draw_name(const lom_draw_record *draw);
+/* What its primitives are called: "triangle" or "line". */
+const char *lom_primitive_name(const lom_draw_record *draw);
 const char *lom_pass_name(const lom_pass_record *pass);
 
 /* ---- the pictures of passes ---- */

@@ -129,8 +129,8 @@ typedef struct lom_fragment {
 typedef void lom_vertex_function(lom_vertex *out, const lom_attributes *in, const void *uniforms);
 typedef void lom_fragment_function(lom_fragment *out, const lom_varyings *in, const void *uniforms);
 
-/* `count` varyings (1..LOM_MAX_VARYINGS) from `first` on, as a mask of bits: what reads, differentiates and flat are made
- * of. */
+/* `count` varyings (1..LOM_MAX_VARYINGS) from `first` on, as a mask of bits: what reads, differentiates, flat and
+ * screen_linear are made of. */
 #define LOM_VARYINGS(first, count) (0xffffffffu >> (32 - (count)) << (first))
 
 /* A shader and what it needs; what it does not declare it cannot do. Made with LOM_SHADER. */
@@ -143,8 +143,13 @@ typedef struct lom_shader {
     int clip_distances, cull_distances;
     uint32_t reads;          /* LOM_VARYINGS: the fragment shader reads them */
     uint32_t differentiates; /* it takes their derivatives; part of reads */
-    uint32_t flat;           /* they are the provoking (last) vertex's, not interpolated */
-    bool reads_position;     /* x, y, z, w, front */
+    uint32_t flat;           /* they are the provoking vertex's (lom_provoking), not interpolated */
+    /* Interpolated linearly in the window, as depth is (GLSL's noperspective), where flat does not have them; none of them
+     * in differentiates. With the weights l of the window f0 + l1 (f1 - f0) + l2 (f2 - f0), clamped to the three values.
+     * Where near, far or the guard band cut an edge f w is linear in clip space, so f = ((1 - t) wa fa + t wb fb) / w:
+     * the cut changes no value, whatever the signs of wa and wb. */
+    uint32_t screen_linear;
+    bool reads_position; /* x, y, z, w, front */
     bool discards, writes_depth;
     bool quads; /* general derivatives: packets of whole 2x2 quads aligned to even frame coordinates */
     int colors; /* outputs written */
@@ -389,7 +394,7 @@ bool lom_end_pass(lom_device *device);
  * pixel becomes the first of k that lie under one another; a y-major one is moved to the left, and they lie side by side
  * (14.5.2.1 "Wide Lines"). At the pixel centre p is t = (p - a) (b - a) / |b - a|^2, clamped to 0..1, from exact whole
  * numbers, rounded to float by one product with the rounded reciprocal of |b - a|^2; depth is z_a + t (z_b - z_a),
- * varyings are perspective-correct as those of triangles are, with the weights 1 - t and t; flat ones are b's. In passes of
+ * varyings are perspective-correct as those of triangles are, with the weights 1 - t and t; flat ones are b's (lom_provoking). In passes of
  * several samples a covered pixel has all of them, with what the centre has; per_sample does not apply. Front facing;
  * culling does not apply, nor does depth bias. */
 typedef enum lom_topology {
@@ -411,6 +416,20 @@ typedef enum lom_attribute_kind {
     LOM_ATTRIBUTE_FLOAT4,
     LOM_ATTRIBUTE_UNORM8X4
 } lom_attribute_kind;
+
+/* The vertex whose flat varyings a primitive has: its first or its last, of places in the index buffer from 0 on (OpenGL
+ * 4.6, table 13.2 "Provoking vertex selection"; Vulkan 1.3, 27.5 "Provoking Vertex").
+ *
+ *   primitive i of                            first     last
+ *   points, sprites                           i         i
+ *   lines                                     2i        2i + 1
+ *   line strip                                i         i + 1
+ *   triangles                                 3i        3i + 2
+ *   triangle strip                            i         i + 2
+ *   triangle fan (its centre is 0)            i + 1     i + 2
+ *
+ * Of what stages of lom/stages.h make it is the last one; their draws are refused the first. */
+typedef enum lom_provoking { LOM_PROVOKING_LAST = 0, LOM_PROVOKING_FIRST } lom_provoking;
 
 typedef struct lom_attribute {
     const void *data; /* of vertex 0; not copied: stays valid until lom_end_pass */
@@ -487,14 +506,21 @@ typedef struct lom_draw_desc {
     int32_t base_vertex; /* added to every index */
     bool restart;        /* the largest index value starts a new strip or fan; of sprites and points it is no vertex */
     size_t vertex_count; /* vertices that exist: a larger index drops its triangle; 0: what the attributes hold */
-    int instances;       /* 0: 1 */
+    int instances;       /* 0: 1; each draws all of the indices, one after the other */
+    /* Of each attribute. 0: a value a vertex. n > 0: a value for n instances, for all their vertices: that of instance i is
+     * number i / n, and there are enough of them (glVertexAttribDivisor). */
+    int divisor[LOM_MAX_ATTRIBUTES];
     lom_topology topology;
+    lom_provoking provoking;
     int line_width; /* of lines, in pixels: 1..64; 0: 1 */
     lom_cull cull;
     bool front_clockwise;
     lom_compare depth_compare;
     bool depth_test_off; /* nothing tested, nothing written */
     bool depth_write_off;
+    /* Near and far do not cut: what lies before or behind them has the depth of the one or the other (then the depth bias).
+     * w > 0 still cuts. OpenGL 4.6, 13.7 and 17.3.5 (DEPTH_CLAMP). Sprites and points are drawn if w > 0. */
+    bool depth_clamp;
     float depth_bias;       /* units r; finite */
     float depth_bias_slope; /* times the slope m; finite */
     float depth_bias_clamp; /* most (or, negative, least) that is added; 0 and NaN: no limit */
@@ -508,7 +534,8 @@ typedef struct lom_draw_desc {
     const char *label; /* what records (lom/record.h) say is drawn; not copied; may be NULL */
     int object;        /* a number of the caller's for it, in records */
     lom_culling
-        culling; /* with clusters: LOM_TRIANGLES, indices of 32 bits, no first, base_vertex, restart; 1 instance */
+        culling; /* with clusters: LOM_TRIANGLES, indices of 32 bits, no first, base_vertex, restart; 1 instance. Not used
+                    with depth_clamp, nor by a shader with flat varyings where the first vertex is provoking */
     /* lom/stages.h; NULL: none. Not copied: valid until lom_end_pass. */
     const struct lom_tessellation *tessellation; /* with LOM_PATCHES, and no patches without it */
     int patch_points;                            /* vertices of a patch, 1..32 */

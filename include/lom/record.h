@@ -3,7 +3,7 @@
  * Steps of use, in order: lom_watch names pixels of textures; passes into those textures are then drawn by the same
  * stages at 4 lanes, in the variant that records (their bytes are the same); lom_watched_pixel gives what was recorded,
  * until the next lom_watch. Other passes, and devices that watch nothing, are drawn as ever: recording costs nothing
- * there. Sprites, points and lines are drawn, but not recorded; of triangles that tessellation or a geometry function made
+ * there. Sprites and points are drawn, but not recorded; what is said of triangles holds for lines; of triangles that tessellation or a geometry function made
  * (lom/stages.h) the vertices have no index, no attributes and no notes, and the number is their primitive's. Named
  * values of a shader (lom/notes.h) are recorded where it was compiled in that variant, as lom's own are. Who wants to know of all triangles of a pass instead of some pixels
  * calls lom_listen; who wants to count at every texel of a target, lom_tally_target. A device does one of these; all
@@ -105,8 +105,8 @@ typedef struct lom_fragment_record {
     lom_note_record *notes;
 } lom_fragment_record;
 
-typedef struct lom_triangle_record {
-    size_t number; /* of the draw's instance */
+typedef struct lom_triangle_record { /* or a line: its second vertex twice, no edges, weights of its two ends and 0 */
+    size_t number;                   /* of the draw's instance */
     int instance;
     int piece, pieces; /* of those that clipping left; pieces 0: nothing was left, or none was needed to be cut */
     lom_vertex_record vertex[3]; /* as submitted; the last is the provoking one */
@@ -215,7 +215,7 @@ typedef struct lom_listener {
 
 /* Listens from the next pass on; NULL: nobody does. Copied. Instead of whatever was watched: a device watches or is
  * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; sprites, points,
- * lines, what stages of lom/stages.h make, and draws of shaders that were not built at 4 lanes, are not told. False, with an error on the device: in a pass. */
+ * what stages of lom/stages.h make, and draws of shaders that were not built at 4 lanes, are not told. False, with an error on the device: in a pass. */
 bool lom_listen(lom_device *device, const lom_listener *listener);
 /* Of a triangle while it is told: its vertices, by the vertex stage, with what their shader names. False: no memory. */
 bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vertex[3]);
@@ -230,7 +230,7 @@ typedef struct lom_tally_desc {
 } lom_tally_desc;
 
 /* What the passes into a target did at one texel, from the last one on that cleared it. Packets are of 4 lanes. Of
- * sprites and points the counts alone are tallied; lines, and shaders that were not built in the recorded variant, are
+ * sprites and points the counts alone are tallied; shaders that were not built in the recorded variant are
  * drawn and not tallied. */
 typedef struct lom_tally {
     uint32_t fragments;      /* drawn: covered, and left by clip distances and an early depth test */

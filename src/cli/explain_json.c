@@ -169,14 +169,15 @@ static void write_triangle(lom_json *json, const lom_explanation *explanation, c
         lom_json_unnest(json, '}');
     }
     lom_json_nest(json, "vertices", '[');
-    for (int k = 0; k < 3; k++)
+    const int corners = lom_is_line(t->draw) ? 2 : 3;
+    for (int k = 0; k < corners; k++)
         write_vertex(json, explanation, explained, t->draw, &t->vertex[k]);
     lom_json_unnest(json, ']');
     if (t->pieces != 0) {
         lom_json_integer(json, "piece", t->piece);
         lom_json_integer(json, "pieces", t->pieces);
         lom_json_nest(json, "clipped", '[');
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < corners; k++)
             write_vertex(json, explanation, explained, t->draw, &t->cut[k]);
         lom_json_unnest(json, ']');
     }
@@ -214,6 +215,7 @@ static void write_draws(lom_json *json, const lom_explanation *explanation, cons
             lom_json_integer(json, "draw", (int64_t)draw->number);
             lom_json_text(json, "name", lom_draw_name(draw));
             lom_json_text(json, "shader", draw->desc.shader->name);
+            lom_json_text(json, "primitive", lom_primitive_name(draw));
             lom_json_bool(json, "recorded", draw->recorded);
             lom_json_text(json, "depth_compare", draw->recorded ? lom_compare_text(draw->compare) : NULL);
             lom_json_bool(json, "depth_write", draw->depth_written);

@@ -24,4 +24,10 @@ const char *lom_compare_text(lom_compare compare);
 const char *lom_factor_text(lom_factor factor);
 const char *lom_operation_text(lom_blend_operation operation);
 
+/* Whether its primitives have two vertices. */
+static inline bool lom_is_line(const lom_draw_record *draw)
+{
+    return draw->desc.topology == LOM_LINES || draw->desc.topology == LOM_LINE_STRIP;
+}
+
 #endif

@@ -36,7 +36,8 @@ static const char *const script_lines[] = {
     "const list=id('steps');",
     "steps.forEach((step,i)=>{const li=document.createElement('li');step.li=li;",
     "if(step.title){li.textContent=step.title;li.className='part'}else{",
-    "li.textContent=step.draw.pass_name+' \\u203a '+step.draw.name+' \\u203a triangle '+step.t.number+': "
+    "li.textContent=step.draw.pass_name+' \\u203a '+step.draw.name+' \\u203a '+step.draw.primitive+' "
+    "'+step.t.number+': "
     "'+step.t.fate;",
     "if(!step.t.fate.startsWith('stored'))li.className='bad';li.onclick=()=>show(i)}list.append(li)});",
     "const text=v=>Array.isArray(v)?v.map(text).join('  '):v===null?'-':typeof v=='number'&&!Number.isInteger(v)?",
@@ -57,7 +58,7 @@ static const char *const script_lines[] = {
     "if(step.title){if(at+1<steps.length&&!steps[at+1].title)return show(at+1)}",
     "steps.forEach(s=>s.li.classList.toggle('on',s===step));step.li.scrollIntoView({block:'nearest'});box.textContent='"
     "';",
-    "if(step.t){table('triangle '+step.t.number+': '+step.t.fate,rows(step.t),box);",
+    "if(step.t){table(step.draw.primitive+' '+step.t.number+': '+step.t.fate,rows(step.t),box);",
     "if(step.t.notes)table('its shader',step.t.notes.map(note),box);",
     "step.t.vertices.forEach((v,k)=>table('vertex '+k,rows(v).concat(v.notes.map(note)),box));",
     "(step.t.clipped||[]).forEach((v,k)=>table('clipped to, vertex '+k,rows(v),box));",

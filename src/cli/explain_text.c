@@ -201,20 +201,22 @@ static void print_fragment(const struct text *t, const lom_draw_record *draw, co
 
 static void print_triangle(const struct text *t, const lom_triangle_record *triangle)
 {
-    fprintf(t->out, "%s    triangle %zu%s: %s", t->indent, triangle->number,
+    const bool is_line = lom_is_line(triangle->draw);
+    fprintf(t->out, "%s    %s %zu%s: %s", t->indent, lom_primitive_name(triangle->draw), triangle->number,
             !triangle->has_edges ? ""
             : triangle->front    ? ", front"
                                  : ", back",
             lom_fate_text(triangle->fate));
     if (triangle->lost_to != NULL)
-        fprintf(t->out, " by triangle %zu of draw %zu in pass %llu", triangle->lost_to->number,
-                triangle->lost_to->draw->number, (unsigned long long)triangle->lost_to->draw->pass->number);
+        fprintf(t->out, " by %s %zu of draw %zu in pass %llu", lom_primitive_name(triangle->lost_to->draw),
+                triangle->lost_to->number, triangle->lost_to->draw->number,
+                (unsigned long long)triangle->lost_to->draw->pass->number);
     fputs("\n", t->out);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < (is_line ? 2 : 3); k++)
         print_vertex(t, triangle->draw, k, &triangle->vertex[k]);
     if (triangle->pieces != 0)
         fprintf(t->out, "%s      clipped into %d; this is piece %d\n", t->indent, triangle->pieces, triangle->piece);
-    for (int k = 0; k < 3 && triangle->pieces != 0; k++)
+    for (int k = 0; k < (is_line ? 2 : 3) && triangle->pieces != 0; k++)
         print_vertex(t, triangle->draw, k, &triangle->cut[k]);
     if (triangle->has_edges)
         fprintf(t->out, "%s      edge values    %lld %lld %lld of %lld, vertices in the order %d %d %d\n", t->indent,
@@ -236,7 +238,8 @@ static void print_passes(const struct text *t)
             fprintf(t->out, "%s  draw %zu: %s, shader %s%s", t->indent, draw->number, lom_draw_name(draw),
                     draw->desc.shader->name, draw->recorded ? "" : ", which could not be recorded");
             if (draw->near_misses != 0)
-                fprintf(t->out, "; %zu triangles whose box holds the pixel do not cover it", draw->near_misses);
+                fprintf(t->out, "; %zu %ss whose box holds the pixel do not cover it", draw->near_misses,
+                        lom_primitive_name(draw));
             fputs("\n", t->out);
             for (const lom_triangle_record *triangle = draw->triangles; triangle != NULL; triangle = triangle->next)
                 print_triangle(t, triangle);

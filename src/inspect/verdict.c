@@ -5,6 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *lom_primitive_name(const lom_draw_record *draw)
+{
+    const lom_topology topology = draw->desc.topology;
+    return topology == LOM_LINES || topology == LOM_LINE_STRIP ? "line" : "triangle";
+}
+
 const char *lom_draw_name(const lom_draw_record *draw)
 {
     return draw->label != NULL ? draw->label : draw->desc.shader->name;
@@ -54,11 +60,11 @@ static void say_who(char *text, const lom_triangle_record *t)
 {
     const lom_draw_record *draw = t->draw;
     if (draw->label != NULL)
-        say(text, "%s (shader %s, triangle %zu of draw %zu in pass \"%s\")", draw->label, draw->desc.shader->name,
-            t->number, draw->number, lom_pass_name(draw->pass));
+        say(text, "%s (shader %s, %s %zu of draw %zu in pass \"%s\")", draw->label, draw->desc.shader->name,
+            lom_primitive_name(draw), t->number, draw->number, lom_pass_name(draw->pass));
     else
-        say(text, "shader %s (triangle %zu of draw %zu in pass \"%s\")", draw->desc.shader->name, t->number,
-            draw->number, lom_pass_name(draw->pass));
+        say(text, "shader %s (%s %zu of draw %zu in pass \"%s\")", draw->desc.shader->name, lom_primitive_name(draw),
+            t->number, draw->number, lom_pass_name(draw->pass));
 }
 
 static void say_rejected(char *text, const struct tally *tally)

@@ -2,6 +2,7 @@
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
 #include "pipeline/expand.h"
+#include "pipeline/provoking.h"
 #include "pipeline/record.h"
 #include "pipeline/variants.h"
 
@@ -77,6 +78,8 @@ static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start,
     size_t place[3];
     bool list = is_list(desc->topology);
     corner_places(desc->topology, list ? t : t - start, place);
+    if (desc->provoking == LOM_PROVOKING_FIRST && !draw->lines)
+        lom_provoke_first(desc->topology, list ? t : t - start, place);
     for (int k = 0; k < 3; k++) {
         uint32_t index = index_at(desc, place[k] + (list ? 0 : start));
         int64_t vertex = (int64_t)index + desc->base_vertex;
@@ -108,7 +111,7 @@ static const uint32_t *find_plain_indices(const struct lom_chunk *chunk, uint32_
 {
     const lom_draw_desc *desc = &chunk->draw->desc;
     if (desc->topology != LOM_TRIANGLES || desc->indices == NULL || desc->index_bits != 32 || desc->base_vertex != 0 ||
-        desc->restart || chunk->count == 0)
+        desc->restart || chunk->count == 0 || desc->provoking == LOM_PROVOKING_FIRST)
         return NULL;
     const uint32_t *index = (const uint32_t *)desc->indices + desc->first + 3 * chunk->first;
     lom_stages_of(chunk->draw->variant)->find_extremes(index, 3 * chunk->count, low, high);
@@ -256,7 +259,7 @@ static void sort_out(const struct lom_pass *pass, struct lom_chunk *chunk, struc
         return;
     unsigned a = assembly->codes[corner[0]], b = assembly->codes[corner[1]], c = assembly->codes[corner[2]];
     unsigned any = a | b | c;
-    if ((a & b & c & CODE_REJECT) != 0 || (any & CODE_INVALID) != 0)
+    if ((a & b & c & lom_reject_codes(chunk->draw)) != 0 || (any & CODE_INVALID) != 0)
         return;
     if ((any & CODE_CLIP) != 0)
         add_clipped(pass, chunk, group, corner, any);

@@ -132,62 +132,172 @@ static void project_row(const struct lom_pass *pass, struct lom_chunk *chunk, ui
     row[3] = 1.0f / w;
 }
 
-int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
-                      uint32_t fan[LOM_MAX_FAN][3])
+static float bounded(double x)
 {
+    return x > (double)__FLT_MAX__ ? __FLT_MAX__ : x < -(double)__FLT_MAX__ ? -__FLT_MAX__ : (float)x;
+}
+
+static struct plane turn(const struct plane *p)
+{
+    return (struct plane){ -p->x, -p->y, -p->z, -p->w, -p->constant, p->code, p->axis, p->ratio };
+}
+
+enum { PIECES = 3 }; /* between near and far, before near, behind far */
+
+/* The planes that bound a piece, of those whose codes a primitive has. With depth_clamp what near and far cut off is a
+ * piece, too: its depths are clamped vertex by vertex, to one value. */
+static int list_bounds(const struct lom_pass *pass, unsigned codes, int piece, struct plane bounds[PLANES])
+{
+    static const unsigned outside[PIECES] = { 0, CODE_NEAR, CODE_FAR };
     struct plane planes[PLANES];
+    int count = 0;
+    list_planes(pass, planes);
+    for (int i = 0; i < PLANES; i++) {
+        bool cuts = (codes & planes[i].code) != 0;
+        if (cuts && planes[i].code == outside[piece])
+            bounds[count++] = turn(&planes[i]);
+        else if (cuts && (piece == 0 || (planes[i].code & (CODE_NEAR | CODE_FAR)) == 0))
+            bounds[count++] = planes[i];
+    }
+    return count;
+}
+
+/* Whether a primitive with these codes has the piece. */
+static bool has_piece(const struct lom_chunk *chunk, unsigned codes, int piece)
+{
+    return piece == 0 || (chunk->draw->desc.depth_clamp && (codes & (piece == 1 ? CODE_NEAR : CODE_FAR)) != 0);
+}
+
+/* ---- varyings that are linear in the window ----
+ *
+ * Of f = A x/w + B y/w + C, f w = A x + B y + C w is linear in clip space, also where w passes through 0: while a primitive
+ * is cut, its rows are copies that hold f w. */
+
+/* Corner k of the primitive becomes such a copy; there is room for it. */
+static void hold_products(struct lom_chunk *chunk, uint32_t *corner)
+{
+    const lom_shader *shader = chunk->draw->desc.shader;
+    const size_t pitch = (size_t)chunk->draw->row_floats;
+    const uint32_t copy = (uint32_t)chunk->row_count++;
+    float *clip = chunk->assembly->clip, *row = chunk->rows + copy * pitch;
+    memcpy(row, chunk->rows + *corner * pitch, pitch * sizeof *row);
+    memcpy(clip + (size_t)copy * 4, clip + (size_t)*corner * 4, 4 * sizeof *clip);
+    chunk->assembly->codes[copy] = chunk->assembly->codes[*corner];
+    for (int v = 0; v < shader->varyings; v++)
+        if (shader->screen_linear >> v & 1)
+            row[ROW_HEADER + v] *= clip[(size_t)copy * 4 + 3];
+    *corner = copy;
+}
+
+/* The values of a row that is left: those of the corner that it was copied from, or the quotients. */
+static void release_products(struct lom_chunk *chunk, uint32_t number, const uint32_t *copy, const uint32_t *corner,
+                             int count)
+{
+    const lom_shader *shader = chunk->draw->desc.shader;
+    const size_t pitch = (size_t)chunk->draw->row_floats;
+    float *values = chunk->rows + number * pitch + ROW_HEADER;
+    const float *source = NULL, w = chunk->assembly->clip[(size_t)number * 4 + 3];
+    for (int k = 0; k < count; k++)
+        if (copy[k] == number)
+            source = chunk->rows + corner[k] * pitch + ROW_HEADER;
+    for (int v = 0; v < shader->varyings; v++)
+        if (shader->screen_linear >> v & 1)
+            values[v] =
+                source != NULL ? source[v] : bounded((double)values[v] / (w < LOM_SMALLEST_W ? LOM_SMALLEST_W : w));
+}
+
+/* The fan of a piece of a triangle; how many triangles it has. */
+static int clip_piece(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3],
+                      const struct plane *bounds, int bound_count, uint32_t (*fan)[3])
+{
+    const bool is_linear = chunk->draw->desc.shader->screen_linear != 0;
     uint32_t polygon[MAX_POLYGON] = { corner[0], corner[1], corner[2] };
     int count = 3;
-    if (!lom_reserve_rows(chunk, chunk->row_count + 2 * PLANES))
+    if (!lom_reserve_rows(chunk, chunk->row_count + 2 * PLANES + 3))
         return 0;
-    list_planes(pass, planes);
-    for (int i = 0; i < PLANES && count >= 3; i++)
-        if (codes & planes[i].code)
-            count = cut_polygon(&planes[i], chunk, polygon, count);
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < 3 && is_linear; i++)
+        hold_products(chunk, &polygon[i]);
+    const uint32_t copy[3] = { polygon[0], polygon[1], polygon[2] };
+    for (int i = 0; i < bound_count && count >= 3; i++)
+        count = cut_polygon(&bounds[i], chunk, polygon, count);
+    for (int i = 0; i < count; i++) {
+        if (is_linear)
+            release_products(chunk, polygon[i], copy, corner, 3);
         project_row(pass, chunk, polygon[i]);
+    }
     for (int i = 0; i + 2 < count; i++) {
         fan[i][0] = polygon[0];
         fan[i][1] = polygon[i + 1];
         fan[i][2] = polygon[i + 2];
     }
-    chunk->triangles_clipped++;
     return count < 3 ? 0 : count - 2;
 }
 
-/* A line that is cut keeps its flat varyings: its last vertex' are written to the new one. */
-static void keep_flat(struct lom_chunk *chunk, uint32_t last, uint32_t cut)
+int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
+                      uint32_t fan[LOM_MAX_FAN][3])
+{
+    struct plane bounds[PLANES];
+    int count = 0;
+    for (int piece = 0; piece < PIECES; piece++)
+        if (has_piece(chunk, codes, piece))
+            count += clip_piece(pass, chunk, corner, bounds, list_bounds(pass, codes, piece, bounds), fan + count);
+    chunk->triangles_clipped++;
+    return count;
+}
+
+/* A line that is cut keeps its flat varyings: its provoking vertex' are written to the new one. */
+static void keep_flat(struct lom_chunk *chunk, uint32_t provoking, uint32_t cut)
 {
     size_t pitch = (size_t)chunk->draw->row_floats;
-    const float *from = chunk->rows + last * pitch + ROW_HEADER;
+    const float *from = chunk->rows + provoking * pitch + ROW_HEADER;
     float *to = chunk->rows + cut * pitch + ROW_HEADER;
-    for (int v = 0; v < chunk->draw->desc.shader->varyings; v++)
+    for (int v = 0; cut != provoking && v < chunk->draw->desc.shader->varyings; v++)
         if (chunk->draw->desc.shader->flat >> v & 1)
             to[v] = from[v];
 }
 
-bool lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t end[2], unsigned codes)
+/* A piece of a line; false where there is none. */
+static bool clip_line_piece(const struct lom_pass *pass, struct lom_chunk *chunk, const struct plane *bounds,
+                            int bound_count, uint32_t end[2])
 {
-    struct plane planes[PLANES];
-    const uint32_t last = end[1];
-    if (!lom_reserve_rows(chunk, chunk->row_count + 2 * PLANES))
+    const int provoking = chunk->draw->desc.provoking == LOM_PROVOKING_FIRST ? 0 : 1;
+    const bool is_linear = chunk->draw->desc.shader->screen_linear != 0;
+    const uint32_t corner[2] = { end[0], end[1] };
+    if (!lom_reserve_rows(chunk, chunk->row_count + 2 * PLANES + 2))
         return false;
-    list_planes(pass, planes);
-    chunk->triangles_clipped++;
-    for (int i = 0; i < PLANES; i++) {
+    for (int k = 0; k < 2 && is_linear; k++)
+        hold_products(chunk, &end[k]);
+    const uint32_t copy[2] = { end[0], end[1] };
+    for (int i = 0; i < bound_count; i++) {
         bool inside[2];
-        if (!(codes & planes[i].code))
-            continue;
         for (int k = 0; k < 2; k++)
-            inside[k] = distance_to(&planes[i], chunk->assembly->clip + (size_t)end[k] * 4) >= 0;
+            inside[k] = distance_to(&bounds[i], chunk->assembly->clip + (size_t)end[k] * 4) >= 0;
         if (!inside[0] && !inside[1])
             return false;
         if (inside[0] != inside[1])
-            end[inside[0] ? 1 : 0] = cut_edge(&planes[i], chunk, end[0], end[1]);
+            end[inside[0] ? 1 : 0] = cut_edge(&bounds[i], chunk, end[0], end[1]);
     }
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2; k++) {
+        if (is_linear)
+            release_products(chunk, end[k], copy, corner, 2);
         project_row(pass, chunk, end[k]);
-    if (end[1] != last)
-        keep_flat(chunk, last, end[1]);
+    }
+    keep_flat(chunk, corner[provoking], end[provoking]);
     return true;
+}
+
+int lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t end[2], unsigned codes,
+                  uint32_t result[LOM_LINE_PIECES][2])
+{
+    struct plane bounds[PLANES];
+    int count = 0;
+    chunk->triangles_clipped++;
+    for (int piece = 0; piece < PIECES; piece++) {
+        if (!has_piece(chunk, codes, piece))
+            continue;
+        result[count][0] = end[0];
+        result[count][1] = end[1];
+        count += clip_line_piece(pass, chunk, bounds, list_bounds(pass, codes, piece, bounds), result[count]);
+    }
+    return count;
 }

@@ -11,18 +11,21 @@ static size_t attribute_size(lom_attribute_kind kind)
     return sizes[kind];
 }
 
+static size_t count_values(const lom_attribute *a)
+{
+    size_t size = attribute_size(a->kind);
+    return a->data == NULL || a->size < size ? 0 : a->stride == 0 ? SIZE_MAX : (a->size - size) / a->stride + 1;
+}
+
 /* Vertices that all attributes together hold. */
 static size_t count_vertices(const lom_draw_desc *desc)
 {
     size_t count = UINT32_MAX - 1;
     for (int i = 0; i < desc->shader->attributes; i++) {
         const lom_attribute *a = &desc->attribute[i];
-        size_t size = attribute_size(a->kind);
-        if (a->kind == LOM_ATTRIBUTE_NONE)
+        if (a->kind == LOM_ATTRIBUTE_NONE || desc->divisor[i] != 0)
             continue;
-        size_t held = a->data == NULL || a->size < size ? 0
-                      : a->stride == 0                  ? SIZE_MAX
-                                                        : (a->size - size) / a->stride + 1;
+        size_t held = count_values(a);
         count = held < count ? held : count;
     }
     return count;
@@ -40,6 +43,9 @@ static bool check_shader(lom_device *device, const lom_draw_desc *desc)
     if ((s->differentiates & ~s->reads) != 0)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s differentiates a varying that it does not read.",
                         s->name);
+    if ((s->differentiates & s->screen_linear) != 0)
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "Shader %s differentiates a varying that is linear in the window.", s->name);
     if (s->uniforms_size != 0 && desc->uniforms == NULL)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "Shader %s takes %zu bytes of uniforms, but the draw has none.", s->name, s->uniforms_size);
@@ -73,15 +79,40 @@ static bool check_sprites(lom_device *device, const lom_draw_desc *desc)
     return true;
 }
 
+/* Attributes with a divisor hold a value for every instance. */
+static bool check_instances(lom_device *device, const lom_draw_desc *desc)
+{
+    const size_t instances = desc->instances == 0 ? 1 : (size_t)desc->instances;
+    for (int i = 0; i < desc->shader->attributes; i++) {
+        const int divisor = desc->divisor[i];
+        if (divisor < 0)
+            return lom_fail(&device->error, LOM_ERROR_USAGE, "Attribute %d of a draw of %s has the divisor %d.", i,
+                            desc->shader->name, divisor);
+        if (divisor == 0 || desc->attribute[i].kind == LOM_ATTRIBUTE_NONE)
+            continue;
+        size_t held = count_values(&desc->attribute[i]), needed = (instances - 1) / (size_t)divisor + 1;
+        if (held < needed)
+            return lom_fail(&device->error, LOM_ERROR_USAGE,
+                            "Attribute %d of a draw of %s holds %zu values for its instances, which take %zu.", i,
+                            desc->shader->name, held, needed);
+    }
+    return true;
+}
+
 static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
 {
     const char *name = desc->shader->name;
     if (desc->index_bits != 0 && desc->index_bits != 16 && desc->index_bits != 32)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Indices have 16 or 32 bits, not %d (a draw of %s).",
                         desc->index_bits, name);
-    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_PATCHES)
+    if (desc->instances < 0 || desc->topology < LOM_TRIANGLES || desc->topology > LOM_PATCHES ||
+        desc->provoking < LOM_PROVOKING_LAST || desc->provoking > LOM_PROVOKING_FIRST)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
-                        "A draw of %s has a topology or an instance count that is none.", name);
+                        "A draw of %s has a topology, provoking vertex or instance count that is none.", name);
+    if (desc->provoking == LOM_PROVOKING_FIRST &&
+        (desc->tessellation != NULL || desc->geometry != NULL || desc->feedback != NULL))
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "The first vertex is provoking in a draw of %s, which has stages of lom/stages.h.", name);
     if (!__builtin_isfinite(desc->depth_bias) || !__builtin_isfinite(desc->depth_bias_slope))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "The depth bias of a draw of %s is not finite.", name);
     if (desc->count > UINT32_MAX || desc->first > UINT32_MAX)
@@ -89,7 +120,7 @@ static bool check_geometry(lom_device *device, const lom_draw_desc *desc)
     for (int i = 0; i < desc->shader->attributes; i++)
         if (desc->attribute[i].kind < LOM_ATTRIBUTE_NONE || desc->attribute[i].kind > LOM_ATTRIBUTE_UNORM8X4)
             return lom_fail(&device->error, LOM_ERROR_USAGE, "Attribute %d of a draw of %s has no kind.", i, name);
-    return true;
+    return check_instances(device, desc);
 }
 
 /* Clusters must be those of the draw's indices. Chunks that are shorter than a cluster do without. */
@@ -119,13 +150,13 @@ static bool check_vertices(lom_device *device, const lom_draw_desc *desc)
                     desc->shader->name, (long long)from, (long long)to, held);
 }
 
-/* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. Lines are not
- * recorded, sprites and points only counted. */
+/* The shader's width nearest to the device's that it was built for: the bytes are the same at every width. Sprites and
+ * points are not recorded, only counted. */
 static int choose_shader_variant(const lom_device *device, const lom_draw_desc *desc)
 {
     lom_topology drawn = lom_drawn_topology(desc);
     bool counted = drawn == LOM_SPRITES || drawn == LOM_POINTS;
-    bool is_recorded = device->pass.is_recorded && drawn != LOM_LINES && (!counted || device->pass.tallier != NULL);
+    bool is_recorded = device->pass.is_recorded && (!counted || device->pass.tallier != NULL);
     if (is_recorded && lom_has_variant(desc, LOM_SLOT_4_recorded))
         return LOM_SLOT_4_recorded;
     if (lom_has_variant(desc, device->variant))
@@ -217,6 +248,7 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     desc->vertex_count = desc->vertex_count == 0 || desc->vertex_count > held ? held : desc->vertex_count;
     desc->index_bits = desc->index_bits == 0 ? 32 : desc->index_bits;
     desc->instances = desc->instances == 0 ? 1 : desc->instances;
+    desc->provoking = shader->flat == 0 ? LOM_PROVOKING_LAST : desc->provoking;
     desc->line_width = desc->line_width == 0 ? 1 : desc->line_width;
     draw->triangles = count_triangles(desc);
     draw->distances = shader->clip_distances + shader->cull_distances;
@@ -268,7 +300,8 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
                         desc->shader->name);
     derive(pass, draw);
-    if (device->desc.chunk < CLUSTER_TRIANGLES || pass->recorder != NULL) /* records number all triangles */
+    if (device->desc.chunk < CLUSTER_TRIANGLES || pass->recorder != NULL || /* records number all triangles */
+        draw->desc.depth_clamp || draw->desc.provoking == LOM_PROVOKING_FIRST)
         draw->desc.culling.clusters = NULL;
     if (!copy_uniforms(device, draw))
         return false;

@@ -154,6 +154,23 @@ static void interpolate_varyings(const lom_shader *shader, const struct rows *ro
     }
 }
 
+/* Those that are linear in the window: with its weights. */
+static __attribute__((noinline)) void interpolate_linear(const lom_shader *shader, const struct rows *rows,
+                                                         const struct lom_packet *packet, lom_varyings *in)
+{
+    struct weights p = { .b1 = packet->l[1], .b2 = packet->l[2] };
+    for (int v = 0; v < shader->varyings; v++) {
+        if ((shader->screen_linear & shader->reads) >> v & 1) {
+            const int offset = ROW_HEADER + (v & ~3);
+            const lom_float4 f0 = load_rows(rows, 0, offset), f1 = load_rows(rows, 1, offset),
+                             f2 = load_rows(rows, 2, offset);
+            const lom_float a[4] = { f0.x, f0.y, f0.z, f0.w }, b[4] = { f1.x, f1.y, f1.z, f1.w },
+                            c[4] = { f2.x, f2.y, f2.z, f2.w };
+            interpolate(a[v & 3], b[v & 3], c[v & 3], &p, v, false, in);
+        }
+    }
+}
+
 /* A value of each triangle of the packet to the lanes that are of it. */
 LOM_INLINE lom_int spread(const struct lom_packet *packet, const int32_t *value)
 {
@@ -238,6 +255,8 @@ static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const
         interpolate_varyings(shader, &rows, &p, &in);
         if (shader->differentiates != 0)
             find_slopes(chunk, packet, &rows, &p, &in);
+        if (shader->screen_linear != 0)
+            interpolate_linear(shader, &rows, packet, &in);
         if (shader->flat != 0)
             copy_flat_varyings(shader, chunk, packet, &in);
         if (shader->reads_position)

@@ -75,12 +75,29 @@ LOM_INLINE void interpolate(const struct values *values, const lom_shader *shade
     }
 }
 
+/* Those that are linear in the window: with its weights. */
+static __attribute__((noinline)) void interpolate_linear(const struct values *values, const lom_shader *shader,
+                                                         const lom_float l[3], lom_varyings *in)
+{
+    int word = VALUES;
+    uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
+    for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, word += VALUE_WORDS) {
+        int v = __builtin_ctz(reads);
+        if ((shader->screen_linear & ~shader->flat) >> v & 1)
+            in->varying[v] = lom_clamp(load_value(values, word + VALUE) + l[1] * load_value(values, word + DELTA1) +
+                                           l[2] * load_value(values, word + DELTA2),
+                                       load_value(values, word + LOWEST), load_value(values, word + HIGHEST));
+    }
+}
+
 /* All that a shader gets of values, and the position's z. */
 LOM_INLINE void find_varyings(const struct values *v, const lom_shader *shader, const struct lom_packet *packet,
                               bool quads, lom_varyings *in)
 {
     struct weights w = find_weights(v, packet->l, quads);
     interpolate(v, shader, &w, in);
+    if (shader->screen_linear != 0)
+        interpolate_linear(v, shader, packet->l, in);
     if (shader->differentiates != 0) {
         find_slope(load_value(v, STEPS), load_value(v, STEPS + 2), &w, in->dx);
         find_slope(load_value(v, STEPS + 1), load_value(v, STEPS + 3), &w, in->dy);

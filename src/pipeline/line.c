@@ -5,7 +5,7 @@
  * "edge function" E(p) = (p - a) (b - a) over the "area" |b - a|^2, which are whole numbers.
  *
  * Invariant: a record is a function of its two vertices alone. */
-#include "pipeline/stages.h"
+#include "pipeline/record.h"
 
 /* Along x or y: the pixels that a line from a to b may cover, `width` of them for each that the line of width 1 has. The
  * ends are moved by less than a unit to the left and up. */
@@ -56,35 +56,49 @@ void lom_find_line(const struct lom_chunk *chunk, const lom_primitive *primitive
                          .depth = { from[2], depth, depth } };
 }
 
-/* Appends the record of the line between two rows, unless it is outside or covers nothing. */
-static void add(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[2])
+/* Appends the record of the line between two rows, unless it covers nothing. */
+static void add_piece(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t end[2])
 {
     struct lom_assembly *assembly = chunk->assembly;
     const struct lom_draw *draw = chunk->draw;
     const size_t pitch = (size_t)draw->row_floats;
     const unsigned distances = (1u << draw->desc.shader->clip_distances) - 1;
-    uint32_t end[2] = { corner[0], corner[1] };
-    unsigned a = assembly->codes[end[0]], b = assembly->codes[end[1]];
-    if ((a & b & CODE_REJECT) != 0 || ((a | b) & CODE_INVALID) != 0)
-        return;
-    if (((a | b) & CODE_CLIP) != 0 && !lom_clip_line(pass, chunk, end, a | b))
-        return;
-    a = assembly->codes[end[0]] & distances;
-    b = assembly->codes[end[1]] & distances;
+    const unsigned a = assembly->codes[end[0]] & distances, b = assembly->codes[end[1]] & distances;
     const uint32_t row[2] = { (uint32_t)(end[0] * pitch), (uint32_t)(end[1] * pitch) };
+    const unsigned provoking = draw->desc.provoking == LOM_PROVOKING_FIRST ? 0 : 1;
     lom_primitive p = { .row = { row[0], row[1], row[1] },
-                        .state = TRIANGLE_NONE << TRIANGLE_KIND | 1u << TRIANGLE_FRONT | 1u << TRIANGLE_PROVOKING |
-                                 (a | b) << TRIANGLE_CLIP };
-    if ((a & b) == 0 && set_up(pass, draw, chunk->rows + row[0], chunk->rows + row[1], &p))
+                        .state = TRIANGLE_NONE << TRIANGLE_KIND | 1u << TRIANGLE_FRONT |
+                                 provoking << TRIANGLE_PROVOKING | (a | b) << TRIANGLE_CLIP };
+    const bool left = (a & b) == 0 && set_up(pass, draw, chunk->rows + row[0], chunk->rows + row[1], &p);
+    if (pass->recorder != NULL)
+        lom_record_line(chunk, end, left);
+    if (left)
         lom_add_primitive(pass, chunk, &p);
+}
+
+/* What is left of the line between two rows, unless it is outside. */
+static void add(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[2])
+{
+    uint32_t piece[LOM_LINE_PIECES][2] = { { corner[0], corner[1] } };
+    const unsigned a = chunk->assembly->codes[corner[0]], b = chunk->assembly->codes[corner[1]];
+    if ((a & b & lom_reject_codes(chunk->draw)) != 0 || ((a | b) & CODE_INVALID) != 0)
+        return;
+    const int count = ((a | b) & CODE_CLIP) != 0 ? lom_clip_line(pass, chunk, corner, a | b, piece) : 1;
+    for (int i = 0; i < count; i++)
+        add_piece(pass, chunk, piece[i]);
 }
 
 void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     struct lom_assembly *assembly = chunk->assembly;
-    if (!lom_reserve_primitives(chunk, chunk->count))
+    if (!lom_reserve_primitives(chunk, chunk->count * (chunk->draw->desc.depth_clamp ? LOM_LINE_PIECES : 1)))
         return;
-    for (size_t i = 0; i < chunk->count && !chunk->failed; i++)
+    for (size_t i = 0; i < chunk->count && !chunk->failed; i++) {
+        const bool near = pass->recorder != NULL && lom_record_triangle(pass, chunk, i);
+        const size_t before = chunk->triangle_count;
         if (assembly->corners[3 * i] != NO_VERTEX)
             add(pass, chunk, assembly->corners + 3 * i);
+        if (near)
+            lom_record_set_up(pass, chunk, before);
+    }
 }

@@ -2,7 +2,7 @@
  * pass->recorder, is drawn in the variant 4_recorded, every triangle by itself and no colour as a whole; then the macros
  * below are calls. In all other variants they are nothing.
  *
- *   chunk.c           names each triangle that comes near a watched pixel (lom_triangle_record)
+ *   chunk.c, line.c   name each triangle or line that comes near a watched pixel (lom_triangle_record)
  *   setup.wide.c      says how far its pieces came
  *   early, fragment   begin a fragment and add to it; one worker owns a pixel as it owns the tile
  *   run.c             joins them when the batch is drained, while its chunks are there (record_join.c)
@@ -16,7 +16,7 @@
 
 #include <lom/record.h>
 
-enum { MAX_PIECES = 10 + 6 };
+enum { MAX_PIECES = LOM_MAX_FAN + 6 };
 /* How far set-up took a piece. */
 enum record_stage { RECORD_SENT = 0, RECORD_FACES, RECORD_IN_BOUNDS, RECORD_DONE };
 
@@ -123,6 +123,8 @@ struct record_pixel *lom_record_next(struct lom_recorder *recorder, int x, int y
 bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i);
 /* It has been through set-up, alone, since the chunk had `before` triangles. */
 void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before);
+/* A piece of the line at hand; drawn: set-up has left a record of it. */
+void lom_record_line(struct lom_chunk *chunk, const uint32_t end[2], bool drawn);
 void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stage, const lom_mask *alive);
 
 /* ---- record_listen.c ---- */

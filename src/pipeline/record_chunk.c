@@ -21,14 +21,21 @@ static struct range range_of(const struct lom_pass *pass, const struct record_wa
     return r;
 }
 
-/* Whether all three vertices lie beyond one side of the range, grown by a pixel: in clip space, where that holds for
- * every point of the triangle with w > 0. */
-static bool is_beside(const struct lom_pass *pass, const struct range *r, const float clip[3][4])
+/* How far from a triangle or line the centres of its pixels may lie, in 1/256 pixel: of a line of width 1 half a pixel. */
+static int32_t reach_of(const struct lom_draw *draw)
 {
+    return draw->lines ? (draw->desc.line_width + 1) * (SUBPIXELS / 2) : 0;
+}
+
+/* Whether all three vertices lie beyond one side of the range, grown by a pixel and `reach`: in clip space, where that
+ * holds for every point of the triangle with w > 0. */
+static bool is_beside(const struct lom_pass *pass, const struct range *r, int32_t reach, const float clip[3][4])
+{
+    const int32_t more = SUBPIXELS + reach;
     const double size[2] = { pass->viewport.width * (double)SUBPIXELS, pass->viewport.height * (double)SUBPIXELS };
     for (int axis = 0; axis < 2; axis++)
         for (int side = 0; side < 2; side++) {
-            double at = side == 0 ? (double)(r->low[axis] - SUBPIXELS) : (double)(r->high[axis] + SUBPIXELS);
+            double at = side == 0 ? (double)(r->low[axis] - more) : (double)(r->high[axis] + more);
             double ndc = 2 * at / size[axis] - 1, sign = side == 0 ? 1 : -1;
             int beyond = 0;
             for (int k = 0; k < 3; k++) {
@@ -41,7 +48,7 @@ static bool is_beside(const struct lom_pass *pass, const struct range *r, const 
     return false;
 }
 
-/* The box of three snapped vertices: low x, y, high x, y. */
+/* The box of three snapped vertices, and of a line's width: low x, y, high x, y. */
 static void find_box(const struct lom_chunk *chunk, const uint32_t corner[3], int32_t low[2], int32_t high[2])
 {
     size_t pitch = (size_t)chunk->draw->row_floats;
@@ -52,6 +59,10 @@ static void find_box(const struct lom_chunk *chunk, const uint32_t corner[3], in
             low[i] = k == 0 || at[i] < low[i] ? at[i] : low[i];
             high[i] = k == 0 || at[i] > high[i] ? at[i] : high[i];
         }
+    }
+    for (int i = 0; i < 2; i++) {
+        low[i] -= reach_of(chunk->draw);
+        high[i] += reach_of(chunk->draw);
     }
 }
 
@@ -72,12 +83,12 @@ static bool box_comes_near(const struct lom_pass *pass, const int32_t low[2], co
     return false;
 }
 
-static bool clip_comes_near(const struct lom_pass *pass, const float clip[3][4])
+static bool clip_comes_near(const struct lom_pass *pass, const struct lom_draw *draw, const float clip[3][4])
 {
     for (size_t i = 0; i < pass->recorder->watch_count; i++) {
         const struct record_watch *watch = &pass->recorder->watch[i];
         struct range r = range_of(pass, watch);
-        if (watch->active && !is_beside(pass, &r, clip))
+        if (watch->active && !is_beside(pass, &r, reach_of(draw), clip))
             return true;
     }
     return false;
@@ -109,7 +120,8 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
         find_box(chunk, corner, low, high);
     for (int k = 0; k < 3; k++)
         memcpy(clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof clip[k]);
-    if (!pass->recorder->tells && (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, clip)))
+    if (!pass->recorder->tells &&
+        (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, chunk->draw, clip)))
         return false;
     struct record_candidate c = { .number = chunk->draw->expands ? lom_made_from(chunk, i) : chunk->first + i,
                                   .has_box = has_box,
@@ -154,6 +166,14 @@ void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stag
             c->pieces = c->packet + i + 1;
         }
     }
+}
+
+void lom_record_line(struct lom_chunk *chunk, const uint32_t end[2], bool drawn)
+{
+    struct record_candidate *c = chunk->assembly->candidate;
+    if (c != NULL)
+        c->piece[c->pieces++] =
+            (struct record_piece){ .corner = { end[0], end[1], end[1] }, .stage = drawn ? RECORD_DONE : RECORD_SENT };
 }
 
 void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before)

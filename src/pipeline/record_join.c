@@ -148,11 +148,11 @@ static void add_piece(const struct joint *j, int number, const struct edges *edg
                            piece->clip[k], &t->cut[k]);
         }
     }
-    t->has_edges = true;
+    t->has_edges = !draw->lines;
     memcpy(t->order, edges->order, sizeof t->order);
     memcpy(t->edge, edges->e, sizeof t->edge);
     t->area = edges->area;
-    t->front = turned == !draw->desc.front_clockwise;
+    t->front = draw->lines || turned == !draw->desc.front_clockwise;
     t->covered = fragment != NULL;
     if (fragment != NULL)
         t->fragment = *fragment;
@@ -193,7 +193,9 @@ static bool join_piece(const struct joint *j, int number)
     const struct record_raw *raw = piece->stage == RECORD_DONE ? find_raw(j, piece->number) : NULL;
     int32_t v[3][2];
     read_corners(j->chunk, piece->corner, v);
-    struct edges edges = find_edges(v, j->x, j->y);
+    struct edges edges = { .order = { 0, 1, 2 } }; /* a line has none */
+    if (!j->chunk->draw->lines)
+        edges = find_edges(v, j->x, j->y);
     bool turned = is_counter_clockwise(v);
     if (raw != NULL)
         add_piece(j, number, &edges, turned, fate_of(j, &raw->fragment), &raw->fragment);

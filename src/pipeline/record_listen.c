@@ -155,7 +155,7 @@ void lom_record_tell(lom_device *device)
             t.candidate = &r->chunks[i].items[k];
             tell(&t);
         }
-        if (r->listener.bin != NULL && !t.chunk->draw->sprites && !t.chunk->draw->lines)
+        if (r->listener.bin != NULL && !t.chunk->draw->sprites)
             tell_bins(device, t.chunk);
     }
 }

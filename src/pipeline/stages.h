@@ -260,14 +260,22 @@ bool lom_gather_clusters(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly);
+/* Who has one of these codes at all vertices is outside. */
+static inline unsigned lom_reject_codes(const struct lom_draw *draw)
+{
+    return draw->desc.depth_clamp ? CODE_REJECT & ~(CODE_NEAR | CODE_FAR) : CODE_REJECT;
+}
 /* Stage 2: cuts a triangle of three rows by the planes named in `codes`; appends rows; gives the fan's corners and
- * returns how many triangles it has (0..LOM_MAX_FAN). */
-enum { LOM_MAX_FAN = 10 };
+ * returns how many triangles it has (0..LOM_MAX_FAN). With depth_clamp what lies before near and behind far are fans, too,
+ * their depths those of the planes. */
+enum { LOM_MAX_FAN = 24 };
 int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t corner[3], unsigned codes,
                       uint32_t fan[LOM_MAX_FAN][3]);
-/* Stage 2 of a line of two rows: false where nothing is left, else `end` are those of what is. Stages 2 and 3 of a chunk of
- * lines: a record for each that may cover a pixel. */
-bool lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t end[2], unsigned codes);
+/* Stage 2 of a line of two rows: the ends of what is left, how many pieces that is (more than one with depth_clamp alone).
+ * Stages 2 and 3 of a chunk of lines: a record for each that may cover a pixel. */
+enum { LOM_LINE_PIECES = 3 };
+int lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, const uint32_t end[2], unsigned codes,
+                  uint32_t piece[LOM_LINE_PIECES][2]);
 void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk);
 /* Room for `count` primitives and the tiles that they lie in, and for what set-up writes past them. */
 bool lom_reserve_primitives(struct lom_chunk *chunk, size_t count);

@@ -177,7 +177,7 @@ static void find_made(const struct lom_tile *tile, const lom_primitive *p, int p
     const lom_rect *v = &tile->pass->viewport;
     int x, y;
     find_pixel(tile, place, &x, &y);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < (tile->draw->lines ? 2 : 3); k++) {
         if (p->row[k] / (uint32_t)tile->draw->row_floats < chunk->vertex_count)
             continue;
         int32_t at[2];
@@ -200,14 +200,17 @@ static void store(const struct lom_tile *tile, lom_tally *tally, int place, int 
     const struct lom_packet *packet = worker->packet;
     const lom_primitive *p = &tile->chunk->primitives[packet->triangle[packet->which[lane]]];
     lom_triangle t;
-    lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    if (tile->draw->lines)
+        lom_find_line(tile->chunk, p, &t);
+    else
+        lom_find_triangle(tile->pass, tile->chunk, p, &t);
     const lom_float l[3] = { packet->l[0], packet->l[1], packet->l[2] };
     const struct depth_plane plane = find_depth(&t);
     tally->is_stored = true;
     tally->object = tile->draw->desc.object;
     tally->depth = tile->draw->desc.shader->writes_depth ? worker->depth[lane] : interpolate_depth(&plane, l)[lane];
-    tally->edge = edge_distance(&t, packet, lane);
-    tally->area = area_of(&t);
+    tally->edge = tile->draw->lines ? 0 : edge_distance(&t, packet, lane);
+    tally->area = tile->draw->lines ? 0 : area_of(&t);
     tally->made = 0;
     tally->at_made = false;
     find_made(tile, p, place, tally);

@@ -98,10 +98,22 @@ static void fetch_bytes(const lom_attribute *attribute, const struct numbers *n,
     }
 }
 
-static void fetch(const struct lom_draw *draw, const struct numbers *n, lom_attributes *in)
+/* Of an attribute of instances: its number, in every lane. */
+static const struct numbers *find_instance(uint32_t number, struct numbers *n)
 {
+    lom_store_int((int32_t *)n->number, lom_splat_int((int32_t)number));
+    n->largest = number;
+    return n;
+}
+
+static void fetch(const struct lom_chunk *chunk, const struct numbers *vertices, lom_attributes *in)
+{
+    const struct lom_draw *draw = chunk->draw;
+    struct numbers same;
     for (int a = 0; a < draw->desc.shader->attributes; a++) {
         const lom_attribute *attribute = &draw->desc.attribute[a];
+        const int divisor = draw->desc.divisor[a];
+        const struct numbers *n = divisor == 0 ? vertices : find_instance((uint32_t)(chunk->instance / divisor), &same);
         lom_float4 *out = &in->attribute[a];
         switch (attribute->kind) {
         case LOM_ATTRIBUTE_NONE:
@@ -216,6 +228,8 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
     lom_int at = lom_lane_index() * draw->row_floats;
     float *row = chunk->rows + first * (size_t)draw->row_floats;
     lom_int codes = classify(pass, vertex->position);
+    if (draw->desc.depth_clamp && draw->sprites)
+        codes &= ~(CODE_NEAR | CODE_FAR);
     lom_scatter_rows(chunk->assembly->clip + first * 4, lom_lane_index() * 4, vertex->position);
     lom_scatter_rows(row, at, project(pass, vertex->position, codes));
     for (int v = 0; v < draw->desc.shader->varyings; v += 4)
@@ -259,7 +273,7 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
             chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
             struct numbers n = find_numbers(chunk, first);
             memcpy(&in.vertex, n.number, sizeof n.number);
-            fetch(draw, &n, &in);
+            fetch(chunk, &n, &in);
             vertex.point_size = lom_splat(1);
             LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
             shade(&vertex, &in, draw->uniforms);

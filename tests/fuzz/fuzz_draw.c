@@ -346,6 +346,11 @@ static lom_draw_desc take_draw(fuzz_bytes *in, struct heap *heap, const struct u
         draw.topology = others[take_choice(in, 3)];
         draw.line_width = take_byte(in) - 1;
     }
+    if (take_choice(in, 4) == 3) {
+        draw.depth_clamp = take_bool(in);
+        draw.provoking = (lom_provoking)take_enum(in, 2);
+        draw.divisor[1] = take_int(in) % 4;
+    }
     return draw;
 }
 

@@ -145,6 +145,53 @@ static void recorded_pixels_end_in_the_bytes_of_the_picture(void)
     }
 }
 
+/* Lines of every width, some cut by near, far and w, in strips and lists: the record of a pixel names those that add to it,
+ * by weights that add up to 1, and ends in its number. */
+static void lines_are_recorded(void)
+{
+    int counted = 0;
+    for (int round = 0; round < 12; round++) {
+        stage s[2];
+        for (int i = 0; i < 2; i++)
+            s[i] = open_stage((lom_device_desc){ .threads = 1 + i, .tile = 16 << i, .chunk = 16 }, SIZE, SIZE,
+                              LOM_FORMAT_RGBA32F, LOM_FORMAT_NONE);
+        make_soup();
+        lom_draw_desc draw = draw_of(&constant, soup, 3 * TRIANGLES);
+        draw.topology = round % 2 == 0 ? LOM_LINES : LOM_LINE_STRIP;
+        draw.line_width = 1 + round / 2;
+        draw.depth_clamp = round % 4 == 3;
+        draw.blend[0] = adding();
+        CHECK(lom_watch(s[1].device, &(lom_watch_desc){ s[1].color, 0, 0, SIZE, SIZE, 0 }, 1));
+        for (int i = 0; i < 2; i++) {
+            begin(&s[i], (lom_pass_desc){ .samples = 1 });
+            lom_draw(s[i].device, &draw);
+            finish(&s[i]);
+        }
+        CHECK(same_images(s[0].image, s[1].image), "round %d", round);
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            const lom_pixel_record *pixel = lom_watched_pixel(s[1].device, 0, p % SIZE, p / SIZE);
+            float numbers[4];
+            int lines = 0;
+            last_numbers(pixel, numbers);
+            for (const lom_triangle_record *t = first_of(pixel); t != NULL; t = t->next) {
+                const lom_fragment_record *f = &t->fragment;
+                lines += t->covered;
+                CHECK(t->covered && !t->has_edges && f->l[2] == 0 && f->l[0] >= 0 && f->l[1] >= 0 &&
+                          f->l[0] + f->l[1] > 1 - 1e-6f && f->l[0] + f->l[1] < 1 + 1e-6f,
+                      "round %d, pixel %d: %g %g", round, p, (double)f->l[0], (double)f->l[1]);
+                CHECK(t->vertex[0].index + 1 == t->vertex[1].index, "round %d, pixel %d", round, p);
+            }
+            CHECK((float)lines * 0.25f == floats_at(&s[0], p % SIZE, p / SIZE)[0], "round %d, pixel %d: %d", round, p,
+                  lines);
+            CHECK(lines == 0 || numbers[0] == floats_at(&s[0], p % SIZE, p / SIZE)[0], "round %d, pixel %d", round, p);
+            counted += lines;
+        }
+        close_stage(&s[0]);
+        close_stage(&s[1]);
+    }
+    CHECK(counted > 10000, "%d", counted);
+}
+
 /* ---- coverage and weights ---- */
 
 /* Triangles whose corners lie within `reach` of each other, seen from some rows of the window. Returns how many times
@@ -417,7 +464,12 @@ static void a_record_begins_with_the_pass_that_cleared(void)
 
 int main(int argc, char **argv)
 {
+#ifndef LOM_RECORD
+    printf("SKIP %s: it is of the variant 4_recorded\n", argv[0]);
+    return argc < 1;
+#endif
     RUN(recorded_pixels_end_in_the_bytes_of_the_picture);
+    RUN(lines_are_recorded);
     RUN(what_covers_is_what_the_oracle_says);
     RUN(what_covers_a_few_rows_is_what_the_oracle_says);
     RUN(each_fate_is_told);

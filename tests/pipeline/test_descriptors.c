@@ -214,6 +214,10 @@ static void draws_are_what_a_draw_can_be(void)
                                     { .count = 3, .instances = -1 },
                                     { .count = 3, .topology = LOM_LINE_STRIP + 1 },
                                     { .count = 3, .topology = -1 },
+                                    { .count = 3, .provoking = LOM_PROVOKING_FIRST + 1 },
+                                    { .count = 3, .provoking = -1 },
+                                    { .count = 3, .divisor[0] = -1 },
+                                    { .count = 3, .divisor[0] = 2, .instances = 7 }, /* takes 4 values of 3 */
                                     { .count = 3, .depth_bias = __builtin_inff() },
                                     { .count = 3, .depth_bias_slope = __builtin_nanf("") },
                                     { .count = (size_t)1 << 32, .indices = indices },
