@@ -23,6 +23,10 @@ static inline const char *small_path(const char *name)
     return path[next];
 }
 
+/* A face, lines and points. */
+static const char small_wires[] =
+    "mtllib box.mtl\nv -2 0 0\nv 2 0 0\nv 2 2 0\nv -2 2 1\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\nl 1/1 4 3\np 2 4\n";
+
 static const char small_obj[] =
     "mtllib box.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 2 0\nvt 0 0\nvt 1 0\nvt .5 1\n"
     "usemtl skin\nf 1/1 5/3 2/2\nf 2/1 5/3 3/2\nusemtl plain\nf 3/1 5/3 4/2\nf 4/1 5/3 1/2\n";
@@ -71,7 +75,8 @@ static inline bool make_small_scene(void)
                 small_picture("color.png", 8, LOM_FORMAT_RGB8, &error) &&
                 small_picture("layer.ppm", 4, LOM_FORMAT_RGB8, &error) &&
                 small_picture("normal.png", 8, LOM_FORMAT_RGB8, &error) && small_text("box.obj", small_obj, &error) &&
-                small_text("box.mtl", small_mtl, &error) && small_text("scene.toml", small_scene, &error);
+                small_text("box.mtl", small_mtl, &error) && small_text("wires.obj", small_wires, &error) &&
+                small_text("scene.toml", small_scene, &error);
     for (int i = 0; made && i < 6; i++) {
         char name[32];
         snprintf(name, sizeof name, "sky_%s.png", faces[i]);

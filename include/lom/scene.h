@@ -241,6 +241,9 @@ typedef struct lom_entity {
     lom_scene_material back; /* of back sides, over what the front sides have */
     bool two_sided;          /* back sides are seen, too; true where the file has a table of them and says no other */
     bool on_ground, visible;
+    int line_width;                  /* of the mesh's lines, pixels of the picture, 1..64 */
+    double point_size;               /* of its points, pixels of the picture; from 2 on they are discs */
+    bool alpha_to_coverage;          /* of the texture's alpha (lom/pipeline.h) */
     lom_interpolation interpolation; /* between the keys */
     lom_entity_key *keys;
     size_t key_count; /* 0: it stands still */
@@ -261,6 +264,9 @@ typedef enum lom_texture_filter {
     LOM_TEXTURE_BILINEAR, /* linear within the nearest level */
     LOM_TEXTURE_NEAREST
 } lom_texture_filter;
+
+/* Edges of triangles as lines over the picture: none; those that no surface hides; all. */
+typedef enum lom_wireframe { LOM_WIREFRAME_OFF, LOM_WIREFRAME_VISIBLE, LOM_WIREFRAME_ALL } lom_wireframe;
 
 typedef struct lom_reference_quality { /* [quality.reference] */
     bool present;
@@ -298,6 +304,8 @@ typedef struct lom_quality {
     bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
     int entity_shadows;     /* texels a side of the maps of what entities keep the sun off; 0: they do not */
     bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
+    lom_wireframe wireframe;
+    double wireframe_color[3]; /* linear */
 } lom_quality;
 
 /* ---- the scene ---- */

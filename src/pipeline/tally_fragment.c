@@ -200,10 +200,7 @@ static void store(const struct lom_tile *tile, lom_tally *tally, int place, int 
     const struct lom_packet *packet = worker->packet;
     const lom_primitive *p = &tile->chunk->primitives[packet->triangle[packet->which[lane]]];
     lom_triangle t;
-    if (tile->draw->lines)
-        lom_find_line(tile->chunk, p, &t);
-    else
-        lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    lom_find_triangle(tile->pass, tile->chunk, p, &t);
     const lom_float l[3] = { packet->l[0], packet->l[1], packet->l[2] };
     const struct depth_plane plane = find_depth(&t);
     tally->is_stored = true;

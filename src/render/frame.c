@@ -5,6 +5,7 @@
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
 #include "render/frame.h"
+#include "render/wires/wires.h"
 
 #include <assert.h>
 #include <time.h>
@@ -57,6 +58,7 @@ static void look(struct frame *f)
     f->parallel = f->camera.projection != LOM_PROJECTION_PERSPECTIVE;
     f->view.plane[3] = 1;
     f->view.sky = true;
+    f->view.pixels = 1;
 }
 
 static bool draw_opaque(struct frame *f, lom_error *error)
@@ -74,7 +76,7 @@ static bool draw_opaque(struct frame *f, lom_error *error)
     part.window = &shown;
     lom_begin_pass(r->device, &pass);
     lom_draw_scene(r, &part);
-    return lom_end_pass(r->device);
+    return lom_end_pass(r->device) && lom_draw_wires(f);
 }
 
 static lom_counters subtract(lom_counters a, lom_counters b)

@@ -57,7 +57,8 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_ENTITIES,
       "entity entity.mesh entity.position entity.rotation entity.scale entity.material.* entity.two_sided "
       "entity.back entity.back.* "
-      "entity.on_ground entity.visible entity.key" },
+      "entity.on_ground entity.visible entity.key entity.line_width entity.point_size "
+      "entity.alpha_to_coverage" },
     { LOM_PART_FOLLOWED, "entity.interpolation entity.key.time entity.key.position entity.key.rotation" },
     { each_frame, "entity.name" },
 
@@ -85,9 +86,11 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
     { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
     { LOM_PART_GROUND, "quality.ambient_occlusion" },
+    { LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_TARGETS, "quality.wireframe" },
     { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
                   "quality.impostor.* quality.shading quality.reflection quality.toon_thresholds "
-                  "quality.toon_tones quality.lamp_tiles quality.scissor quality.reference.* quality.terrain_error" },
+                  "quality.toon_tones quality.lamp_tiles quality.scissor quality.reference.* quality.terrain_error "
+                  "quality.wireframe_color" },
 };
 const size_t lom_key_row_count = sizeof lom_key_rows / sizeof *lom_key_rows;
 

@@ -169,7 +169,7 @@ lom_mat4 lom_zoom_to(const struct lom_window *window, const lom_mat4 *projection
     return lom_multiply(&zoom, projection);
 }
 
-static struct lom_culler culler_of(const struct lom_scene_view *view, const struct lom_window *window)
+struct lom_culler lom_culler_of(const struct lom_scene_view *view, const struct lom_window *window)
 {
     lom_mat4 projection = window != NULL ? lom_zoom_to(window, &view->projection) : view->projection;
     lom_mat4 clip_from_world = lom_multiply(&projection, &view->view);
@@ -179,7 +179,7 @@ static struct lom_culler culler_of(const struct lom_scene_view *view, const stru
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
     struct lom_view_uniform uniform = view_uniform(renderer, view);
-    struct lom_culler culler = culler_of(view, view->window);
+    struct lom_culler culler = lom_culler_of(view, view->window);
     lom_draw_ground(renderer, view, &culler, &uniform);
     lom_draw_entities(renderer, view, &culler, &uniform);
     if (view->sky)
@@ -188,12 +188,12 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
-    struct lom_culler culler = culler_of(view, NULL);
+    struct lom_culler culler = lom_culler_of(view, NULL);
     return lom_shows_ground(&renderer->ground, &culler) || lom_shows_entities(renderer, &culler);
 }
 
 bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
-    struct lom_culler culler = culler_of(view, NULL);
+    struct lom_culler culler = lom_culler_of(view, NULL);
     return lom_shows_ground(&renderer->ground, &culler);
 }

@@ -30,6 +30,8 @@ struct lom_scene_view {
     double plane[4]; /* only what has plane . (p, 1) >= 0; (0, 0, 0, 1): everything */
     bool mirrored;   /* front faces are clockwise */
     bool sky;
+    double
+        pixels; /* of the pass, a pixel of the picture: what the widths of lines and the sizes of points are scaled by */
     struct lom_caustics caustics;
 };
 
@@ -39,6 +41,8 @@ struct lom_culler {
     const double *plane; /* of the view */
     lom_vec3 eye;
 };
+/* window: the part of the view that is drawn; NULL: all of it. */
+struct lom_culler lom_culler_of(const struct lom_scene_view *view, const struct lom_window *window);
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
 
 /* What a picture of width x height shows in a part of its pixels, and a pixel around it. */

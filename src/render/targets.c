@@ -5,7 +5,7 @@
 #include "render/tone.h"
 #include "water/water_models.h"
 
-enum need { ALWAYS, FOR_WATER, FOR_SPRAY };
+enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES };
 enum size { DRAWN, REFLECTED, REFRACTED }; /* of the part that is drawn; of the frame, scaled as quality says */
 enum kind { COLOR, DEPTH, MASK, LAYER };
 
@@ -65,6 +65,7 @@ static const struct row {
                                       LOM_TARGET_REFRACTION_DEPTH, .keeps = false },
     [LOM_TARGET_MASK] = { "mask", FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION, .keeps = false },
     [LOM_TARGET_SPRAY] = { "spray", FOR_SPRAY, DRAWN, LAYER, .keeps = false },
+    [LOM_TARGET_WIRE_DEPTH] = { "wireframe depth", FOR_WIRES, DRAWN, DEPTH, .keeps = false },
 };
 
 /* What each target is to be for a frame of this size; width 0: the scene needs none. */
@@ -72,7 +73,8 @@ static void describe(const lom_scene *scene, const struct lom_targets *size, lom
 {
     const bool needed[] = { [ALWAYS] = true,
                             [FOR_WATER] = scene->water.present && scene->water.enabled,
-                            [FOR_SPRAY] = lom_count_drops(scene) != 0 };
+                            [FOR_SPRAY] = lom_count_drops(scene) != 0,
+                            [FOR_WIRES] = scene->quality.wireframe == LOM_WIREFRAME_VISIBLE };
     const double scale[] = {
         [REFLECTED] = scene->quality.reflection_scale, [REFRACTED] = scene->quality.refraction_scale
     };

@@ -14,6 +14,7 @@ enum lom_target {
     LOM_TARGET_REFLECTION_DEPTH,
     LOM_TARGET_MASK, /* not 0 where water may be seen */
     LOM_TARGET_SPRAY,
+    LOM_TARGET_WIRE_DEPTH, /* of the surfaces that hide wires */
     LOM_TARGETS
 };
 

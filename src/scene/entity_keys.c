@@ -64,6 +64,16 @@ static const lom_key entity[] = {
     { "back", LOM_KEY_TABLE, AT(lom_entity, back), .table = &lom_entity_back_keys },
     { "on_ground", LOM_KEY_BOOL, AT(lom_entity, on_ground),
       .text = "Measure the position's y from the terrain below instead of from 0." },
+    { "line_width", LOM_KEY_INTEGER, AT(lom_entity, line_width), .minimum = 1, .maximum = 64, .initial = { 1 },
+      .unit = "pixels", .text = "Width of the mesh's lines (`l`) in the picture." },
+    { "point_size", LOM_KEY_NUMBER, AT(lom_entity, point_size), .minimum = 0.25, .maximum = 4096, .initial = { 1 },
+      .unit = "pixels",
+      .text = "Size of the mesh's points (`p`) in the picture: a square's side, from 2 on a disc's diameter." },
+    { "alpha_to_coverage", LOM_KEY_BOOL, AT(lom_entity, alpha_to_coverage),
+      .text =
+          "Of the samples of a pixel as many show the entity as its texture's alpha says (docs/samples.md); with one "
+          "sample those pixels do whose alpha is 1/2 or more. For leaves, nets, fences. The reference does not know "
+          "it." },
     { "visible", LOM_KEY_BOOL, AT(lom_entity, visible), .initial = { 1 }, .text = "Whether it is drawn." },
     { "interpolation", LOM_KEY_CHOICE, AT(lom_entity, interpolation), .choices = { "linear", "smooth" },
       .text = "Between the keys of a path, as of the camera." },

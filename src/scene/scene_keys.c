@@ -187,6 +187,12 @@ static const lom_key quality[] = {
           "eye. 0: they do not." },
     { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion),
       .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
+    { "wireframe", LOM_KEY_CHOICE, AT(lom_quality, wireframe), .choices = { "off", "visible", "all" },
+      .text =
+          "Edges of the triangles of terrain and entities as lines over what the camera sees of them, under water and "
+          "clouds: none; those that no surface hides; all. Mirrored pictures and the reference have none." },
+    { "wireframe_color", LOM_KEY_COLOR, AT(lom_quality, wireframe_color), 3, .maximum = 1000,
+      .initial = { 0.9, 0.25, 0.05 }, .text = "Colour of these lines, whatever the light." },
 };
 static bool check_quality(void *members, const lom_key_check *check)
 {

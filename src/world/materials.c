@@ -92,8 +92,9 @@ bool lom_resolve_materials(struct lom_world *world, struct lom_world_entity *ent
 {
     const lom_mesh *mesh = entity->mesh;
     const lom_entity *source = entity->entity;
-    entity->parts = lom_allocate(mesh->part_count, sizeof *entity->parts, error);
-    for (size_t i = 0; entity->parts != NULL && i < mesh->part_count; i++) {
+    const size_t parts = lom_mesh_parts(mesh);
+    entity->parts = lom_allocate(parts, sizeof *entity->parts, error);
+    for (size_t i = 0; entity->parts != NULL && i < parts; i++) {
         const lom_mesh_part *from = &mesh->parts[i];
         struct lom_world_part *part = &entity->parts[i];
         const lom_material base = from->material < 0 ? lom_default_material("") : mesh->materials[from->material];

@@ -179,7 +179,7 @@ static void follow_entity(struct lom_world_entity *entity, const lom_scene *scen
     entity->entity = source;
     entity->is_hidden = is_hidden(scene, source);
     const char *front = source->material.texture, *back = source->back.texture != NULL ? source->back.texture : front;
-    for (size_t i = 0; i < entity->mesh->part_count; i++) {
+    for (size_t i = 0; i < lom_mesh_parts(entity->mesh); i++) {
         struct lom_world_part *part = &entity->parts[i];
         part->material.texture = front != NULL ? front : part->material.texture;
         part->back.texture = back != NULL ? back : part->back.texture;

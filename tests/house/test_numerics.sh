@@ -2,7 +2,7 @@
 # Proves that docs/numerics.md names a test for every extreme case, and that every test it names exists and is run.
 page=docs/numerics.md
 missing= absent=
-for case in T:20 R:12 A:6 S:11 Z:6 B:7 F:14 W:4 O:7 V:19 I:6 L:8 X:9; do
+for case in T:21 R:12 A:8 S:11 Z:6 B:7 F:14 W:4 O:7 V:19 I:6 L:8 X:9; do
     number=1
     while [ $number -le "${case#*:}" ]; do
         id=${case%:*}$number

@@ -60,6 +60,10 @@ static const struct base bases[] = {
     { "oblique", "camera.foreshortening camera.receding_angle camera.height camera.key.height camera.far",
       "[camera]\nposition = [0, 3, 12]\ntarget = [0, 1, 0]\nprojection = \"oblique\"\nheight = 9\nfar = 60\n"
       "[[camera.key]]\ntime = 0\n[[camera.key]]\ntime = 1\nheight = 12\n" TERRAIN CLOUD },
+    { "lines",
+      "entity.0.line_width entity.0.point_size entity.0.alpha_to_coverage quality.wireframe quality.wireframe_color",
+      VIEW TERRAIN "[[entity]]\nmesh = \"wires.obj\"\nposition = [0, 1, 2]\n[entity.material]\ntexture = "
+                   "\"color.png\"\n[quality]\nwireframe = \"visible\"\n" },
     { "tone", "output.exposure output.curve output.white", "curve = \"reinhard\"\n" VIEW TERRAIN },
     { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
       "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "

@@ -34,17 +34,42 @@ static const lom_shader *shader_of(const lom_renderer *renderer, const struct lo
     return shading == LOM_SHADING_PHONG && material->normal_map != NULL ? &lom_entity_bumped : shaders[shading];
 }
 
-static void draw_parts(lom_renderer *renderer, const struct lom_drawn_entity *entity,
-                       const struct lom_material_uniform *materials, lom_draw_desc *draw,
-                       struct lom_entity_uniforms *uniforms)
+struct parts {
+    lom_renderer *renderer;
+    const struct lom_drawn_entity *entity;
+    struct lom_entity_uniforms *uniforms;
+};
+
+/* The parts from `first` on, of the draw's topology; the shader of triangles is their materials'. */
+static void draw_parts(const struct parts *p, const struct lom_material_uniform *materials, lom_draw_desc *draw,
+                       size_t first, size_t count)
 {
-    for (size_t i = 0; i < entity->source->mesh->part_count; i++) {
-        uniforms->material = materials[i];
-        draw->shader = shader_of(renderer, &materials[i]);
-        draw->first = entity->source->parts[i].first;
-        draw->count = entity->source->parts[i].count;
-        lom_draw(renderer->device, draw);
+    for (size_t i = first; i < first + count; i++) {
+        p->uniforms->material = materials[i];
+        if (draw->topology == LOM_TRIANGLES)
+            draw->shader = shader_of(p->renderer, &materials[i]);
+        draw->first = p->entity->source->parts[i].first;
+        draw->count = p->entity->source->parts[i].count;
+        lom_draw(p->renderer->device, draw);
     }
+}
+
+/* A face alone has a flat normal. pixels: of the pass, a pixel of the picture. */
+static void draw_lines_and_points(const struct parts *p, lom_draw_desc draw, double pixels)
+{
+    const lom_entity *entity = p->entity->source->entity;
+    const lom_mesh *mesh = p->entity->source->mesh;
+    const lom_shading shading = p->renderer->scene->quality.shading;
+    const double size = entity->point_size * pixels;
+    const int width = lom_int_of(entity->line_width * pixels + 0.5);
+    draw.topology = LOM_LINES;
+    draw.line_width = width < 1 ? 1 : width;
+    draw.shader = shading == LOM_SHADING_FLAT ? &lom_entity_phong : shaders[shading];
+    draw_parts(p, p->entity->materials, &draw, mesh->part_count, mesh->line_part_count);
+    draw.topology = LOM_POINTS;
+    draw.shader = size < 2 ? &lom_entity_point : &lom_entity_disc;
+    p->uniforms->point_size = (float)size;
+    draw_parts(p, p->entity->materials, &draw, mesh->part_count + mesh->line_part_count, mesh->point_part_count);
 }
 
 /* A back has the front's normals, the other way. */
@@ -74,17 +99,44 @@ static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
                            .object = LOM_OBJECT_ENTITY + (int)(entity - renderer->entities.items),
                            .front_clockwise = view->mirrored != is_mirroring(&entity->at->world_from_model) };
     set_attributes(&draw, entity->source->mesh);
-    draw_parts(renderer, entity, entity->materials, &draw, &uniforms);
+    uniforms.cuts = draw.alpha_to_coverage = entity->source->entity->alpha_to_coverage;
+    const struct parts p = { renderer, entity, &uniforms };
+    const lom_mesh *mesh = entity->source->mesh;
+    draw_parts(&p, entity->materials, &draw, 0, mesh->part_count);
+    if (mesh->line_part_count != 0 || mesh->point_part_count != 0)
+        draw_lines_and_points(&p, draw, view->pixels);
     if (entity->backs == NULL)
         return;
     draw.cull = LOM_CULL_FRONT;
     turn_normals(&uniforms.normal_from_model);
-    draw_parts(renderer, entity, entity->backs, &draw, &uniforms);
+    draw_parts(&p, entity->backs, &draw, 0, mesh->part_count);
+}
+
+/* The caster where its textures say that it is. */
+static void draw_cut_caster(lom_renderer *renderer, const struct lom_drawn_entity *entity,
+                            const lom_mat4 *clip_from_model)
+{
+    const lom_mesh *mesh = entity->source->mesh;
+    const struct lom_caster_uniforms whole = { lom_round_matrix(clip_from_model) };
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const struct lom_cut_caster_uniforms cut = { whole.clip_from_model, entity->materials[i].texture };
+        lom_draw_desc draw = { .shader = cut.texture != NULL ? &lom_cut_caster_shader : &lom_caster_shader,
+                               .uniforms = cut.texture != NULL ? (const void *)&cut : &whole,
+                               .first = entity->source->parts[i].first,
+                               .count = entity->source->parts[i].count,
+                               .label = entity->source->entity->mesh };
+        set_attributes(&draw, mesh);
+        lom_draw(renderer->device, &draw);
+    }
 }
 
 void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *entity, const lom_mat4 *clip_from_world)
 {
     lom_mat4 clip_from_model = lom_multiply(clip_from_world, &entity->at->world_from_model);
+    if (entity->source->entity->alpha_to_coverage) {
+        draw_cut_caster(renderer, entity, &clip_from_model);
+        return;
+    }
     struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_model) };
     lom_draw_desc draw = { .shader = &lom_caster_shader,
                            .uniforms = &uniforms,
@@ -113,23 +165,26 @@ struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_
     return u;
 }
 
-static bool is_shown(const struct lom_drawn_entity *entity, const struct lom_culler *culler)
+/* Wide lines and points reach out of the bounds of their vertices. */
+bool lom_shows_entity(const struct lom_drawn_entity *entity, const struct lom_culler *culler)
 {
-    return !entity->source->is_hidden && lom_is_visible(culler, &entity->at->bounds);
+    const lom_mesh *mesh = entity->source->mesh;
+    const bool is_wide = mesh->line_part_count != 0 || mesh->point_part_count != 0;
+    return !entity->source->is_hidden && (is_wide || lom_is_visible(culler, &entity->at->bounds));
 }
 
 void lom_draw_entities(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
                        const struct lom_view_uniform *uniform)
 {
     for (size_t i = 0; i < renderer->entities.count; i++)
-        if (is_shown(&renderer->entities.items[i], culler))
+        if (lom_shows_entity(&renderer->entities.items[i], culler))
             draw_entity(renderer, &renderer->entities.items[i], view, uniform);
 }
 
 bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *culler)
 {
     for (size_t i = 0; i < renderer->entities.count; i++)
-        if (is_shown(&renderer->entities.items[i], culler))
+        if (lom_shows_entity(&renderer->entities.items[i], culler))
             return true;
     return false;
 }

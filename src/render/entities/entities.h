@@ -13,6 +13,9 @@ struct lom_drawn_entity {
     const struct lom_placement *at;         /* in the frame */
     struct lom_material_uniform *materials; /* one a part */
     struct lom_material_uniform *backs;     /* behind them, of a two-sided entity; else NULL */
+    uint32_t *edges;                        /* of its mesh, for a wireframe; NULL without */
+    size_t edge_count;                      /* indices, two each */
+    bool shares_edges;                      /* with an entity before it */
     int shadow_map;                         /* that it is drawn into in this frame; -1: none */
 };
 
@@ -41,7 +44,8 @@ void lom_free_entities(lom_renderer *renderer);
 /* The maps of their shadows are made anew by the next frame. */
 void lom_drop_entity_shadows(lom_renderer *renderer);
 
-/* Whether any of them would be drawn. */
+/* Whether one of them would be drawn; whether any. */
+bool lom_shows_entity(const struct lom_drawn_entity *entity, const struct lom_culler *culler);
 bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *culler);
 /* The map of a shadow, for places less the eye. */
 struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye);

@@ -65,12 +65,17 @@ LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
 }
 
 /* White where there is no map. */
-static lom_float3 look_up(const lom_texture *map, const lom_varyings *in)
+static lom_float4 look_up_texel(const lom_texture *map, const lom_varyings *in)
 {
     if (map == NULL)
-        return lom_splat3(1, 1, 1);
-    lom_float4 texel = lom_sample_gradient(map, in->varying[UV], in->varying[UV + 1], lom_dx(in, UV),
-                                           lom_dx(in, UV + 1), lom_dy(in, UV), lom_dy(in, UV + 1));
+        return (lom_float4){ lom_splat(1), lom_splat(1), lom_splat(1), lom_splat(1) };
+    return lom_sample_gradient(map, in->varying[UV], in->varying[UV + 1], lom_dx(in, UV), lom_dx(in, UV + 1),
+                               lom_dy(in, UV), lom_dy(in, UV + 1));
+}
+
+static lom_float3 look_up(const lom_texture *map, const lom_varyings *in)
+{
+    lom_float4 texel = look_up_texel(map, in);
     return (lom_float3){ texel.x, texel.y, texel.z };
 }
 
@@ -80,7 +85,8 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
     const struct lom_material_uniform *m = &entity->material;
     if (m->specular_map != NULL)
         highlight = lom_mul3(highlight, look_up(m->specular_map, in));
-    lom_float3 skin = look_up(m->texture, in), color = lom_add3(lom_mul3(textured, skin), highlight);
+    const lom_float4 texel = look_up_texel(m->texture, in);
+    lom_float3 skin = { texel.x, texel.y, texel.z }, color = lom_add3(lom_mul3(textured, skin), highlight);
     LOM_NAME_VALUE(textured);
     LOM_NAME_VALUE(highlight);
     LOM_NAME_AS(albedo, skin);
@@ -91,6 +97,8 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
     }
     LOM_NAME_VALUE(color);
     lom_finish_opaque(out, &entity->view, load3(in, OFFSET), color);
+    if (entity->cuts)
+        out->color[0].w = texel.w;
 }
 
 static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
@@ -165,6 +173,20 @@ LOM_SHADER(lom_entity_gouraud, lit_vertex, gouraud_fragment, .attributes = 4, .v
            .clip_distances = 1, .reads = LOM_VARYINGS(TEXTURED, 6) | LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3),
            .differentiates = LOM_VARYINGS(UV, 2), .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 
+static void point_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    vertex(out, in, uniforms);
+    out->point_size = lom_splat(entity->point_size);
+}
+
+LOM_SHADER(lom_entity_point, point_vertex, phong_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1,
+           .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_entity_disc, point_vertex, phong_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1, .round = true,
+           .uniforms_size = sizeof(struct lom_entity_uniforms))
+
 static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
     const struct lom_caster_uniforms *caster = uniforms;
@@ -173,3 +195,24 @@ static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void 
 }
 
 LOM_DEPTH_SHADER(lom_caster_shader, caster_vertex, .attributes = 1, .uniforms_size = sizeof(struct lom_caster_uniforms))
+
+static void cut_caster_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_cut_caster_uniforms *caster = uniforms;
+    lom_float3 model = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
+    out->position = lom_transform4(&caster->clip_from_model, model);
+    out->varying[0] = in->attribute[2].x;
+    out->varying[1] = in->attribute[2].y;
+}
+
+static void cut_caster_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_cut_caster_uniforms *caster = uniforms;
+    lom_float4 texel = lom_sample_gradient(caster->texture, in->varying[0], in->varying[1], lom_dx(in, 0),
+                                           lom_dx(in, 1), lom_dy(in, 0), lom_dy(in, 1));
+    out->discard = texel.w < 0.5f;
+}
+
+LOM_SHADER(lom_cut_caster_shader, cut_caster_vertex, cut_caster_fragment, .attributes = 3, .varyings = 2,
+           .reads = LOM_VARYINGS(0, 2), .differentiates = LOM_VARYINGS(0, 2), .discards = true,
+           .uniforms_size = sizeof(struct lom_cut_caster_uniforms))

@@ -33,7 +33,7 @@ static bool load_material(lom_renderer *renderer, const struct lom_world_materia
 static bool load_parts(lom_renderer *renderer, struct lom_drawn_entity *entity, lom_error *error)
 {
     const struct lom_world_entity *source = entity->source;
-    const size_t parts = source->mesh->part_count, sides = source->entity->two_sided ? 2 : 1;
+    const size_t parts = lom_mesh_parts(source->mesh), sides = source->entity->two_sided ? 2 : 1;
     entity->materials = lom_allocate(parts * sides, sizeof *entity->materials, error);
     if (entity->materials == NULL)
         return false;
@@ -43,6 +43,18 @@ static bool load_parts(lom_renderer *renderer, struct lom_drawn_entity *entity, 
             (sides == 2 && !load_material(renderer, &source->parts[k].back, &entity->backs[k], error)))
             return false;
     return true;
+}
+
+/* The edges of its mesh: those of the entity before it that has the same one. */
+static bool find_edges(const struct lom_drawn_entities *entities, struct lom_drawn_entity *entity, lom_error *error)
+{
+    const struct lom_drawn_entity *other = entities->items;
+    while (other->source->mesh != entity->source->mesh)
+        other++;
+    entity->shares_edges = other != entity;
+    entity->edges = other != entity ? other->edges : lom_mesh_edges(entity->source->mesh, &entity->edge_count, error);
+    entity->edge_count = other->edge_count;
+    return entity->edges != NULL;
 }
 
 bool lom_load_entities(lom_renderer *renderer, lom_error *error)
@@ -56,13 +68,15 @@ bool lom_load_entities(lom_renderer *renderer, lom_error *error)
         entity->at = &renderer->moment.placements[i];
         if (!load_parts(renderer, entity, error))
             return false;
+        if (world->scene->quality.wireframe != LOM_WIREFRAME_OFF && !find_edges(entities, entity, error))
+            return false;
     }
     return entities->items != NULL;
 }
 
-static void free_materials(lom_renderer *renderer, const struct lom_drawn_entity *entity)
+static void free_entity(lom_renderer *renderer, const struct lom_drawn_entity *entity)
 {
-    const size_t count = entity->source->mesh->part_count * (entity->backs != NULL ? 2 : 1);
+    const size_t count = lom_mesh_parts(entity->source->mesh) * (entity->backs != NULL ? 2 : 1);
     for (size_t k = 0; entity->materials != NULL && k < count; k++) {
         const struct lom_material_uniform *m = &entity->materials[k];
         lom_drop_texture(renderer, m->texture);
@@ -72,12 +86,14 @@ static void free_materials(lom_renderer *renderer, const struct lom_drawn_entity
         lom_drop_texture(renderer, m->normal_map);
     }
     lom_release(entity->materials);
+    if (!entity->shares_edges)
+        lom_release(entity->edges);
 }
 
 void lom_free_entities(lom_renderer *renderer)
 {
     for (size_t i = 0; i < renderer->entities.count; i++)
-        free_materials(renderer, &renderer->entities.items[i]);
+        free_entity(renderer, &renderer->entities.items[i]);
     lom_release(renderer->entities.items);
     lom_drop_entity_shadows(renderer);
 }

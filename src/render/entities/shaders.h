@@ -9,6 +9,14 @@ struct lom_entity_uniforms {
     struct lom_view_uniform view;
     struct lom_matrix_uniform clip_from_model, offset_from_model, normal_from_model; /* multiplied in double */
     struct lom_material_uniform material;
+    float point_size; /* pixels */
+    bool cuts;        /* the texture's alpha is the colour's */
+};
+
+/* Of what is cut out by its texture's alpha. */
+struct lom_cut_caster_uniforms {
+    struct lom_matrix_uniform clip_from_model;
+    const lom_texture *texture;
 };
 
 struct lom_caster_uniforms {
@@ -16,7 +24,9 @@ struct lom_caster_uniforms {
 };
 
 extern const lom_shader lom_entity_phong, lom_entity_gouraud, lom_entity_flat;
-extern const lom_shader lom_entity_bumped; /* lom_entity_phong with the material's normal map */
-extern const lom_shader lom_caster_shader; /* depth alone */
+extern const lom_shader lom_entity_bumped;                 /* lom_entity_phong with the material's normal map */
+extern const lom_shader lom_entity_point, lom_entity_disc; /* of points, with light at each of them */
+extern const lom_shader lom_caster_shader;                 /* depth alone */
+extern const lom_shader lom_cut_caster_shader;             /* the same where alpha is 1/2 or more */
 
 #endif

@@ -206,7 +206,8 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
     bool done = loader.texels != NULL && loader.x != NULL && loader.z != NULL &&
                 lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
-                lay_out(ground, error) && lom_make_ground_patterns(ground, error);
+                lay_out(ground, error) && lom_make_ground_patterns(ground, error) &&
+                (quality->wireframe == LOM_WIREFRAME_OFF || lom_make_ground_wires(ground, error));
     if (done)
         fill_blocks(&loader);
     if (done && quality->ambient_occlusion)
@@ -221,8 +222,10 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
 
 void lom_free_ground_blocks(struct lom_ground *ground)
 {
-    for (size_t i = 0; i < ground->pattern_count; i++)
+    for (size_t i = 0; i < ground->pattern_count; i++) {
         lom_release(ground->patterns[i].indices);
+        lom_release(ground->patterns[i].wires);
+    }
     lom_release(ground->patterns);
     lom_release(ground->blocks);
     lom_release(ground->level);

@@ -138,7 +138,7 @@ static bool add_patterns(struct lom_ground *ground, const struct lom_ground_bloc
         size_t i = find_pattern(ground, columns, rows, edges);
         if (i < ground->pattern_count)
             continue;
-        ground->patterns[i] = (struct lom_ground_pattern){ columns, rows, edges, NULL, 0 };
+        ground->patterns[i] = (struct lom_ground_pattern){ .columns = columns, .rows = rows, .edges = edges };
         if (!fill_pattern(&ground->patterns[i], error))
             return false;
         ground->pattern_count++;

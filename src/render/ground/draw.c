@@ -81,6 +81,24 @@ static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_terrain_
                                              [LOM_SHADING_GOURAUD] = &lom_terrain_gouraud,
                                              [LOM_SHADING_FLAT] = &lom_terrain_flat };
 
+const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
+                                                      const struct lom_culler *culler, lom_draw_desc *draw,
+                                                      uint32_t *number)
+{
+    *number = ground->order[i];
+    const struct lom_ground_block *block = &ground->blocks[*number];
+    const struct lom_ground_pattern *pattern = &ground->patterns[ground->pattern[*number]];
+    if (!lom_is_visible(culler, &block->bounds))
+        return NULL;
+    size_t first = block->first[ground->level[*number]];
+    size_t vertices = (size_t)(pattern->columns + 1) * (size_t)(pattern->rows + 1);
+    draw->attribute[0] = (lom_attribute){ ground->position + first, vertices * sizeof *ground->position,
+                                          sizeof *ground->position, LOM_ATTRIBUTE_FLOAT3 };
+    draw->indices = pattern->indices;
+    draw->count = pattern->count;
+    return pattern;
+}
+
 void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
                      const struct lom_view_uniform *uniform)
 {
@@ -95,18 +113,9 @@ void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, 
                            .object = LOM_OBJECT_TERRAIN,
                            .front_clockwise = view->mirrored };
     for (int i = 0; i < ground->across * ground->down; i++) {
-        uint32_t number = ground->order[i];
-        const struct lom_ground_block *block = &ground->blocks[number];
-        const struct lom_ground_pattern *pattern = &ground->patterns[ground->pattern[number]];
-        if (!lom_is_visible(culler, &block->bounds))
-            continue;
-        size_t first = block->first[ground->level[number]];
-        size_t vertices = (size_t)(pattern->columns + 1) * (size_t)(pattern->rows + 1);
-        draw.attribute[0] = (lom_attribute){ ground->position + first, vertices * sizeof *ground->position,
-                                             sizeof *ground->position, LOM_ATTRIBUTE_FLOAT3 };
-        draw.indices = pattern->indices;
-        draw.count = pattern->count;
-        lom_draw(renderer->device, &draw);
+        uint32_t number;
+        if (lom_find_ground_draw(ground, i, culler, &draw, &number) != NULL)
+            lom_draw(renderer->device, &draw);
     }
 }
 

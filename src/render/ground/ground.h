@@ -34,7 +34,12 @@ struct lom_ground_pattern {
     int columns, rows, edges;
     uint32_t *indices;
     size_t count;
+    uint32_t *wires; /* edges of the triangles, two indices each, by kind; NULL where the dial wireframe is off */
+    size_t wire_count[3];
 };
+
+/* Kinds of a pattern's edges: inside, on the left and on the upper border; on the right border; on the lower one. */
+enum { LOM_WIRES_OWN, LOM_WIRES_RIGHT, LOM_WIRES_BOTTOM, LOM_WIRES };
 
 /* The scene's pictures of it; NULL: none. */
 struct lom_ground_maps {
@@ -76,6 +81,11 @@ void lom_free_ground_maps(lom_renderer *renderer);
 /* The shadow is cast anew by the next frame. */
 void lom_drop_ground_shadow(lom_renderer *renderer);
 
+/* The triangles of the i-th block from near to far: their attribute 0 and indices, the block's number; NULL where it is out
+ * of view. */
+const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
+                                                      const struct lom_culler *culler, lom_draw_desc *draw,
+                                                      uint32_t *number);
 /* Whether any of it would be drawn. */
 bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler);
 /* The shadow that it throws, for places less the eye. */
@@ -101,8 +111,9 @@ bool lom_find_sky_visibility(const float *heights, int width, int height, const 
 bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
                             float *shadow, lom_error *error);
 
-/* Makes the triangles of every size of block, level and set of coarser neighbours. */
+/* Makes the triangles of every size of block, level and set of coarser neighbours; and their edges. */
 bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error);
+bool lom_make_ground_wires(struct lom_ground *ground, lom_error *error);
 /* Chooses every block's level: the coarsest whose error is at most `pixels` on the screen, neighbours at most one level
  * apart, and sorts the blocks by distance. scale: pixels of 1 m at 1 m distance; pixels 0: full density. */
 void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, bool parallel);

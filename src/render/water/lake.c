@@ -76,6 +76,7 @@ static bool draw_reflection(struct frame *f, lom_error *error)
     view.view = lom_multiply(&f->view.view, &mirror);
     view.eye.y = 2 * water->level - f->view.eye.y;
     view.mirrored = true;
+    view.pixels = f->scene->quality.reflection_scale;
     view.plane[0] = view.plane[2] = 0;
     view.plane[1] = 1;
     view.plane[3] = water->clip_offset - water->level;
@@ -95,6 +96,7 @@ static bool draw_refraction(struct frame *f, lom_error *error)
         return true;
     }
     view.plane[0] = view.plane[2] = 0;
+    view.pixels = f->scene->quality.refraction_scale;
     view.plane[1] = -1;
     view.plane[3] = water->level + water->clip_offset;
     view.sky = false;

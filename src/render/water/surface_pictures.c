@@ -121,6 +121,7 @@ static bool draw_mirrored(struct surface *surface, struct frame *f, lom_error *e
     view.view = lom_multiply(&f->view.view, &mirror);
     view.eye.y = 2 * f->scene->water.level - f->view.eye.y;
     view.mirrored = true;
+    view.pixels = f->scene->quality.reflection_scale;
     clip_at(&view, f, f->below ? -1 : 1, 0);
     if (!lom_shows_scene(r, &view)) {
         lom_add_step(f, "reflection", false, "nothing but %s is reflected", f->below ? "water" : "the sky");
@@ -150,6 +151,7 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
     const struct lom_waves_uniform *waves = &surface->uniforms.waves;
     struct lom_window window = bent_window(surface, f);
     view.projection = lom_zoom_to(&window, &f->view.projection);
+    view.pixels = f->scene->quality.refraction_scale;
     clip_at(&view, f, f->below ? 1 : -1, f->below ? -(double)waves->lowest : (double)waves->highest);
     if (!lom_shows_scene(r, &view)) {
         lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", f->below ? "the sky" : "water");
