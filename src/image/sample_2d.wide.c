@@ -34,10 +34,33 @@ void LOM_WIDE(lom_sample_lanes)(const lom_texture *texture, const lom_float2 *at
                      : plain_rgba8)(texture, at, lod, out);
 }
 
+/* The nearest texel of level 0 alone, of a picture that ends at its edges: what passes read of the depth that others drew.
+ * The general sampler, which defines it, does the same operations among others. */
+LOM_INLINE lom_float nearest_depth(const lom_texture *texture, const lom_float2 *at)
+{
+    const sample_place place = sample_place_of_level(texture, 0);
+    lom_float x = lom_saturate(at->x) * place.width, y = lom_saturate(at->y) * place.height;
+    lom_float column = lom_min(lom_floor(x), place.width - 1.0f), row = lom_min(lom_floor(y), place.height - 1.0f);
+    lom_int below = lom_bounded_to_int(row + 1.0f), right = lom_bounded_to_int(column + 1.0f);
+    return lom_gather(texture->texels, place.offset + below * place.pitch + right) + 0.0f;
+}
+
+static bool is_plain_depth(const lom_texture *texture)
+{
+    const lom_sampler_desc *sampler = &texture->sampler;
+    return SAMPLE_PLAINLY && texture->storage == LOM_STORAGE_R32F && texture->nearest_within[0] &&
+           texture->nearest_within[1] && texture->level_count == 1 && sampler->wrap_s == LOM_WRAP_CLAMP &&
+           sampler->wrap_t == LOM_WRAP_CLAMP;
+}
+
 void LOM_WIDE(lom_sample_depth_lanes)(const lom_texture *texture, const lom_float2 *at, lom_float *out)
 {
     lom_float4 value;
     lom_float lod = lom_splat(-1000.0f);
+    if (is_plain_depth(texture)) {
+        *out = nearest_depth(texture, at);
+        return;
+    }
     LOM_WIDE(lom_sample_lanes)(texture, at, &lod, &value);
     *out = value.x;
 }

@@ -274,6 +274,44 @@ static void depth_and_fetch_read_one_channel(void)
     lom_free_texture(t);
 }
 
+/* Of a picture of depth with one level, clamped and unfiltered, the lookup of one channel has a way of its own. */
+static void depth_is_what_the_general_sampler_gives(void)
+{
+    static const int sizes[][2] = { { 1, 1 }, { 7, 5 }, { 640, 3 }, { 33, 200 } };
+    static const float extremes[] = { 0, -0.0f, 1, -1, 2, 1e30f, -1e30f, 0x1p-149f, 0x1.fffffep-1f, INFINITY, NAN };
+    const int count = (int)(sizeof extremes / sizeof *extremes);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        int width = sizes[i][0], height = sizes[i][1];
+        float *pixels = malloc((size_t)width * (size_t)height * sizeof *pixels);
+        for (int k = 0; k < width * height; k++)
+            pixels[k] = k % 5 == 0 ? -0.0f : (float)k;
+        lom_texture *t = lom_create_texture(&(lom_texture_desc){ .width = width,
+                                                                 .height = height,
+                                                                 .format = LOM_FORMAT_DEPTH32F,
+                                                                 .pixels = pixels,
+                                                                 .sampler = { .wrap_s = LOM_WRAP_CLAMP,
+                                                                              .wrap_t = LOM_WRAP_CLAMP,
+                                                                              .minify = LOM_FILTER_NEAREST,
+                                                                              .magnify = LOM_FILTER_NEAREST } },
+                                            &error);
+        for (int k = 0; k < 4000; k++) {
+            lom_float s, r;
+            for (int lane = 0; lane < LOM_LANES; lane++) {
+                uint64_t number = (uint64_t)(k * LOM_LANES + lane);
+                s[lane] = (float)(1.4 * lom_random_uniform(31, number) - 0.2);
+                r[lane] = k % 3 == 0 ? extremes[number % (uint64_t)count] : (float)lom_random_uniform(32, number);
+                if (k % 7 == 0)
+                    s[lane] = (float)(number % (uint64_t)(width + 1)) / (float)width; /* the edges of texels */
+            }
+            lom_float d = lom_sample_depth(t, s, r), want = lom_sample(t, s, r, lom_splat(-1000.0f)).x;
+            CHECK(memcmp(&d, &want, sizeof d) == 0, "%dx%d at %g %g: %g, not %g", width, height, (double)s[0],
+                  (double)r[0], (double)d[0], (double)want[0]);
+        }
+        lom_free_texture(t);
+        free(pixels);
+    }
+}
+
 /* The decoded copy of an sRGB texture is for speed alone. */
 static void srgb_by_table_and_decoded_agree(void)
 {
@@ -470,6 +508,7 @@ int main(int argc, char **argv)
     RUN(s11_edges_of_the_picture);
     RUN(srgb_by_table_and_decoded_agree);
     RUN(depth_and_fetch_read_one_channel);
+    RUN(depth_is_what_the_general_sampler_gives);
     RUN(fetches_are_nearest_samples);
     RUN(the_same_bits_at_every_width);
     return check_result();
