@@ -298,12 +298,13 @@ typedef struct lom_quality {
     double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale; /* the same of the refraction picture */
     lom_reference_quality reference;
-    bool lamp_tiles;        /* lamps are looked at only near where they reach; changes no byte */
-    bool scissor;           /* pictures are drawn only where lookups can reach; changes no byte */
-    double terrain_error;   /* pixels that terrain may be off where it is drawn coarser; 0: full density */
-    bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
-    int entity_shadows;     /* texels a side of the maps of what entities keep the sun off; 0: they do not */
-    bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
+    bool lamp_tiles;          /* lamps are looked at only near where they reach; changes no byte */
+    bool scissor;             /* pictures are drawn only where lookups can reach; changes no byte */
+    double terrain_error;     /* pixels that terrain may be off where it is drawn coarser; 0: full density */
+    double terrain_composite; /* pixels that a texel of the picture of all layers may cover; 0: layers are sampled */
+    bool terrain_shadows;     /* terrain keeps the sun off what lies behind it */
+    int entity_shadows;       /* texels a side of the maps of what entities keep the sun off; 0: they do not */
+    bool ambient_occlusion;   /* terrain gets ambient light only from the sky it sees */
     lom_wireframe wireframe;
     double wireframe_color[3]; /* linear */
 } lom_quality;

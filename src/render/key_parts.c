@@ -25,9 +25,10 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_HEIGHTS, "terrain.height_map terrain.size terrain.height terrain.base" },
     { LOM_PART_GROUND_MAPS, "terrain.texture terrain.detail_map terrain.normal_map terrain.layer terrain.layer.map "
                             "terrain.layer.grain" },
-    { each_frame, "terrain.tile terrain.detail_tile terrain.material.* terrain.layer.tile terrain.layer.from_height "
-                  "terrain.layer.to_height terrain.layer.from_slope terrain.layer.to_slope terrain.layer.blend "
-                  "terrain.layer.slope_blend terrain.layer.mapping" },
+    { each_frame, "terrain.material.*" },
+    { LOM_PART_GROUND_LAYERS, "terrain.tile terrain.detail_tile terrain.layer.tile terrain.layer.from_height "
+                              "terrain.layer.to_height terrain.layer.from_slope terrain.layer.to_slope "
+                              "terrain.layer.blend terrain.layer.slope_blend terrain.layer.mapping" },
 
     { LOM_PART_WATER_MAPS | LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES | LOM_PART_TARGETS, "water" },
     { LOM_PART_WATER_MAPS, "water.normal_map water.flow_map water.flow" },
@@ -90,7 +91,7 @@ const struct lom_key_row lom_key_rows[] = {
     { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
                   "quality.impostor.* quality.shading quality.reflection quality.toon_thresholds "
                   "quality.toon_tones quality.lamp_tiles quality.scissor quality.reference.* quality.terrain_error "
-                  "quality.wireframe_color" },
+                  "quality.wireframe_color quality.terrain_composite" },
 };
 const size_t lom_key_row_count = sizeof lom_key_rows / sizeof *lom_key_rows;
 
@@ -148,6 +149,7 @@ static unsigned add_made_from(unsigned parts)
     } chain[] = {
         { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES },
         { LOM_PART_TEXTURES, LOM_PART_SKY | LOM_PART_GROUND_MAPS | LOM_PART_ENTITIES | LOM_PART_WATER_MAPS },
+        { LOM_PART_GROUND_MAPS, LOM_PART_GROUND_LAYERS },
         { LOM_PART_ENTITIES, LOM_PART_FOLLOWED },
         { LOM_PART_WATER_MAPS, LOM_PART_WAVES },
     };

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static lom_sampler_desc sampler_of(const lom_quality *quality)
+lom_sampler_desc lom_scene_sampler(const lom_quality *quality)
 {
     static const struct {
         lom_filter minify, magnify;
@@ -46,7 +46,7 @@ static lom_texture *make_texture(lom_renderer *renderer, const char *path, bool 
                                                                 .mips = scene->quality.mipmaps ? mips : LOM_MIPS_NONE,
                                                                 .level_pixels = smaller,
                                                                 .level_count = levels,
-                                                                .sampler = sampler_of(&scene->quality) });
+                                                                .sampler = lom_scene_sampler(&scene->quality) });
     lom_error failed = { 0 };
     if (!lom_check_device(renderer->device, &failed))
         lom_fail(error, failed.code, "%s: %s", path, failed.text);

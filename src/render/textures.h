@@ -17,6 +17,8 @@ struct lom_texture_cache {
     size_t count, capacity;
 };
 
+/* How textures of pictures are sampled, repeated. */
+lom_sampler_desc lom_scene_sampler(const lom_quality *quality);
 /* The texture of a picture of the world, which is then released; loaded once. color: it holds colours (sRGB-encoded
  * unless the scene's transfer is naive). Each call is one use, until lom_drop_texture. */
 lom_texture *lom_load_texture(lom_renderer *renderer, const char *path, bool color, lom_error *error);

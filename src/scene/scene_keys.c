@@ -178,6 +178,9 @@ static const lom_key quality[] = {
       .unit = "pixels",
       .text = "How far the surface of terrain may be off on the screen where it is drawn with fewer triangles. 0 draws "
               "every pixel of the height map everywhere." },
+    { "terrain_composite", LOM_KEY_NUMBER, AT(lom_quality, terrain_composite), .maximum = 64, .unit = "pixels",
+      .text = "Colours distant terrain from one picture of all its layers, seen from above, four texels a quad of the "
+              "height map: where a texel of it covers at most so many pixels. 0: the layers are sampled everywhere." },
     { "terrain_shadows", LOM_KEY_BOOL, AT(lom_quality, terrain_shadows),
       .text = "Terrain keeps the sun off terrain, entities and water that lie behind it." },
     { "entity_shadows", LOM_KEY_INTEGER, AT(lom_quality, entity_shadows), .minimum = 0, .maximum = 8192,

@@ -34,6 +34,11 @@ static const struct base bases[] = {
       "[sky]\npattern = \"sky_%s.png\"\n[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
       "[entity.material]\nspecular = 0.5\n[[entity.key]]\ntime = 0\n[[entity.key]]\ntime = 1\nposition = [1, 1, "
       "1]\n[quality]\nterrain_shadows = true\nentity_shadows = 64\nambient_occlusion = true\n" },
+    { "composite", "terrain quality.terrain_composite",
+      VIEW TERRAIN
+      "tile = 5\ndetail_map = \"color.png\"\nnormal_map = \"normal.png\"\n[terrain.material]\nspecular = 0.3\n"
+      "[[terrain.layer]]\nmap = \"layer.ppm\"\nfrom_height = 0\nto_slope = 60\n"
+      "[quality]\nterrain_composite = 16\n" },
     { "lamps",
       "lamp.0.name lamp.0.position lamp.0.direction lamp.0.ambient lamp.0.diffuse lamp.0.specular lamp.0.intensity "
       "lamp.0.attenuation "

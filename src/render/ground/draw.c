@@ -52,7 +52,21 @@ static struct lom_layer_uniform layer_uniform(const lom_renderer *renderer, size
                                        .triplanar = from->mapping == LOM_MAPPING_TRIPLANAR };
 }
 
-static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer, const struct lom_view_uniform *view,
+/* The picture of all layers lies once over the terrain; a texel that is `pixels` wide is 2^-level of them. */
+static void set_composed(struct lom_terrain_uniforms *u, const lom_renderer *renderer, const double eye[3])
+{
+    const double pixels = renderer->scene->quality.terrain_composite, *size = renderer->scene->terrain.size;
+    if (renderer->ground.composed == NULL || !(pixels > 0))
+        return;
+    u->composed.map = renderer->ground.composed;
+    u->composed_level = (float)(-lom_double_log(pixels) / lom_double_log(2));
+    for (int k = 0; k < 2; k++) {
+        u->composed.scale[LOM_SIDE_ABOVE][k] = (float)(1 / size[k]);
+        u->composed.shift[LOM_SIDE_ABOVE][k] = (float)(0.5 + eye[2 * k] / size[k]);
+    }
+}
+
+struct lom_terrain_uniforms lom_terrain_uniforms_of(const lom_renderer *renderer, const struct lom_view_uniform *view,
                                                     lom_vec3 place)
 {
     const lom_terrain *t = &renderer->scene->terrain;
@@ -74,6 +88,7 @@ static struct lom_terrain_uniforms terrain_uniforms(const lom_renderer *renderer
     u.material.shininess = (float)t->material.shininess;
     for (size_t i = 0; i < t->layer_count; i++)
         u.layer[i] = layer_uniform(renderer, i, eye);
+    set_composed(&u, renderer, eye);
     return u;
 }
 
@@ -88,7 +103,7 @@ const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *g
     *number = ground->order[i];
     const struct lom_ground_block *block = &ground->blocks[*number];
     const struct lom_ground_pattern *pattern = &ground->patterns[ground->pattern[*number]];
-    if (!lom_is_visible(culler, &block->bounds))
+    if (culler != NULL && !lom_is_visible(culler, &block->bounds))
         return NULL;
     size_t first = block->first[ground->level[*number]];
     size_t vertices = (size_t)(pattern->columns + 1) * (size_t)(pattern->rows + 1);
@@ -99,24 +114,30 @@ const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *g
     return pattern;
 }
 
-void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
-                     const struct lom_view_uniform *uniform)
+void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc)
 {
     const struct lom_ground *ground = &renderer->ground;
-    if (ground->blocks == NULL)
-        return;
-    struct lom_terrain_uniforms uniforms = terrain_uniforms(renderer, uniform, view->eye);
-    lom_draw_desc draw = { .shader = shaders[renderer->scene->quality.shading],
-                           .uniforms = &uniforms,
-                           .cull = LOM_CULL_BACK,
-                           .label = "terrain",
-                           .object = LOM_OBJECT_TERRAIN,
-                           .front_clockwise = view->mirrored };
+    lom_draw_desc draw = *desc;
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
         if (lom_find_ground_draw(ground, i, culler, &draw, &number) != NULL)
             lom_draw(renderer->device, &draw);
     }
+}
+
+void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                     const struct lom_view_uniform *uniform)
+{
+    if (renderer->ground.blocks == NULL)
+        return;
+    struct lom_terrain_uniforms uniforms = lom_terrain_uniforms_of(renderer, uniform, view->eye);
+    lom_draw_ground_blocks(renderer, culler,
+                           &(lom_draw_desc){ .shader = shaders[renderer->scene->quality.shading],
+                                             .uniforms = &uniforms,
+                                             .cull = LOM_CULL_BACK,
+                                             .label = "terrain",
+                                             .object = LOM_OBJECT_TERRAIN,
+                                             .front_clockwise = view->mirrored });
 }
 
 bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler)

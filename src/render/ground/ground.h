@@ -58,6 +58,7 @@ struct lom_ground {
     lom_texture *vertex_texture;
     lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
     lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
+    lom_texture *composed;  /* of the device: all layers from above; or NULL */
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
 
@@ -78,11 +79,14 @@ void lom_free_ground(lom_renderer *renderer);
 /* The scene's pictures of it. */
 bool lom_load_ground_maps(lom_renderer *renderer, lom_error *error);
 void lom_free_ground_maps(lom_renderer *renderer);
-/* The shadow is cast anew by the next frame. */
+/* The shadow is cast, the layers are composed anew by the next frame. */
 void lom_drop_ground_shadow(lom_renderer *renderer);
+void lom_drop_composed_ground(lom_renderer *renderer);
+/* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels are chosen after. */
+bool lom_compose_ground(struct frame *f, lom_error *error);
 
 /* The triangles of the i-th block from near to far: their attribute 0 and indices, the block's number; NULL where it is out
- * of view. */
+ * of view (culler NULL: nothing is). */
 const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
                                                       const struct lom_culler *culler, lom_draw_desc *draw,
                                                       uint32_t *number);

@@ -74,6 +74,7 @@ void lom_free_ground_maps(lom_renderer *renderer)
 void lom_free_ground(lom_renderer *renderer)
 {
     lom_release_texture(renderer->device, renderer->ground.vertex_texture);
+    lom_drop_composed_ground(renderer);
     lom_free_ground_blocks(&renderer->ground);
 }
 

@@ -1,5 +1,6 @@
 /* Terrain before anything of a frame is drawn. In: the frame's camera and sun. Out: every block's level of detail, the
- * same for all passes, and the shadow that the terrain throws. Invariant: both follow from the whole frame. */
+ * same for all passes, the picture of all layers, and the shadow that the terrain throws. Invariant: they follow from the
+ * whole frame. */
 #include "base/numbers.h"
 #include "render/frame.h"
 
@@ -51,6 +52,8 @@ bool lom_prepare_ground(struct frame *f, lom_error *error)
     struct lom_ground *ground = &f->renderer->ground;
     if (ground->blocks == NULL)
         return true;
+    if (!lom_compose_ground(f, error))
+        return false;
     double scale = f->height * f->view.projection.m[1][1] / 2;
     if (f->parallel) /* a metre may point across the picture and away from it at once */
         scale *= 1 + lom_magnitude(f->camera.shear[0]) + lom_magnitude(f->camera.shear[1]);

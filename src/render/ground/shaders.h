@@ -33,10 +33,19 @@ struct lom_terrain_uniforms {
     const lom_texture *vertex_texture;      /* normal and visible share of the sky, at the vertices */
     float vertex_scale[2], vertex_shift[2]; /* its coordinates are (x, z) vertex_scale + vertex_shift */
     struct lom_laid_uniform base, detail, normals;
+    struct lom_laid_uniform composed; /* all layers from above, or none */
+    float composed_level;             /* its level of detail from which on it stands for the layers */
     int layer_count;
     struct lom_layer_uniform layer[LOM_MAX_TERRAIN_LAYERS];
 };
 
 extern const lom_shader lom_terrain_phong, lom_terrain_gouraud, lom_terrain_flat;
+extern const lom_shader lom_terrain_albedo; /* the colour alone, without light */
+
+/* What is told of the terrain to a pass that sees it from this place. */
+struct lom_terrain_uniforms lom_terrain_uniforms_of(const lom_renderer *renderer, const struct lom_view_uniform *view,
+                                                    lom_vec3 place);
+/* The blocks that the culler leaves (NULL: all), near ones first, each a draw of this description with its vertices. */
+void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc);
 
 #endif

@@ -1,5 +1,6 @@
 /* The shaders of terrain: a base texture and layers painted over it by height and slope, with Phong's reflection at
- * three shading frequencies. A layer that no fragment of a packet shows is not sampled. */
+ * three shading frequencies. Of a packet no layer is sampled that none of its fragments shows, and nothing below a layer
+ * that covers all of them. */
 #include "render/ground/shaders.h"
 #include "shading/phong.h"
 
@@ -116,30 +117,96 @@ LOM_INLINE lom_float ragged(const struct lom_layer_uniform *layer, lom_float wei
     return lom_saturate(weight + 4.0f * weight * (1.0f - weight) * gain);
 }
 
-static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
+/* How much of each fragment a layer covers. Heights are looked at first: most layers of a packet are out of their range. */
+static lom_float layer_weight(const struct lom_layer_uniform *layer, lom_float height, lom_float slope)
 {
-    lom_float3 color = lom_splat3(1, 1, 1);
-    if (terrain->base.map != NULL) {
-        lom_float4 texel = sample_side(&terrain->base, in, LOM_SIDE_ABOVE);
-        color = (lom_float3){ texel.x, texel.y, texel.z };
-    }
+    lom_float weight = range_weight(height, layer->from_height, layer->to_height, layer->blend);
+    if (!lom_any(weight > 0.0f))
+        return weight;
+    return weight * range_weight(slope, layer->from_slope, layer->to_slope, layer->slope_blend);
+}
+
+static lom_float3 sample_layer(const struct lom_layer_uniform *layer, const lom_varyings *in, lom_float3 normal)
+{
+    lom_float4 texel =
+        layer->triplanar ? sample_sides(&layer->laid, in, normal) : sample_side(&layer->laid, in, LOM_SIDE_ABOVE);
+    return (lom_float3){ texel.x, texel.y, texel.z };
+}
+
+static lom_float3 sample_base(const struct lom_terrain_uniforms *terrain, const lom_varyings *in)
+{
+    if (terrain->base.map == NULL)
+        return lom_splat3(1, 1, 1);
+    lom_float4 texel = sample_side(&terrain->base, in, LOM_SIDE_ABOVE);
+    return (lom_float3){ texel.x, texel.y, texel.z };
+}
+
+/* `above` itself where its share is 1. */
+LOM_INLINE lom_float3 lay_over(lom_float3 below, lom_float3 above, lom_float share)
+{
+    lom_float3 mixed = lom_mix3(below, above, share);
+    lom_mask seen = share < 1.0f;
+    return (lom_float3){ lom_select(seen, mixed.x, above.x), lom_select(seen, mixed.y, above.y),
+                         lom_select(seen, mixed.z, above.z) };
+}
+
+/* Where a layer's weight is 1 it is the colour, exactly. So what lies below a layer that covers the whole packet is not
+ * sampled, and changes no byte. */
+static lom_float3 layered(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
+{
+    lom_float weight[LOM_MAX_TERRAIN_LAYERS];
+    lom_float3 color;
+    int first = 0;
     for (int i = 0; i < terrain->layer_count; i++) {
-        const struct lom_layer_uniform *layer = &terrain->layer[i];
-        lom_float weight = range_weight(in->varying[OFFSET + 1], layer->from_height, layer->to_height, layer->blend) *
-                           range_weight(g->slope, layer->from_slope, layer->to_slope, layer->slope_blend);
-        if (!lom_any(weight > 0.0f))
-            continue;
-        if (layer->grain != 0)
-            weight = ragged(layer, weight, color);
-        lom_float4 texel = layer->triplanar ? sample_sides(&layer->laid, in, g->normal)
-                                            : sample_side(&layer->laid, in, LOM_SIDE_ABOVE);
-        color = lom_mix3(color, (lom_float3){ texel.x, texel.y, texel.z }, weight);
+        weight[i] = layer_weight(&terrain->layer[i], in->varying[OFFSET + 1], g->slope);
+        first = lom_any(weight[i] < 1.0f) ? first : i + 1;
     }
+    color = first > 0 ? sample_layer(&terrain->layer[first - 1], in, g->normal) : sample_base(terrain, in);
+    for (int i = first; i < terrain->layer_count; i++) {
+        const struct lom_layer_uniform *layer = &terrain->layer[i];
+        if (!lom_any(weight[i] > 0.0f))
+            continue;
+        lom_float share = layer->grain != 0 ? ragged(layer, weight[i], color) : weight[i];
+        lom_float3 above = sample_layer(layer, in, g->normal);
+        color = lay_over(color, above, share);
+    }
+    return color;
+}
+
+static lom_float3 detailed(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
+{
+    lom_float3 color = layered(terrain, in, g);
     if (terrain->detail.map != NULL) {
         lom_float4 detail = sample_side(&terrain->detail, in, LOM_SIDE_ABOVE);
         color = lom_mul3(color, (lom_float3){ 2.0f * detail.x, 2.0f * detail.y, 2.0f * detail.z });
     }
     return color;
+}
+
+/* How much of a fragment's colour is the composed picture's: all from its level of detail on, none half a level before.
+ * On a slope a texel from above covers more of the surface, by 1 / cosine. */
+static lom_float composed_share(const struct lom_terrain_uniforms *terrain, const lom_varyings *in,
+                                const struct ground *g)
+{
+    const float *scale = terrain->composed.scale[LOM_SIDE_ABOVE];
+    lom_float lod = lom_lod_of(terrain->composed.map, lom_dx(in, OFFSET) * scale[0], lom_dx(in, OFFSET + 2) * scale[1],
+                               lom_dy(in, OFFSET) * scale[0], lom_dy(in, OFFSET + 2) * scale[1]);
+    lod = lod + lom_log2(lom_max(g->normal.y, lom_splat(0x1p-6f)));
+    return lom_saturate(1.0f + 2.0f * (lod - terrain->composed_level));
+}
+
+static lom_float3 albedo(const struct lom_terrain_uniforms *terrain, const lom_varyings *in, const struct ground *g)
+{
+    if (terrain->composed.map == NULL)
+        return detailed(terrain, in, g);
+    lom_float share = composed_share(terrain, in, g);
+    lom_float3 color = { { 0 }, { 0 }, { 0 } };
+    if (lom_any(share < 1.0f))
+        color = detailed(terrain, in, g);
+    if (!lom_any(share > 0.0f))
+        return color;
+    lom_float4 texel = sample_side(&terrain->composed, in, LOM_SIDE_ABOVE);
+    return lay_over(color, (lom_float3){ texel.x, texel.y, texel.z }, share);
 }
 
 /* The normal map's z points up the surface, its x and y along the ground's x and z. */
@@ -185,6 +252,14 @@ static void gouraud_fragment(lom_fragment *out, const lom_varyings *in, const vo
     finish(out, in, terrain, (struct lom_lit){ load3(in, TEXTURED), load3(in, HIGHLIGHT) }, &g);
 }
 
+static void albedo_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_terrain_uniforms *terrain = uniforms;
+    struct ground g = look_up_fragment(terrain, in);
+    lom_float3 color = albedo(terrain, in, &g);
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
+}
+
 LOM_SHADER(lom_terrain_phong, vertex, phong_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
            .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
@@ -194,3 +269,6 @@ LOM_SHADER(lom_terrain_flat, vertex, flat_fragment, .attributes = 1, .varyings =
 LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 1, .varyings = LIT_VARYINGS,
            .clip_distances = 1, .reads = LOM_VARYINGS(0, LIT_VARYINGS), .differentiates = LOM_VARYINGS(OFFSET, 3),
            .colors = 1, .uniforms_size = sizeof(struct lom_terrain_uniforms))
+LOM_SHADER(lom_terrain_albedo, vertex, albedo_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
+           .uniforms_size = sizeof(struct lom_terrain_uniforms))
