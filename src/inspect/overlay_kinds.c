@@ -46,7 +46,7 @@ static void tell_made(const struct overlay_place *at, float *value)
     *value = at->tally->at_made ? 4 : (float)at->tally->made;
 }
 
-static void tell_age(const struct overlay_place *at, float *value)
+static void tell_named(const struct overlay_place *at, float *value)
 {
     *value = at->tally->named_components == 1 ? at->tally->named[0] : nothing;
 }
@@ -181,9 +181,14 @@ static const struct overlay_row rows[] = {
       { .target = NULL },
       false },
     { { "impostor-age", "frames since the plate of the cloud that is seen was drawn", 0, 32, false, true },
-      tell_age,
+      tell_named,
       OVERLAY_SCALE,
       { .named = "plate_age" },
+      false },
+    { { "lamps", "lamps in the list of the square of ground that is seen", 0, 16, false, true },
+      tell_named,
+      OVERLAY_SCALE,
+      { .named = "lamps" },
       false },
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };

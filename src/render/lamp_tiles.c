@@ -8,8 +8,9 @@
 
 enum { MOST_ACROSS = 64, MOST_ENTRIES = 1 << 22 };
 
-/* The square around all that is bounded, `across` tiles a side. */
-static void lay_tiles(struct lom_lamp_tiles *t, const struct lom_lamp_extent *extents, size_t count, int across)
+/* The square around all that is bounded, with the margin, `across` tiles a side. */
+static void lay_tiles(struct lom_lamp_tiles *t, const struct lom_lamp_extent *extents, size_t count, double margin,
+                      int across)
 {
     double low[2] = { 1e300, 1e300 }, high[2] = { -1e300, -1e300 };
     t->columns = t->rows = 0;
@@ -17,8 +18,8 @@ static void lay_tiles(struct lom_lamp_tiles *t, const struct lom_lamp_extent *ex
     t->side = 1;
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2 && !extents[i].everywhere; k++) {
-            low[k] = lom_smaller(low[k], extents[i].low[k]);
-            high[k] = lom_larger(high[k], extents[i].high[k]);
+            low[k] = lom_smaller(low[k], extents[i].low[k] - margin);
+            high[k] = lom_larger(high[k], extents[i].high[k] + margin);
         }
     const double size = lom_larger(high[0] - low[0], high[1] - low[1]);
     if (!(size > 0) || across == 0)
@@ -107,7 +108,7 @@ bool lom_fill_lamp_tiles(struct lom_lamp_tiles *t, const struct lom_lamp_extent 
     if (!lom_reserve(&t->first, &t->first_capacity, MOST_ACROSS * MOST_ACROSS + 2, sizeof *t->first, error))
         return false;
     for (int across = without_tiles ? 0 : MOST_ACROSS;; across /= 2) {
-        lay_tiles(t, extents, count, across);
+        lay_tiles(t, extents, count, margin, across);
         entries = count_entries(t, extents, count, margin);
         if (entries <= MOST_ENTRIES || across == 0)
             break;

@@ -57,6 +57,15 @@ LOM_INLINE struct lom_lamp_walk lom_walk_lamps(const struct lom_light_uniform *l
     return walk;
 }
 
+/* How many lamps the lists of the places have, for records: code in their variant alone. */
+LOM_INLINE lom_float lom_listed_lamps(const struct lom_lamp_walk *walk)
+{
+    lom_float count = { 0 };
+    for (int i = 0; i < LOM_LANES; i++)
+        count[i] = (float)(walk->all->first[walk->tile[i] + 1] - walk->all->first[walk->tile[i]]);
+    return count;
+}
+
 /* The next lamp; NULL behind the last one. */
 LOM_INLINE const struct lom_lamp_uniform *lom_next_lamp(struct lom_lamp_walk *walk)
 {

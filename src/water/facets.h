@@ -144,6 +144,8 @@ LOM_INLINE lom_float3 lom_lamp_glitter(const struct lom_surface_uniforms *u, con
     if (u->side < 0 || !(u->glitter > 0))
         return light;
     struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset);
+    lom_float lamps = lom_listed_lamps(&walk);
+    LOM_NAME_VALUE(lamps);
     for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {
         if (!lom_lamp_share(&walk, lamp, &to_lamp, &share) || !lom_facets_mirror(u, p, to_lamp, &radiance))
             continue;

@@ -29,6 +29,13 @@ verdict_first() {
         sed -n 2p "$folder/out" | grep -q '^pixel 8,8 of scene.toml, frame 0, 32x24:'
 }
 
+# Each lamp's term has its name, or its number.
+lamps_are_named() {
+    { cat scene.toml && printf '[[lamp]]\nname = "torch"\ndirection = [0, -1, 0]\n[[lamp]]\ndirection = [0, -2, 1]\n'; } >lamps.toml
+    exits 0 "$lom" explain lamps.toml 16,22 --size 32x24 || return 1
+    grep -q '^ *torch = ' "$folder/out" && grep -q '^ *lamp\.1 = ' "$folder/out"
+}
+
 # The same pixels by `lom render` as PPM, whose last bytes are the picture's.
 pixels_of_render() {
     "$lom" render scene.toml --size 32x24 --frame 2 -o picture.ppm --quiet || return 1
@@ -104,6 +111,7 @@ END
 check unknown_passes_are_refused_with_a_sentence unknown_pass
 check bad_input_is_refused_with_a_sentence bad_input
 check the_verdict_comes_first verdict_first
+check each_lamp_is_named lamps_are_named
 check a_page_needs_no_other_file page_alone
 if command -v node >/dev/null; then
     check every_step_of_the_page_can_be_taken page_runs

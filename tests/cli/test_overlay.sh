@@ -93,10 +93,25 @@ assert ages("alone.pfm") == {0.0}, ages("alone.pfm")
 END
 }
 
+# One lamp lights the ground before the eye, one at infinity all of it.
+lists_of_lamps() {
+    { cat scene.toml && printf '[[lamp]]\nposition = [0, 0.5, 1]\nreach = 1\n[[lamp]]\ndirection = [0, -1, 0]\n'; } >lamps.toml
+    "$lom" overlay lamps lamps.toml --size 64x36 -o lamps.pfm && "$lom" overlay lamps scene.toml --size 64x36 -o dark.pfm || return 1
+    python3 - <<'END'
+import struct
+def numbers(path):
+    data = open(path, "rb").read()
+    return {v for v in struct.unpack("<%df" % (64 * 36), data[-64 * 36 * 4:]) if v == v}
+assert numbers("lamps.pfm") == {1.0, 2.0}, numbers("lamps.pfm")
+assert numbers("dark.pfm") == set(), numbers("dark.pfm")
+END
+}
+
 check bad_input_is_refused_with_a_sentence bad_input
 check every_kind_has_a_legend_and_is_the_same_again every_kind
 if command -v python3 >/dev/null; then
     check numbers_of_a_crop_are_a_cut_out numbers
+    check lamps_are_counted_by_their_lists lists_of_lamps
     check plates_are_as_old_as_the_run age_of_plates
 else
     echo "SKIP numbers_of_a_crop_are_a_cut_out: needs python3"
