@@ -17,7 +17,7 @@ enum { LOM_MAX_VERDICT = 480, LOM_MAX_FOLLOW = 8 };
 
 typedef struct lom_explain_desc {
     lom_frame_desc frame; /* its crop is not used */
-    int x, y;             /* of the whole frame */
+    int x, y;             /* of the whole frame; of the view that the frame names */
     int width, height;    /* 0: 1; more than one pixel is not followed */
     int follow;           /* how many pictures deep, 0 .. LOM_MAX_FOLLOW */
 } lom_explain_desc;
@@ -37,7 +37,8 @@ typedef struct lom_explained {
 
 typedef struct lom_explanation {
     lom_frame frame;   /* its picture is the explained pixels alone */
-    int width, height; /* of the whole frame */
+    int width, height; /* of the whole frame; in a view of the view's picture, as are the pixels */
+    const char *view;  /* the scene's name of the view that holds the pixel; NULL: none */
     size_t count;
     lom_explained item[LOM_MAX_WATCHES]; /* the pixel, then what it looked up, what that looked up ... */
 } lom_explanation;

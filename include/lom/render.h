@@ -57,12 +57,15 @@ typedef enum lom_pixel_order {
 } lom_pixel_order;
 
 typedef struct lom_frame_desc {
-    int width, height; /* of the whole frame; 0: the scene's */
+    int width, height; /* of the whole frame, of one view too; 0: the scene's */
+    const char *view;  /* NULL: the picture with all its views; LOM_MAIN_VIEW: without them; a name: that view alone, as
+                          large as its rectangle of the frame, of which the crop is then a part */
     int frame;         /* its time is frame / fps seconds */
     bool has_time;     /* its time is `time` seconds, within +-1e9, instead */
     bool continues;    /* a run goes on from the frame before of the same size, whatever its number was */
     double time;
-    const lom_camera_view *camera; /* the eye, instead of the scene's at that time; NULL: the scene's */
+    const lom_camera_view *camera; /* the eye, instead of the scene's at that time; NULL: the scene's. Views keep their
+                                      own */
     void *pixels;                  /* the crop's rows are written here, instead of to a new image; NULL: an image */
     size_t pitch;                  /* bytes from a row to the next */
     lom_pixel_order order;         /* of them */
@@ -74,11 +77,12 @@ typedef struct lom_frame_desc {
 
 /* ---- the plan ---- */
 
-enum { LOM_MAX_STEPS = 64, LOM_MAX_STEP_TEXT = 240 };
+enum { LOM_MAX_STEPS = 160, LOM_MAX_STEP_TEXT = 240 };
 
 /* One pass, or one that was left out. */
 typedef struct lom_step {
     char name[24]; /* "scene", "visibility", "reflection", "refraction", "water", "reference" */
+    int view;      /* 0: of the picture; else 1 + the number of the scene's view that it draws */
     bool runs;
     char text[LOM_MAX_STEP_TEXT]; /* what it draws from what into what; or why it was left out */
     int width, height;            /* of its target */
@@ -89,6 +93,11 @@ typedef struct lom_plan {
     int count;
     lom_step step[LOM_MAX_STEPS];
 } lom_plan;
+
+/* The pixels of a frame of this size that a view has. */
+lom_rect lom_view_rectangle(const lom_picture_view *view, int width, int height);
+/* The view that shows at a pixel of a frame of this size: the last visible one that holds it; NULL: the picture. */
+const lom_picture_view *lom_view_at(const lom_scene *scene, int width, int height, int x, int y);
 
 /* ---- a frame ---- */
 

@@ -82,6 +82,20 @@ typedef struct lom_camera {
     lom_person person;
 } lom_camera;
 
+/* ---- [[view]] ---- */
+
+enum { LOM_MAX_VIEWS = 8 };
+#define LOM_MAIN_VIEW "main" /* the name of the picture that [camera] takes */
+
+typedef struct lom_picture_view { /* another look at the same scene, in a rectangle of the picture */
+    bool present;
+    const char *name;    /* unique, not LOM_MAIN_VIEW */
+    double rectangle[4]; /* x, y, width, height in parts of the picture's, from its top left corner; within it */
+    bool mirrored;       /* left and right are exchanged */
+    bool visible;
+    lom_camera camera; /* never a first person */
+} lom_picture_view;
+
 /* The camera at one moment, and what its pictures are made by. The zero of what is behind near_plane is a
  * perspective. */
 typedef struct lom_camera_view {
@@ -333,6 +347,8 @@ typedef struct lom_scene {
     size_t cloud_count;
     lom_spray *sprays; /* [[spray]] */
     size_t spray_count;
+    lom_picture_view *views;         /* [[view]] */
+    size_t view_count;               /* at most LOM_MAX_VIEWS */
     const char *path;                /* of the scene file, as it was named */
     struct lom_scene_memory *memory; /* what the strings and arrays live in */
 } lom_scene;
@@ -354,6 +370,8 @@ const char *const *lom_scene_files(const lom_scene *scene, size_t *count);
  * Smooth is the cubic Hermite curve whose slope at a key is that of the parabola through it and its two neighbours
  * (Catmull-Rom when the times are equally far apart); it reproduces any motion that is quadratic in time. */
 lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time);
+/* The same of one of its views. */
+lom_camera_view lom_scene_view_camera_at(const lom_scene *scene, const lom_picture_view *view, double time);
 /* The light at a time: azimuth, elevation, colour and intensity go straight from key to key. */
 lom_light lom_scene_light_at(const lom_scene *scene, double time);
 /* A lamp at a time, with what its keys say of position, direction and intensity; what it follows is left out. Smooth as

@@ -71,6 +71,22 @@ static bool give_output(const struct values *v, const struct lom_explain_head *h
     return true;
 }
 
+/* The view that shows the pixel is explained, and shown. */
+static void choose_view(lom_explain_desc *desc, const lom_scene *scene)
+{
+    const int width = desc->frame.width != 0 ? desc->frame.width : scene->output.width;
+    const int height = desc->frame.height != 0 ? desc->frame.height : scene->output.height;
+    if (desc->frame.view != NULL || scene->view_count == 0)
+        return;
+    const lom_picture_view *view = lom_view_at(scene, width, height, desc->x, desc->y);
+    desc->frame.view = view != NULL ? view->name : LOM_MAIN_VIEW;
+    if (view != NULL) {
+        const lom_rect r = lom_view_rectangle(view, width, height);
+        desc->x -= r.x;
+        desc->y -= r.y;
+    }
+}
+
 static bool explain(const struct values *v, const char *path, const lom_scene *scene, int x, int y, lom_error *error)
 {
     lom_device_desc device = lom_device_of_options(&v->scene);
@@ -82,6 +98,7 @@ static bool explain(const struct values *v, const char *path, const lom_scene *s
     lom_frame whole = { .image = NULL };
     if (!lom_check_frame(scene, &desc.frame, error))
         return false;
+    choose_view(&desc, scene);
     lom_renderer *renderer = lom_create_renderer(scene, &device, error);
     bool done = renderer != NULL && (v->output == NULL || lom_render_frame(renderer, &desc.frame, &whole, error));
     lom_explanation *explanation = done ? lom_explain(renderer, &desc, error) : NULL;

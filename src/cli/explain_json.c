@@ -288,6 +288,8 @@ void lom_write_explanation(FILE *out, const struct lom_explain_head *head)
     lom_json_text(&json, "verdict", x->item[0].verdict);
     lom_json_text(&json, "scene", head->scene);
     lom_json_integer(&json, "frame", head->frame);
+    if (x->view != NULL)
+        lom_json_text(&json, "view", x->view);
     lom_json_integer(&json, "width", x->width);
     lom_json_integer(&json, "height", x->height);
     lom_json_integer(&json, "x", x->item[0].x);

@@ -271,6 +271,8 @@ void lom_print_explanation(FILE *out, const struct lom_explain_head *head)
     fprintf(out, "pixel %d,%d of %s, frame %d, %dx%d:", x->item[0].x, x->item[0].y, head->scene, head->frame, x->width,
             x->height);
     print_pixel(out, x->frame.image);
+    if (x->view != NULL)
+        fprintf(out, "; it is one of the view \"%s\"", x->view);
     fputs("\n", out);
     print_passes(&t);
     for (size_t i = 1; i < x->count; i++) {

@@ -23,10 +23,19 @@ static const lom_command_line line = {
     .maximum_arguments = 1,
 };
 
-static void print_plan(const lom_frame *frame)
+/* The steps of a view stand under its name. */
+static void print_view(const lom_scene *scene, const lom_plan *plan, int i)
+{
+    const int view = plan->step[i].view;
+    if (view != (i > 0 ? plan->step[i - 1].view : 0))
+        printf("view \"%s\"%s\n", scene->views[view - 1].name, scene->views[view - 1].mirrored ? ", mirrored" : "");
+}
+
+static void print_plan(const lom_scene *scene, const lom_frame *frame)
 {
     for (int i = 0; i < frame->plan.count; i++) {
         const lom_step *step = &frame->plan.step[i];
+        print_view(scene, &frame->plan, i);
         if (!step->runs) {
             printf("-  %-11s left out: %s\n", step->name, step->text);
             continue;
@@ -57,7 +66,7 @@ int lom_command_plan(int argc, char **argv)
     lom_renderer *renderer = drawable ? lom_create_renderer(scene, &device, &error) : NULL;
     bool done = renderer != NULL && lom_render_frame(renderer, &desc, &frame, &error);
     if (done)
-        print_plan(&frame);
+        print_plan(scene, &frame);
     lom_free_image(frame.image);
     lom_free_renderer(renderer);
     lom_free_scene(scene);

@@ -110,6 +110,8 @@ static bool draw_frame(struct run *run, int number, struct moving *moving, lom_e
 {
     const struct values *v = run->values;
     lom_frame_desc desc = lom_frame_of_options(&v->scene, number);
+    if (v->show != NULL && desc.view == NULL)
+        desc.view = LOM_MAIN_VIEW;
     desc.progress = move_bar;
     desc.progress_context = moving;
     lom_frame frame;

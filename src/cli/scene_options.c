@@ -51,7 +51,7 @@ lom_device_desc lom_device_of_options(const struct lom_scene_options *options)
 
 lom_frame_desc lom_frame_of_options(const struct lom_scene_options *options, int frame)
 {
-    lom_frame_desc desc = { .frame = frame };
+    lom_frame_desc desc = { .frame = frame, .view = options->view };
     if (options->size.given) {
         desc.width = (int)options->size.value[0];
         desc.height = (int)options->size.value[1];

@@ -9,7 +9,7 @@
 struct lom_scene_options {
     lom_option_list set;
     lom_option_integers size, crop, threads;
-    const char *lanes;
+    const char *lanes, *view;
     lom_option_number fps, memory;
 };
 
@@ -25,6 +25,14 @@ struct lom_scene_options {
           0,                                                                                                           \
           LOM_MAX_SIZE,                                                                                                \
           "draw only this part of the frame; the same pixels as a cut-out of the whole" },                             \
+        { "view",                                                                                                      \
+          0,                                                                                                           \
+          LOM_OPTION_TEXT,                                                                                             \
+          offsetof(values, scene.view),                                                                                \
+          "NAME",                                                                                                      \
+          0,                                                                                                           \
+          0,                                                                                                           \
+          "only this [[view]] of the scene, as large as its rectangle; main: the picture without views" },             \
         { "fps",                                                                                                       \
           0,                                                                                                           \
           LOM_OPTION_NUMBER,                                                                                           \

@@ -225,6 +225,7 @@ static bool draw(struct lom_view *view, int divisor, lom_error *error)
     if (!make_room(&view->next, desc.width, desc.height, error))
         return false;
     desc.continues = view->moves && !view->saves;
+    desc.view = view->pass >= 0 ? LOM_MAIN_VIEW : NULL;
     desc.pixels = view->next.pixels;
     desc.pitch = 4 * (size_t)desc.width;
     desc.order = view->host.order;

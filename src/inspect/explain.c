@@ -205,6 +205,24 @@ static void describe(const lom_renderer *r, lom_explanation *explanation)
     }
 }
 
+/* A pixel of a view is one of the view's own picture. */
+static bool enter_view(const lom_scene *scene, lom_explain_desc *desc, lom_error *error)
+{
+    struct frame f = { .scene = scene, .desc = &desc->frame };
+    if (desc->frame.view != NULL || scene->view_count == 0)
+        return true;
+    if (!lom_find_frame_sizes(&f, error))
+        return false;
+    const lom_picture_view *view = lom_view_at(scene, f.width, f.height, desc->x, desc->y);
+    desc->frame.view = view != NULL ? view->name : LOM_MAIN_VIEW;
+    if (view != NULL) {
+        const lom_rect r = lom_view_rectangle(view, f.width, f.height);
+        desc->x -= r.x;
+        desc->y -= r.y;
+    }
+    return true;
+}
+
 /* The targets are there before the frame is drawn, so that they can be watched. */
 static bool prepare(lom_renderer *r, lom_explanation *explanation, lom_explain_desc *desc, lom_error *error)
 {
@@ -216,8 +234,9 @@ static bool prepare(lom_renderer *r, lom_explanation *explanation, lom_explain_d
     desc->height = desc->height != 0 ? desc->height : 1;
     desc->frame.crop = (lom_rect){ 0, 0, 0, 0 };
     struct frame f = { .renderer = r, .scene = r->scene, .desc = &desc->frame };
-    if (!lom_find_frame_sizes(&f, error))
+    if (!enter_view(r->scene, desc, error) || !lom_find_frame_sizes(&f, error))
         return false;
+    explanation->view = f.shown != NULL ? f.shown->name : NULL;
     if (desc->x < 0 || desc->y < 0 || desc->width < 1 || desc->height < 1 || desc->x > f.width - desc->width ||
         desc->y > f.height - desc->height)
         return lom_fail(error, LOM_ERROR_USAGE,

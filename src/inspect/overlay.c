@@ -77,6 +77,7 @@ bool lom_draw_tallied(lom_renderer *r, const lom_frame_desc *desc, lom_tally_des
     lom_frame_desc own = *desc;
     struct frame f = { .renderer = r, .scene = r->scene, .desc = &own };
     own.pixels = NULL;
+    own.view = own.view != NULL ? own.view : LOM_MAIN_VIEW;
     if (r->reference != NULL)
         return lom_fail(error, LOM_ERROR_USAGE,
                         "This scene's picture is traced by the reference, which has no passes: look at it with another "
@@ -128,17 +129,12 @@ static bool sum_tiles(const lom_device *device, lom_rect drawn, struct tiles *ti
     return tiles->work != NULL;
 }
 
-static const lom_camera_view *camera_of(const lom_renderer *r, const lom_frame_desc *desc)
-{
-    return desc->camera != NULL ? desc->camera : &r->moment.camera;
-}
-
 static lom_image *take_numbers(const lom_renderer *r, const lom_overlay_desc *desc, const struct seen_pass *pass,
                                lom_error *error)
 {
     const struct overlay_row *row = lom_overlay_row(desc->kind);
     const lom_texture *target = r->targets.of[pass->target];
-    struct overlay_place at = { .camera = camera_of(r, &desc->frame) };
+    struct overlay_place at = { .camera = &r->moment.camera };
     struct tiles tiles = { .work = NULL };
     lom_rect drawn = { 0, 0, lom_texture_width(target), lom_texture_height(target) };
     if (pass->is_of_frame) {

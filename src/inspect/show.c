@@ -47,25 +47,25 @@ static lom_image *show_refraction(lom_renderer *r, const lom_frame_desc *desc, l
 }
 
 /* Metres along the view axis; a depth of 0 stays 0: nothing is there. */
-static lom_image *read_distance(lom_renderer *r, const lom_frame_desc *desc, enum lom_target target, const char *what,
-                                lom_error *error)
+static lom_image *read_distance(lom_renderer *r, enum lom_target target, const char *what, lom_error *error)
 {
-    const lom_camera_view *camera = desc->camera != NULL ? desc->camera : &r->moment.camera;
     lom_image *image = read_floats(r->targets.of[target], LOM_FORMAT_R32F, what, error);
     float *z = image != NULL ? (float *)(void *)image->pixels : NULL;
     for (size_t i = 0; image != NULL && i < lom_image_size(image) / sizeof *z; i++)
-        z[i] = z[i] > 0 ? (float)lom_camera_distance(camera, (double)z[i]) : 0;
+        z[i] = z[i] > 0 ? (float)lom_camera_distance(&r->moment.camera, (double)z[i]) : 0;
     return image;
 }
 
 static lom_image *show_depth(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
-    return read_distance(r, desc, LOM_TARGET_DEPTH, "depth", error);
+    (void)desc;
+    return read_distance(r, LOM_TARGET_DEPTH, "depth", error);
 }
 
 static lom_image *show_refraction_depth(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
-    return read_distance(r, desc, LOM_TARGET_REFRACTION_DEPTH, "depth of the refraction", error);
+    (void)desc;
+    return read_distance(r, LOM_TARGET_REFRACTION_DEPTH, "depth of the refraction", error);
 }
 
 static lom_image *show_near_shadow(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)

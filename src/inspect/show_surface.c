@@ -72,7 +72,7 @@ static lom_image *show_tallied(struct seen *seen, lom_renderer *r, const lom_fra
     lom_image *image =
         drawn ? lom_create_image(r->targets.drawn_width, r->targets.drawn_height, 1, format, error) : NULL;
     seen->renderer = r;
-    seen->eye = lom_camera_eye(desc->camera != NULL ? desc->camera : &r->moment.camera);
+    seen->eye = lom_camera_eye(&r->moment.camera); /* of the frame that was drawn */
     for (int y = 0; image != NULL && y < image->height; y++)
         for (int x = 0; x < image->width; x++)
             tell(seen, lom_tallied(r->device, x, y), seen->crop.x + x, seen->crop.y + y,
@@ -99,6 +99,8 @@ lom_image *lom_show_motion(lom_renderer *r, const lom_frame_desc *desc, lom_erro
     int number = desc->frame > 0 ? desc->frame - 1 : 0;
     if (!lom_find_frame_sizes(&f, error) || !lom_world_at(r->world, number / r->scene->output.fps, &before, error))
         return NULL;
+    if (f.shown != NULL)
+        before.camera = lom_scene_view_camera_at(&before.scene, f.shown, number / r->scene->output.fps);
     struct seen seen = { .before = &before, .width = f.width, .height = f.height, .crop = f.crop };
     lom_mat4 projection = lom_camera_projection(&before.camera, (double)f.width / f.height);
     lom_mat4 view = lom_camera_look(&before.camera);

@@ -116,6 +116,7 @@ static lom_frame_desc describe_frame(const struct steps *s)
     frame.pixels = NULL;
     frame.progress = NULL;
     frame.continues = false;
+    frame.view = frame.view != NULL ? frame.view : LOM_MAIN_VIEW;
     return frame;
 }
 

@@ -51,7 +51,12 @@ bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw
 
 static void look(struct frame *f)
 {
-    f->camera = f->desc->camera != NULL ? *f->desc->camera : f->renderer->moment.camera;
+    struct lom_moment *moment = &f->renderer->moment;
+    if (f->shown != NULL)
+        moment->camera = lom_scene_view_camera_at(&moment->scene, f->shown, f->time);
+    else if (f->desc->camera != NULL)
+        moment->camera = *f->desc->camera;
+    f->camera = moment->camera;
     f->view.projection = lom_camera_projection(&f->camera, (double)f->width / f->height);
     f->view.view = lom_camera_look(&f->camera);
     f->view.eye = lom_camera_eye(&f->camera);
@@ -118,6 +123,13 @@ static lom_stage_time time_since(const lom_renderer *r, struct moment *before, c
     return (lom_stage_time){ name, whole, alone > 0 ? alone : 0 };
 }
 
+static void add_time(lom_stage_time *sum, lom_stage_time time)
+{
+    sum->name = time.name;
+    sum->milliseconds += time.milliseconds;
+    sum->alone += time.alone;
+}
+
 static bool draw_stages(struct frame *f, lom_stage_time *times, lom_error *error)
 {
     lom_renderer *r = f->renderer;
@@ -130,7 +142,7 @@ static bool draw_stages(struct frame *f, lom_stage_time *times, lom_error *error
         f->done = (double)i / (double)(count + 1);
         done = stages[i].run(f, error);
         done = lom_check_device(r->device, error) && done;
-        times[i] = time_since(r, &before, stages[i].name);
+        add_time(&times[i], time_since(r, &before, stages[i].name));
     }
     f->done = (double)count / (double)(count + 1);
     lom_report_progress(f, "output");
@@ -167,6 +179,27 @@ static bool put_out(struct frame *f, bool drawn, lom_image *traced, lom_frame *o
     return true;
 }
 
+static void exchange_pixels(uint8_t *a, uint8_t *b, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; i++) {
+        const uint8_t kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
+}
+
+/* The last pixel of each row comes first. */
+static void mirror_rows(struct frame *f, lom_frame *out)
+{
+    const lom_frame_desc *desc = f->desc;
+    const size_t pixel = lom_pixel_bytes(f->scene, out->image != NULL ? LOM_ORDER_OUTPUT : desc->order);
+    const size_t width = (size_t)f->crop.width, pitch = out->image != NULL ? width * pixel : desc->pitch;
+    uint8_t *row = out->image != NULL ? out->image->pixels : desc->pixels;
+    for (int y = 0; y < f->crop.height; y++, row += pitch)
+        for (size_t x = 0; x < width / 2; x++)
+            exchange_pixels(row + x * pixel, row + (width - 1 - x) * pixel, pixel);
+}
+
 /* A renderer whose frame was abandoned goes on with the next one; a run of impostors begins anew. */
 static void leave_abandoned(struct frame *f)
 {
@@ -174,11 +207,15 @@ static void leave_abandoned(struct frame *f)
     lom_end_impostor_run(f->renderer);
 }
 
+static uint64_t steps_of(const lom_renderer *renderer)
+{
+    return renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) : 0;
+}
+
 static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
 {
     lom_renderer *renderer = f->renderer;
-    lom_counters before = lom_device_counters(renderer->device);
-    f->wave_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) : 0;
+    f->wave_steps = steps_of(renderer);
     lom_error failed = { 0 };
     const bool placed = lom_world_at(renderer->world, f->time, &renderer->moment, &failed);
     if (placed)
@@ -188,23 +225,21 @@ static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)
     struct moment start = look_at_clock(renderer);
     const bool whole = lom_check_device(renderer->device, &failed); /* and not abandoned */
     bool done = whole && put_out(f, drawn, traced, out, &failed);
+    if (done && f->shown != NULL && f->shown->mirrored)
+        mirror_rows(f, out);
     if (drawn || traced != NULL)
-        out->stage[sizeof stages / sizeof stages[0]] = time_since(renderer, &start, "output");
+        add_time(&out->stage[sizeof stages / sizeof stages[0]], time_since(renderer, &start, "output"));
     if (!whole)
         lom_free_image(traced);
-    out->shallow_steps = renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) - f->wave_steps : 0;
-    out->counters = subtract(lom_device_counters(renderer->device), before);
     if (f->abandoned)
         leave_abandoned(f);
     assert(done == (failed.code == LOM_OK)); /* no failure is dropped on the way, none without a word */
     return lom_pass_error(&failed, error);
 }
 
-bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
+bool lom_draw_part(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
 {
-    lom_float_state state;
-    lom_enter_float_state(&state); /* before the sizes and the time, which are computed too */
-    desc = desc != NULL ? desc : &defaults;
+    lom_spray_counters spray = { .moved = 0 };
     struct frame f = { .renderer = renderer,
                        .scene = renderer->scene,
                        .plan = &out->plan,
@@ -212,9 +247,25 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
                        .number = desc->frame,
                        .time = desc->has_time ? desc->time : desc->frame / renderer->scene->output.fps,
                        .impostors = &out->impostors,
-                       .spray = &out->spray };
-    *out = (lom_frame){ .image = NULL };
+                       .spray = &spray };
     bool drawn = lom_find_frame_sizes(&f, error) && draw_frame(&f, out, error);
+    out->spray.moved += spray.moved;
+    out->spray.drawn += spray.drawn;
+    return drawn;
+}
+
+bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error)
+{
+    lom_float_state state;
+    lom_enter_float_state(&state); /* before the sizes and the time, which are computed too */
+    desc = desc != NULL ? desc : &defaults;
+    const lom_counters before = lom_device_counters(renderer->device);
+    const uint64_t steps = steps_of(renderer);
+    *out = (lom_frame){ .image = NULL };
+    bool drawn = lom_has_views(renderer->scene, desc) ? lom_draw_views(renderer, desc, out, error)
+                                                      : lom_draw_part(renderer, desc, out, error);
+    out->shallow_steps = steps_of(renderer) - steps;
+    out->counters = subtract(lom_device_counters(renderer->device), before);
     lom_leave_float_state(&state);
     return drawn;
 }

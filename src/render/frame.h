@@ -9,10 +9,11 @@
 struct frame {
     lom_renderer *renderer;
     const lom_scene *scene;
-    int width, height; /* of the whole frame */
-    lom_rect crop;     /* the part of it that is drawn: what the targets color, depth and mask hold */
-    int number;        /* of the frame */
-    double time;       /* seconds */
+    int width, height;             /* of the whole frame */
+    lom_rect crop;                 /* the part of it that is drawn: what the targets color, depth and mask hold */
+    int number;                    /* of the frame */
+    double time;                   /* seconds */
+    const lom_picture_view *shown; /* of the scene's views; NULL: the picture of [camera] */
     lom_camera_view camera;
     struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
     bool parallel;                  /* the camera's rays are */
@@ -31,6 +32,17 @@ struct frame {
 
 /* frame_size.c: sets width, height and crop by the description and the scene, or says why they cannot be. */
 bool lom_find_frame_sizes(struct frame *f, lom_error *error);
+
+/* The bytes of a pixel of a frame in the caller's memory. */
+size_t lom_pixel_bytes(const lom_scene *scene, lom_pixel_order order);
+
+/* frame.c: draws one view, or the picture of [camera] alone, and adds its steps, work and times to *out. */
+bool lom_draw_part(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error);
+/* views.c: draws the picture and all its views into one. */
+bool lom_draw_views(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame *out, lom_error *error);
+bool lom_has_views(const lom_scene *scene, const lom_frame_desc *desc);
+/* The view that a description names; false when there is none. */
+bool lom_find_view(const lom_scene *scene, const char *name, const lom_picture_view **view, lom_error *error);
 
 /* A pass over the drawn part of the frame: this colour target and the frame's depth, both cleared unless the caller
  * asks to keep them. */

@@ -43,6 +43,12 @@ static bool check_time(const struct frame *f, lom_error *error)
                     fps);
 }
 
+size_t lom_pixel_bytes(const lom_scene *scene, lom_pixel_order order)
+{
+    static const size_t sample[] = { [LOM_OUTPUT_RGB8] = 1, [LOM_OUTPUT_RGB16] = 2, [LOM_OUTPUT_RGB32F] = 4 };
+    return order == LOM_ORDER_OUTPUT ? 3 * sample[scene->output.format] : 4;
+}
+
 static bool check_pixels(const struct frame *f, lom_error *error)
 {
     const lom_frame_desc *desc = f->desc;
@@ -50,8 +56,7 @@ static bool check_pixels(const struct frame *f, lom_error *error)
         return true;
     if (desc->order != LOM_ORDER_OUTPUT && f->scene->output.format != LOM_OUTPUT_RGB8)
         return lom_fail(error, LOM_ERROR_USAGE, "Pixels of 4 bytes are for output.format \"rgb8\" alone.");
-    static const size_t sample[] = { [LOM_OUTPUT_RGB8] = 1, [LOM_OUTPUT_RGB16] = 2, [LOM_OUTPUT_RGB32F] = 4 };
-    size_t pixel = desc->order == LOM_ORDER_OUTPUT ? 3 * sample[f->scene->output.format] : 4;
+    const size_t pixel = lom_pixel_bytes(f->scene, desc->order);
     return desc->pitch >= pixel * (size_t)f->crop.width ||
            lom_fail(error, LOM_ERROR_USAGE, "Rows %zu bytes apart do not hold %d pixels of %zu bytes.", desc->pitch,
                     f->crop.width, pixel);
@@ -88,12 +93,21 @@ bool lom_find_frame_sizes(struct frame *f, lom_error *error)
     const lom_frame_desc *desc = f->desc;
     f->width = desc->width != 0 ? desc->width : f->scene->output.width;
     f->height = desc->height != 0 ? desc->height : f->scene->output.height;
+    if (!lom_find_view(f->scene, desc->view, &f->shown, error))
+        return false;
+    if (f->shown != NULL && f->width > 0 && f->height > 0 && f->width <= LOM_MAX_SIZE && f->height <= LOM_MAX_SIZE) {
+        const lom_rect rectangle = lom_view_rectangle(f->shown, f->width, f->height);
+        f->width = rectangle.width;
+        f->height = rectangle.height;
+    }
     f->crop = desc->crop.width != 0 ? desc->crop : (lom_rect){ 0, 0, f->width, f->height };
     if (f->width < 1 || f->height < 1 || f->width > LOM_MAX_SIZE || f->height > LOM_MAX_SIZE || f->crop.x < 0 ||
         f->crop.y < 0 || f->crop.width < 1 || f->crop.height < 1 || f->crop.x > f->width - f->crop.width ||
         f->crop.y > f->height - f->crop.height)
         return lom_fail(error, LOM_ERROR_USAGE, "The crop %d,%d,%d,%d does not lie inside the frame of %dx%d pixels.",
                         f->crop.x, f->crop.y, f->crop.width, f->crop.height, f->width, f->height);
+    if (f->shown != NULL && f->shown->mirrored) /* the part that is drawn before it is mirrored */
+        f->crop.x = f->width - f->crop.x - f->crop.width;
     return check_time(f, error) && check_camera(f, error) && check_pixels(f, error) && check_picture(f, error) &&
            check_memory(f, error);
 }

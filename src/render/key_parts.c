@@ -12,7 +12,7 @@ enum { each_frame = 0 };
 
 const struct lom_key_row lom_key_rows[] = {
     { each_frame, "title output output.width output.height output.frames output.fps output.sample_shading output.white "
-                  "camera.* light.* lamp.* haze.*" },
+                  "camera.* view.* light.* lamp.* haze.*" },
     { LOM_PART_TARGETS, "output.format output.samples output.exposure output.curve" },
     { LOM_PART_TEXTURES | LOM_PART_TARGETS, "output.transfer" },
 
@@ -104,7 +104,7 @@ static bool names(const char *name, size_t length, const char *path)
 }
 
 /* What may differ within a run of impostors, since the rule of plates looks at it in each frame. */
-static const char run_keys[] = "camera.* entity.key.* light light.azimuth light.elevation light.key.*";
+static const char run_keys[] = "camera.* view.* entity.key.* light light.azimuth light.elevation light.key.*";
 
 static bool is_named(const char *names_of_keys, const char *path)
 {

@@ -83,7 +83,7 @@ static void encode_row(const struct encoding *e, const float *linear, int channe
     }
 }
 
-static lom_format output_format(const lom_output *output)
+lom_format lom_format_of_output(const lom_output *output)
 {
     if (output->format != LOM_OUTPUT_RGB8)
         return output->format == LOM_OUTPUT_RGB16 ? LOM_FORMAT_RGB16 : LOM_FORMAT_RGB32F;
@@ -128,7 +128,7 @@ void lom_output_rows(const lom_scene *scene, lom_device *device, const lom_textu
 
 lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error)
 {
-    const lom_format format = output_format(&scene->output);
+    const lom_format format = lom_format_of_output(&scene->output);
     lom_image *image = lom_create_image(lom_texture_width(drawn), lom_texture_height(drawn), 1, format, error);
     if (image != NULL)
         lom_output_rows(scene, device, drawn, LOM_ORDER_OUTPUT, image->pixels,
@@ -139,7 +139,7 @@ lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const l
 lom_image *lom_output_image(const lom_scene *scene, lom_image *drawn, lom_error *error)
 {
     const lom_output *output = &scene->output;
-    lom_format format = output_format(output);
+    lom_format format = lom_format_of_output(output);
     if (drawn == NULL)
         return NULL;
     if (output->format != LOM_OUTPUT_RGB16 && !lom_is_toned(output)) {

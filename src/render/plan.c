@@ -21,7 +21,7 @@ lom_step *lom_add_step(struct frame *f, const char *name, bool runs, const char 
     lom_step *step = &plan->step[last];
     va_list arguments;
     plan->count = last + 1;
-    *step = (lom_step){ .runs = runs };
+    *step = (lom_step){ .runs = runs, .view = f->shown != NULL ? 1 + (int)(f->shown - f->scene->views) : 0 };
     snprintf(step->name, sizeof step->name, "%s", name);
     va_start(arguments, format);
     vsnprintf(step->text, sizeof step->text, format, arguments);

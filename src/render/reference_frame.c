@@ -15,7 +15,7 @@ lom_image *lom_draw_reference(struct frame *f, lom_error *error)
                                  .height = f->height,
                                  .crop = f->crop,
                                  .time = f->time,
-                                 .camera = f->desc->camera,
+                                 .camera = &f->camera,
                                  .samples = quality->reference.samples,
                                  .depth = quality->reference.depth,
                                  .threads = lom_describe_device(f->renderer->device).threads };

@@ -32,9 +32,11 @@ struct lom_renderer {
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
     struct lom_drawn_lamps lamps;
-    struct lom_targets targets, other_targets; /* of this frame; of the size before */
-    char loaded[128];                          /* what the last change of the scene loaded */
-    const lom_renderer *before;                /* while a scene is changed: what rooms may share; else NULL */
+    struct lom_targets targets; /* of this frame */
+    struct lom_targets
+        other_targets[1 + LOM_MAX_VIEWS]; /* of sizes before, the last one first: one and a view's each */
+    char loaded[128];                     /* what the last change of the scene loaded */
+    const lom_renderer *before;           /* while a scene is changed: what rooms may share; else NULL */
 };
 
 #endif

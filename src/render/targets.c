@@ -5,7 +5,8 @@
 #include "render/tone.h"
 #include "water/water_models.h"
 
-enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES };
+
+#include <string.h>
 enum size { DRAWN, REFLECTED, REFRACTED }; /* of the part that is drawn; of the frame, scaled as quality says */
 enum kind { COLOR, DEPTH, MASK, LAYER };
 
@@ -116,7 +117,8 @@ static void release_targets(lom_device *device, struct lom_targets *targets)
 void lom_drop_targets(lom_renderer *renderer)
 {
     release_targets(renderer->device, &renderer->targets);
-    release_targets(renderer->device, &renderer->other_targets);
+    for (int i = 0; i <= LOM_MAX_VIEWS; i++)
+        release_targets(renderer->device, &renderer->other_targets[i]);
 }
 
 static bool are_of(const struct lom_targets *t, int width, int height, int drawn_width, int drawn_height)
@@ -125,12 +127,13 @@ static bool are_of(const struct lom_targets *t, int width, int height, int drawn
            t->drawn_height == drawn_height;
 }
 
-/* The targets of this frame and those of the size before change places. */
-static void exchange(lom_renderer *r)
+/* The targets of this frame become the first of the others; other number `with` is the frame's. */
+static void exchange(lom_renderer *r, size_t with)
 {
-    struct lom_targets before = r->targets;
-    r->targets = r->other_targets;
-    r->other_targets = before;
+    const struct lom_targets kept = r->other_targets[with];
+    memmove(&r->other_targets[1], &r->other_targets[0], with * sizeof kept);
+    r->other_targets[0] = r->targets;
+    r->targets = kept;
 }
 
 bool lom_make_targets(lom_renderer *r, int width, int height, int drawn_width, int drawn_height, lom_error *error)
@@ -139,7 +142,10 @@ bool lom_make_targets(lom_renderer *r, int width, int height, int drawn_width, i
     lom_texture_desc desc[LOM_TARGETS];
     if (are_of(t, width, height, drawn_width, drawn_height))
         return true;
-    exchange(r);
+    size_t other = 0;
+    while (other < r->scene->view_count && !are_of(&r->other_targets[other], width, height, drawn_width, drawn_height))
+        other++;
+    exchange(r, other);
     if (are_of(t, width, height, drawn_width, drawn_height))
         return true;
     release_targets(r->device, t);

@@ -34,6 +34,8 @@ bool lom_make_targets(lom_renderer *renderer, int width, int height, int drawn_w
                       lom_error *error);
 /* All are made anew by the next frame. */
 void lom_drop_targets(lom_renderer *renderer);
+/* The format of the scene's pictures. */
+lom_format lom_format_of_output(const lom_output *output);
 /* What was drawn into the colour target, in the scene's output format: the caller's. NULL on failure. */
 lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error);
 /* A picture of the reference in rows of the caller's, as below; frees it. False on failure, or when it is NULL. */

@@ -145,9 +145,8 @@ double lom_camera_distance(const lom_camera_view *c, double depth)
     return is_perspective(c) ? c->near_plane / depth : c->far_plane - depth * (c->far_plane - c->near_plane);
 }
 
-lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time)
+static lom_camera_view camera_at(const lom_scene *scene, const lom_camera *camera, double time)
 {
-    const lom_camera *camera = &scene->camera;
     lom_camera_view view = { .position = camera->position,
                              .target = camera->target,
                              .up = camera->up,
@@ -177,4 +176,14 @@ lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time)
         lom_leave_float_state(&state);
     }
     return view;
+}
+
+lom_camera_view lom_scene_camera_at(const lom_scene *scene, double time)
+{
+    return camera_at(scene, &scene->camera, time);
+}
+
+lom_camera_view lom_scene_view_camera_at(const lom_scene *scene, const lom_picture_view *view, double time)
+{
+    return camera_at(scene, &view->camera, time);
 }

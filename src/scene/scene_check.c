@@ -48,6 +48,7 @@ static bool check_names(const lom_key_check *root, const struct named *things)
 static bool check_all_names(lom_scene *scene, const lom_key_check *root)
 {
     const struct named things[] = {
+        NAMED("view", "another view has this name already.", scene->views, scene->view_count),
         NAMED("entity", "another entity has this name already.", scene->entities, scene->entity_count),
         NAMED("lamp", "another lamp has this name already.", scene->lamps, scene->lamp_count),
         NAMED("cloud", "another cloud has this name already.", scene->cloud, scene->cloud_count),
@@ -110,6 +111,14 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
         const lom_key_check table = table_of(root, "camera");
         return table.fail(&table, "follow", "no entity has this name.");
     }
+    for (size_t i = 0; i < scene->view_count; i++) {
+        lom_camera *own = &scene->views[i].camera;
+        own->followed = own->follow == NULL ? 0 : find_entity(scene, own->follow);
+        if (own->follow != NULL && own->followed == 0) {
+            const lom_key_check at = root->element(root, "view", i), table = table_of(&at, "camera");
+            return table.fail(&table, "follow", "no entity has this name.");
+        }
+    }
     for (size_t i = 0; i < scene->lamp_count; i++) {
         lom_lamp *lamp = &scene->lamps[i];
         lamp->followed = lamp->follow == NULL ? 0 : find_entity(scene, lamp->follow);
@@ -142,10 +151,18 @@ static bool check_drops(lom_scene *scene, const lom_key_check *root)
     return true;
 }
 
+static bool check_views(const lom_scene *scene, const lom_key_check *root)
+{
+    if (scene->view_count <= LOM_MAX_VIEWS)
+        return true;
+    const lom_key_check at = root->element(root, "view", LOM_MAX_VIEWS);
+    return at.fail(&at, "name", "a picture has at most 8 views.");
+}
+
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
     const lom_key_check check = lom_check_of(reader, root);
     return check_all_names(reader->scene, &check) && check_ground(reader->scene, &check) &&
            check_shallow(reader->scene, &check) && check_followed(reader->scene, &check) &&
-           check_drops(reader->scene, &check);
+           check_drops(reader->scene, &check) && check_views(reader->scene, &check);
 }

@@ -214,6 +214,8 @@ static const lom_key root[] = {
     { "title", LOM_KEY_STRING, AT(lom_scene, title), .text = "What the scene shows, for people." },
     { "output", LOM_KEY_TABLE, AT(lom_scene, output), .table = &output_table },
     { "camera", LOM_KEY_TABLE, AT(lom_scene, camera), .table = &lom_camera_keys },
+    { "view", LOM_KEY_TABLES, AT(lom_scene, views), .table = &lom_view_keys, .length_offset = AT(lom_scene, view_count),
+      .text = "Other looks at the scene in the same picture." },
     { "light", LOM_KEY_TABLE, AT(lom_scene, light), .table = &lom_light_keys },
     { "lamp", LOM_KEY_TABLES, AT(lom_scene, lamps), .table = &lom_lamp_keys, .length_offset = AT(lom_scene, lamp_count),
       .text = "Lights beside the sun." },

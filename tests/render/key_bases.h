@@ -69,6 +69,20 @@ static const struct base bases[] = {
       "entity.0.line_width entity.0.point_size entity.0.alpha_to_coverage quality.wireframe quality.wireframe_color",
       VIEW TERRAIN "[[entity]]\nmesh = \"wires.obj\"\nposition = [0, 1, 2]\n[entity.material]\ntexture = "
                    "\"color.png\"\n[quality]\nwireframe = \"visible\"\n" },
+    { "views",
+      "view.0.name view.0.rectangle view.0.mirrored view.0.visible view.0.camera.position view.0.camera.target "
+      "view.0.camera.roll view.0.camera.up view.0.camera.field_of_view view.0.camera.near view.0.camera.projection "
+      "view.0.camera.height view.0.camera.far view.0.camera.foreshortening view.0.camera.receding_angle "
+      "view.0.camera.interpolation view.0.camera.key view.0.camera.follow view.0.camera.person camera.position",
+      VIEW KEYS TERRAIN "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
+                        "[[view]]\nname = \"a\"\nrectangle = [0.5, 0, 0.5, 0.5]\nmirrored = true\n[view.camera]\n"
+                        "position = [0, 20, 0]\ntarget = [0, 0, 0]\nup = [0, 0, -1]\nprojection = \"oblique\"\n"
+                        "height = 20\nfar = 60\nfollow = \"box\"\n[[view.camera.key]]\ntime = 0\n"
+                        "[[view.camera.key]]\ntime = 1\nheight = 10\n[[view]]\nname = \"b\"\n"
+                        "rectangle = [0, 0.25, 0.25, 0.5]\n[view.camera]\nyaw = 10\nposition = [0, 3, 12]\n" },
+    { "turned_views", "view.0.camera.yaw view.0.camera.pitch",
+      VIEW TERRAIN "[[view]]\nname = \"a\"\nrectangle = [0, 0.25, 0.25, 0.5]\n[view.camera]\nyaw = 10\npitch = -9\n"
+                   "position = [0, 3, 12]\n" },
     { "tone", "output.exposure output.curve output.white", "curve = \"reinhard\"\n" VIEW TERRAIN },
     { "sky", "sky camera.yaw camera.pitch camera.roll camera.near light.direction light.intensity",
       "[camera]\nyaw = 20\npitch = 3\n[light]\ndirection = [1, -1, 2]\n[sky]\ngradient = true\nsun = true\nglow = "

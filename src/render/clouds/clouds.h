@@ -71,7 +71,8 @@ void lom_set_cloud_light(struct lom_light_uniform *light, const lom_renderer *re
 
 /* impostors.c: whether this frame goes on with the run's impostors; then lom_draw_clouds_over by them. */
 bool lom_begin_impostors(struct frame *f, lom_error *error);
-/* Whether clouds are drawn by them: plates are what an eye sees, and clouds are marched for parallel rays. */
+/* Whether clouds are drawn by them: plates are what the eye of a run of frames sees, and clouds are
+ * marched for parallel rays and in views. */
 bool lom_has_plates(const struct frame *f);
 bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, const struct lom_cloud_view *seen,
                         const lom_pass_desc *pass, size_t *count, lom_error *error);

@@ -75,7 +75,7 @@ static lom_step *add_cloud_step(struct frame *f, size_t count, const lom_imposto
     if (!lom_has_plates(f))
         return lom_add_step(
             f, "clouds", true, "%zu of %zu clouds are in view; each is marched, the farthest first%s", count, all,
-            f->scene->quality.impostors != LOM_IMPOSTORS_OFF ? "; plates are for no parallel rays" : "");
+            f->scene->quality.impostors != LOM_IMPOSTORS_OFF ? "; plates are for neither parallel rays nor views" : "");
     const char *split = now->split != before->split ? "; one is cut in two around the aircraft" : "";
     if (!f->renderer->clouds.impostors.continues)
         return lom_add_step(f, "clouds", true,

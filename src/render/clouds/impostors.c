@@ -80,13 +80,13 @@ static bool follow_sun(struct frame *f, lom_error *error)
 
 bool lom_has_plates(const struct frame *f)
 {
-    return f->scene->quality.impostors != LOM_IMPOSTORS_OFF && !f->parallel;
+    return f->scene->quality.impostors != LOM_IMPOSTORS_OFF && !f->parallel && f->shown == NULL;
 }
 
 bool lom_begin_impostors(struct frame *f, lom_error *error)
 {
     struct lom_impostors *state = &f->renderer->clouds.impostors;
-    if (f->parallel)
+    if (f->parallel && f->shown == NULL)
         lom_end_impostor_run(f->renderer);
     if (!lom_has_plates(f) || f->renderer->clouds.set == NULL)
         return true;
