@@ -33,7 +33,7 @@ typedef struct lom_key {
     int count;                         /* values of an array; 0 and 1 both mean one plain value */
     unsigned flags;                    /* LOM_KEY_... */
     double minimum, maximum;           /* of every number, in the file's unit; both 0: any finite number */
-    double initial[3];                 /* the default of booleans, numbers and choices, in the file's unit */
+    double initial[4];                 /* the default of booleans, numbers and choices, in the file's unit */
     const char *unit;                  /* "m", "degrees", NULL for a plain number */
     const char *text;                  /* the documentation: sentences */
     const char *choices[12];           /* of LOM_KEY_CHOICE, ended by NULL */

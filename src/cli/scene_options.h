@@ -32,7 +32,7 @@ struct lom_scene_options {
           "NAME",                                                                                                      \
           0,                                                                                                           \
           0,                                                                                                           \
-          "only this [[view]] of the scene, as large as its rectangle; main: the picture without views" },             \
+          "this [[view]] alone, as large as its rectangle; main: none of them" },                                      \
         { "fps",                                                                                                       \
           0,                                                                                                           \
           LOM_OPTION_NUMBER,                                                                                           \

@@ -27,7 +27,7 @@ static void check_key(const lom_key_table *table, int index)
     CHECK(key->offset >= sizeof(bool) && end <= table->size, "%s lies outside its struct", key->name);
     CHECK(key->minimum <= key->maximum, "%s", key->name);
     CHECK(key->type != LOM_KEY_COLOR || key->count == 3, "%s", key->name);
-    CHECK(key->count <= 3 || key->type == LOM_KEY_FILE, "%s: no room for the defaults", key->name);
+    CHECK(key->count <= 4 || key->type == LOM_KEY_FILE, "%s: no room for the defaults", key->name);
     CHECK((key->type == LOM_KEY_CHOICE) == (key->choices[0] != NULL), "%s", key->name);
     CHECK((key->type == LOM_KEY_TABLE || key->type == LOM_KEY_TABLES) == (key->table != NULL), "%s", key->name);
     CHECK(key->type == LOM_KEY_TABLE ||
