@@ -5,8 +5,9 @@
 #include "render/tone.h"
 #include "water/water_models.h"
 
-
 #include <string.h>
+
+enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES };
 enum size { DRAWN, REFLECTED, REFRACTED }; /* of the part that is drawn; of the frame, scaled as quality says */
 enum kind { COLOR, DEPTH, MASK, LAYER };
 
