@@ -136,8 +136,12 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
                                                           .phase = (float)phase_at(t, origin[0], origin[1], time),
                                                           .amplitude = (float)t->amplitude,
                                                           .across_x = (float)(x * t->across),
-                                                          .across_z = (float)(z * t->across),
-                                                          .rate = (float)t->rate };
+                                                          .across_z = (float)(z * t->across) };
+        for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
+            double turn = t->rate * foam->window * m / LOM_FOAM_MOMENTS;
+            out->trochoid[i].turn[m][0] = (float)lom_double_cos(turn);
+            out->trochoid[i].turn[m][1] = (float)lom_double_sin(turn);
+        }
         high += t->amplitude;
         reach += t->across;
     }

@@ -16,12 +16,13 @@
 #include <lom/waves.h>
 
 enum { LOM_SURFACE_CASCADES = 4 };
+enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked at */
 
 struct lom_trochoid_uniform {
     float kx, kz;                        /* rad/m */
     float phase;                         /* radians at the origin at this time */
     float amplitude, across_x, across_z; /* metres: a, and b k/|k| */
-    float rate;                          /* rad/s that the phase falls by */
+    float turn[LOM_FOAM_MOMENTS][2]; /* cosine and sine of by how much the phase was larger at each moment of foam */
 };
 
 struct lom_cascade_uniform {
@@ -72,8 +73,6 @@ struct lom_waves_uniform {
     float foam_threshold;  /* the Jacobian below which trochoids break; 0: they have no foam */
     float foam_window;     /* seconds that the foam lasts */
 };
-
-enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked at */
 
 /* The trochoids of the water at a time in seconds, for places less `origin` (x, z): exact phases for |time| and
  * |origin| up to 1e9; and the bounds of their sum. The horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves

@@ -153,27 +153,31 @@ static void add_trochoid_slopes(const struct lom_trochoid_uniform *t, const stru
     w->xz = w->xz - t->across_x * t->kz * c;
 }
 
+/* The derivatives of the displacement at the moments of the window before this time. */
+struct moments {
+    lom_float xx[LOM_FOAM_MOMENTS], zz[LOM_FOAM_MOMENTS], xz[LOM_FOAM_MOMENTS];
+};
+
+/* cos(angle + turn) = cos angle cos turn - sin angle sin turn, and the turns are the same everywhere: no cosine of its own is
+ * found for a moment. The four roundings leave it within 2^-22 of the exact one. */
+static void add_trochoid_moments(const struct lom_trochoid_uniform *t, const struct trochoid *found,
+                                 struct moments *past)
+{
+    for (int m = 0; m < LOM_FOAM_MOMENTS && found->is_seen; m++) {
+        lom_float c = found->cosine * t->turn[m][0] - found->sine * t->turn[m][1];
+        past->xx[m] = past->xx[m] - t->across_x * t->kx * c;
+        past->zz[m] = past->zz[m] - t->across_z * t->kz * c;
+        past->xz[m] = past->xz[m] - t->across_x * t->kz * c;
+    }
+}
+
 /* What broke at a rest point within the window before this time: the largest of its moments, each by how far the
  * Jacobian was below the threshold, fading with its age. A function of the time alone: any frame has its foam. */
-static lom_float trochoid_foam(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
-                               const struct lom_footprint *f)
+static lom_float trochoid_foam(const struct lom_waves_uniform *waves, const struct moments *past)
 {
-    lom_float foam = { 0 }, xx[LOM_FOAM_MOMENTS], zz[LOM_FOAM_MOMENTS], xz[LOM_FOAM_MOMENTS];
-    for (int m = 0; m < LOM_FOAM_MOMENTS; m++)
-        xx[m] = zz[m] = xz[m] = (lom_float){ 0 };
-    for (int i = 0; i < waves->trochoid_count; i++) {
-        const struct lom_trochoid_uniform *t = &waves->trochoid[i];
-        lom_float weight = wave_weight(phase_change(t, f)), angle = t->kx * x + t->kz * z + t->phase;
-        for (int m = 0; m < LOM_FOAM_MOMENTS && lom_any(weight > 0.0f); m++) {
-            float ago = waves->foam_window * (float)m / LOM_FOAM_MOMENTS;
-            lom_float c = lom_cos(angle + t->rate * ago) * weight;
-            xx[m] = xx[m] - t->across_x * t->kx * c;
-            zz[m] = zz[m] - t->across_z * t->kz * c;
-            xz[m] = xz[m] - t->across_x * t->kz * c;
-        }
-    }
+    lom_float foam = { 0 };
     for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
-        lom_float jacobian = (1.0f + xx[m]) * (1.0f + zz[m]) - xz[m] * xz[m];
+        lom_float jacobian = (1.0f + past->xx[m]) * (1.0f + past->zz[m]) - past->xz[m] * past->xz[m];
         float fresh = 1.0f - (float)m / LOM_FOAM_MOMENTS;
         foam = lom_max(foam, lom_saturate((waves->foam_threshold - jacobian) * 4.0f) * fresh);
     }
@@ -252,12 +256,10 @@ static void add_river_slopes(const struct lom_river_uniform *river, lom_float x,
     w->vzz = w->vzz + hidden;
 }
 
-/* What all others add to the slopes of the trochoids; their foam. */
+/* What all others add to the slopes of the trochoids. */
 static void add_other_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                              const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
-    if (waves->foam_threshold > 0)
-        w->foam = trochoid_foam(waves, x, z, f);
     if (waves->surf.waves != NULL)
         add_surf_slopes(waves, x, z, f, w);
     for (int i = 0; i < waves->cascade_count; i++)
@@ -274,7 +276,10 @@ LOM_INLINE void find(const struct lom_waves_uniform *waves, lom_float x, lom_flo
 {
     struct lom_wave_shift p = { { 0 }, { 0 }, { 0 } };
     struct lom_wave_slopes w;
+    struct moments past;
+    const bool breaks = slopes != NULL && waves->foam_threshold > 0;
     memset(&w, 0, sizeof w);
+    memset(&past, 0, sizeof past);
     for (int i = 0; i < waves->trochoid_count; i++) {
         const struct lom_trochoid_uniform *t = &waves->trochoid[i];
         struct trochoid found = find_trochoid(t, x, z, f);
@@ -282,7 +287,11 @@ LOM_INLINE void find(const struct lom_waves_uniform *waves, lom_float x, lom_flo
             add_trochoid_shift(t, &found, &p);
         if (slopes != NULL)
             add_trochoid_slopes(t, &found, &w);
+        if (breaks)
+            add_trochoid_moments(t, &found, &past);
     }
+    if (breaks)
+        w.foam = trochoid_foam(waves, &past);
     if (shift != NULL) {
         add_other_shifts(waves, x, z, f, &p);
         *shift = p;

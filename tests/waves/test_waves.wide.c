@@ -104,9 +104,11 @@ static void w1_crests_never_loop(void)
 static void w3_foam_is_a_share(void)
 {
     for (int k = 0; k < 2; k++) {
-        struct lom_waves_uniform waves = waves_at(k == 0 ? 0.05 : 100, k == 0 ? 0.1 : 1, 21, 1);
-        waves.foam_threshold = 0.7f;
-        waves.foam_window = 2;
+        struct lom_waves_uniform waves;
+        lom_water_params water = parameters(k == 0 ? 0.05 : 100, k == 0 ? 0.1 : 1, 21);
+        memset(&waves, 0, sizeof waves);
+        water.foam = (lom_water_foam){ .amount = 1, .threshold = 0.7, .window = 2 };
+        lom_fill_trochoids(&waves, &water.waves, &water.foam, (double[2]){ 0, 0 }, 1);
         int foaming = 0;
         for (int i = 0; i < 2000; i++) {
             float foam =
@@ -116,6 +118,35 @@ static void w3_foam_is_a_share(void)
         }
         CHECK(k == 0 ? foaming == 0 : foaming > 0, "%d points of %s waves foam", foaming, k == 0 ? "gentle" : "steep");
     }
+}
+
+/* Foam is what broke at the moments of its window: the Jacobians of the same trochoids in double, at those times. */
+static void foam_is_that_of_its_moments(void)
+{
+    lom_water_params water = parameters(3, 1, 21);
+    lom_trochoid trochoids[LOM_MAX_WAVES];
+    lom_error error = { 0 };
+    struct lom_waves_uniform waves;
+    const double time = 12.25, threshold = 0.9, window = 2.5;
+    double largest = 0;
+    memset(&waves, 0, sizeof waves);
+    water.foam = (lom_water_foam){ .amount = 1, .threshold = threshold, .window = window };
+    lom_fill_trochoids(&waves, &water.waves, &water.foam, (double[2]){ 0, 0 }, time);
+    int count = lom_make_trochoids(&water.waves, trochoids, NULL, &error);
+    for (int i = 0; i < 500; i++) {
+        double x = 0.05 * i - 11, z = 7 - 0.031 * i, exact = 0;
+        for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
+            double j = lom_trochoids_at(trochoids, count, x, z, time - window * m / LOM_FOAM_MOMENTS).jacobian;
+            double below = (threshold - j) * 4, share = below < 0 ? 0 : below > 1 ? 1 : below;
+            double faded = share * (1 - (double)m / LOM_FOAM_MOMENTS);
+            exact = faded > exact ? faded : exact;
+        }
+        float foam = lom_find_slopes(&waves, lom_splat((float)x), lom_splat((float)z), &point).foam[LOM_LANES - 1];
+        double off = foam > exact ? foam - exact : exact - foam;
+        largest = exact > largest ? exact : largest;
+        CHECK(off < 1e-4, "at %g %g: %g, not %g", x, z, foam, exact);
+    }
+    CHECK(largest > 0.5, "nothing breaks: %g", largest);
 }
 
 static void w2_no_height_is_flat(void)
@@ -304,6 +335,7 @@ int main(int argc, char **argv)
     RUN(found_together_or_apart_waves_are_the_same);
     RUN(w1_crests_never_loop);
     RUN(w3_foam_is_a_share);
+    RUN(foam_is_that_of_its_moments);
     RUN(w2_no_height_is_flat);
     RUN(filtered_slopes_become_variance);
     RUN(phases_are_exact_after_years);
