@@ -248,6 +248,8 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     desc->vertex_count = desc->vertex_count == 0 || desc->vertex_count > held ? held : desc->vertex_count;
     desc->index_bits = desc->index_bits == 0 ? 32 : desc->index_bits;
     desc->instances = desc->instances == 0 ? 1 : desc->instances;
+    for (int i = 0; i < shader->attributes; i++)
+        draw->instanced |= desc->divisor[i] != 0;
     desc->provoking = shader->flat == 0 ? LOM_PROVOKING_LAST : desc->provoking;
     desc->line_width = desc->line_width == 0 ? 1 : desc->line_width;
     draw->triangles = count_triangles(desc);
@@ -255,6 +257,7 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     lom_derive_stages(pass, draw);
     draw->sprites = draw->drawn == LOM_SPRITES || draw->drawn == LOM_POINTS;
     draw->lines = draw->drawn == LOM_LINES;
+    draw->clamps_points = draw->sprites && desc->depth_clamp;
     draw->distance_offset = ROW_HEADER + ((shader->varyings + 3) & ~3);
     draw->axis_offset = draw->distance_offset + ((draw->distances + 3) & ~3);
     draw->row_floats = draw->axis_offset + (draw->sprites ? 4 : 0);

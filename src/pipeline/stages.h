@@ -77,7 +77,8 @@ struct lom_draw {
     bool sprites,
         lines;        /* what it is of, if not of triangles; sprites: or points, whose half sides are (h, 0), (0, h) */
     size_t triangles; /* or sprites, points, lines, of one instance */
-    lom_compare compare; /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
+    lom_compare compare;           /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
+    bool instanced, clamps_points; /* with attributes of instances; sprites or points with depth_clamp */
     bool depth_write, late_depth, blends, constant, biased;
     bool sampled; /* several samples a pixel, or alpha as coverage */
     lom_output_kind output;

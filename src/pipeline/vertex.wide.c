@@ -98,22 +98,25 @@ static void fetch_bytes(const lom_attribute *attribute, const struct numbers *n,
     }
 }
 
-/* Of an attribute of instances: its number, in every lane. */
-static const struct numbers *find_instance(uint32_t number, struct numbers *n)
+/* An attribute of instances is one value for all of the chunk's vertices. */
+static void find_instanced(const struct lom_chunk *chunk, lom_attribute attribute[LOM_MAX_ATTRIBUTES])
 {
-    lom_store_int((int32_t *)n->number, lom_splat_int((int32_t)number));
-    n->largest = number;
-    return n;
+    const lom_draw_desc *desc = &chunk->draw->desc;
+    for (int a = 0; a < desc->shader->attributes; a++) {
+        attribute[a] = desc->attribute[a];
+        if (desc->divisor[a] == 0 || attribute[a].kind == LOM_ATTRIBUTE_NONE)
+            continue;
+        size_t offset = (size_t)(chunk->instance / desc->divisor[a]) * attribute[a].stride;
+        attribute[a].data = (const uint8_t *)attribute[a].data + offset;
+        attribute[a].size -= offset;
+        attribute[a].stride = 0;
+    }
 }
 
-static void fetch(const struct lom_chunk *chunk, const struct numbers *vertices, lom_attributes *in)
+static void fetch(const lom_attribute *attributes, int count, const struct numbers *n, lom_attributes *in)
 {
-    const struct lom_draw *draw = chunk->draw;
-    struct numbers same;
-    for (int a = 0; a < draw->desc.shader->attributes; a++) {
-        const lom_attribute *attribute = &draw->desc.attribute[a];
-        const int divisor = draw->desc.divisor[a];
-        const struct numbers *n = divisor == 0 ? vertices : find_instance((uint32_t)(chunk->instance / divisor), &same);
+    for (int a = 0; a < count; a++) {
+        const lom_attribute *attribute = &attributes[a];
         lom_float4 *out = &in->attribute[a];
         switch (attribute->kind) {
         case LOM_ATTRIBUTE_NONE:
@@ -228,7 +231,7 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
     lom_int at = lom_lane_index() * draw->row_floats;
     float *row = chunk->rows + first * (size_t)draw->row_floats;
     lom_int codes = classify(pass, vertex->position);
-    if (draw->desc.depth_clamp && draw->sprites)
+    if (draw->clamps_points)
         codes &= ~(CODE_NEAR | CODE_FAR);
     lom_scatter_rows(chunk->assembly->clip + first * 4, lom_lane_index() * 4, vertex->position);
     lom_scatter_rows(row, at, project(pass, vertex->position, codes));
@@ -261,6 +264,10 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
     lom_vertex_function *shade = draw->desc.shader->vertex[draw->variant];
     lom_vertex vertex;
     lom_attributes in;
+    lom_attribute own[LOM_MAX_ATTRIBUTES];
+    const lom_attribute *attributes = draw->instanced ? own : draw->desc.attribute;
+    if (draw->instanced)
+        find_instanced(chunk, own);
     memset(&vertex, 0, sizeof vertex);
     memset(&in, 0, sizeof in);
     in.instance = lom_splat_int(chunk->instance);
@@ -273,7 +280,7 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
             chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
             struct numbers n = find_numbers(chunk, first);
             memcpy(&in.vertex, n.number, sizeof n.number);
-            fetch(chunk, &n, &in);
+            fetch(attributes, draw->desc.shader->attributes, &n, &in);
             vertex.point_size = lom_splat(1);
             LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
             shade(&vertex, &in, draw->uniforms);
