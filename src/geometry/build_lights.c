@@ -130,8 +130,8 @@ void lom_build_lit_cabin(lom_mesh_builder *builder, uint64_t seed)
 {
     lom_material window = lom_default_material("window");
     const float light[3] = { 3.4f, 1.6f, 0.5f };
-    strcpy(window.diffuse_map, "window.png");
-    strcpy(window.emissive_map, "lit_window.png");
+    memcpy(window.diffuse_map, "window.png", sizeof "window.png");
+    memcpy(window.emissive_map, "lit_window.png", sizeof "lit_window.png");
     for (int i = 0; i < 3; i++) {
         window.ambient[i] = window.diffuse[i] = 1;
         window.specular[i] = 0.5f;

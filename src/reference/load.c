@@ -7,11 +7,6 @@
 
 #include <string.h>
 
-static lom_vec3 vector(const double v[3])
-{
-    return (lom_vec3){ v[0], v[1], v[2] };
-}
-
 /* ---- pictures ---- */
 
 /* Adds a picture of the world's; NULL is passed on. */

@@ -3,11 +3,6 @@
 #include "base/numbers.h"
 #include "reference/reference.h"
 
-static lom_vec3 vector(const double v[3])
-{
-    return (lom_vec3){ v[0], v[1], v[2] };
-}
-
 static lom_vec3 vector_of_floats(const float v[3])
 {
     return (lom_vec3){ v[0], v[1], v[2] };

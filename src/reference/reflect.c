@@ -5,11 +5,6 @@
 #include "base/numbers.h"
 #include "reference/reference.h"
 
-static lom_vec3 vector(const double v[3])
-{
-    return (lom_vec3){ v[0], v[1], v[2] };
-}
-
 lom_vec3 lom_transmitted(const double absorption[3], double path)
 {
     return (lom_vec3){ lom_double_exp(-absorption[0] * path), lom_double_exp(-absorption[1] * path),

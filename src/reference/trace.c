@@ -65,7 +65,7 @@ static lom_vec3 lamp_discs(const lom_reference *reference, const struct lom_ray 
         lom_vec3 to_lamp;
         double distance, share = lom_lamp_share_at(lamp, ray->origin, &to_lamp, &distance);
         if (dot(ray->direction, to_lamp) >= edge && distance <= far)
-            light = along(light, (lom_vec3){ lamp->specular[0], lamp->specular[1], lamp->specular[2] }, bright * share);
+            light = along(light, vector(lamp->specular), bright * share);
     }
     return light;
 }

@@ -6,6 +6,11 @@
 
 #include <lom/geometry.h>
 
+static inline lom_vec3 vector(const double v[3])
+{
+    return (lom_vec3){ v[0], v[1], v[2] };
+}
+
 static inline lom_vec3 sum(lom_vec3 a, lom_vec3 b)
 {
     return (lom_vec3){ a.x + b.x, a.y + b.y, a.z + b.z };
