@@ -23,13 +23,25 @@ static void require(bool condition)
         abort();
 }
 
+/* Its parts hold all of its indices, in order. */
+static void check_parts(const lom_mesh *mesh)
+{
+    size_t next = 0;
+    for (size_t k = 0; k < lom_mesh_parts(mesh); k++) {
+        require(mesh->parts[k].first_index == next && mesh->parts[k].index_count > 0);
+        next += mesh->parts[k].index_count;
+    }
+    require(next == mesh->index_count + mesh->line_index_count + mesh->point_count);
+}
+
 static void check_again(const lom_mesh *mesh)
 {
     lom_bytes first = lom_encode_obj(mesh, NULL, NULL);
     if (first.data == NULL)
         return;
     lom_mesh *again = lom_decode_obj((const char *)first.data, first.size, "again.obj", NULL);
-    require(again != NULL && again->index_count == mesh->index_count);
+    require(again != NULL && again->index_count == mesh->index_count &&
+            again->line_index_count == mesh->line_index_count && again->point_count == mesh->point_count);
     lom_bytes second = lom_encode_obj(again, NULL, NULL);
     require(second.size == first.size && memcmp(second.data, first.data, first.size) == 0);
     lom_release(first.data);
@@ -49,8 +61,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     lom_mesh *mesh = lom_decode_obj_with((const char *)data, obj_size, "fuzz.obj", read_material, &mtl, &error);
     require((mesh == NULL) == (error.code != LOM_OK));
     if (mesh != NULL) {
-        for (size_t k = 0; k < mesh->index_count; k++)
+        for (size_t k = 0; k < mesh->index_count + mesh->line_index_count + mesh->point_count; k++)
             require(mesh->indices[k] < mesh->vertex_count);
+        check_parts(mesh);
         check_again(mesh);
     }
     lom_free_mesh(mesh);
