@@ -285,6 +285,34 @@ bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mes
     return true;
 }
 
+/* The points of a disc about the apex, moved by waves as far as they can, lie on the outer side of a plane where the farthest
+ * of them does, by more than floats round (lom_box_visibility). */
+static bool is_outside(const lom_frustum *frustum, int plane, const struct lom_polar_mesh *mesh,
+                       const struct lom_polar_mesh_desc *desc, double radius)
+{
+    const double *p = frustum->plane[plane], *rounds = frustum->reach[plane];
+    const double low = desc->level + desc->lowest, high = desc->level + desc->highest;
+    double flat = lom_double_sqrt(p[0] * p[0] + p[2] * p[2]);
+    double farthest = p[3] + p[0] * mesh->apex[0] + p[2] * mesh->apex[1] + lom_larger(p[1] * low, p[1] * high);
+    double size = rounds[3] + rounds[1] * lom_larger(lom_magnitude(low), lom_magnitude(high));
+    for (int i = 0; i < 2; i++)
+        size += rounds[2 * i] * (lom_magnitude(mesh->apex[i]) + radius + desc->reach);
+    return farthest + flat * (radius + desc->reach) < -0x1p-20 * size;
+}
+
+int lom_first_seen_ring(const struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc,
+                        const lom_frustum *frustum)
+{
+    int first = 0;
+    for (int c = 0; c < mesh->columns; c++)
+        if (mesh->nearest[c] > 0)
+            return 0; /* vertices of inner rings stand at the edge of the quad */
+    for (int plane = 0; plane < frustum->count; plane++)
+        while (first + 1 < mesh->rings && is_outside(frustum, plane, mesh, desc, (double)mesh->radius[first + 1]))
+            first++;
+    return first;
+}
+
 void lom_free_polar_mesh(struct lom_polar_mesh *mesh)
 {
     lom_release(mesh->memory);

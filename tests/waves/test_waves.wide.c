@@ -299,6 +299,44 @@ static void the_outline_is_that_of_the_quad(void)
     lom_free_polar_mesh(&mesh);
 }
 
+/* Rings that are not submitted: no point of theirs, at any height and shift of the waves, is in the view; many are left out
+ * of a view of the horizon, none of one that sees what is below the eye. */
+static void rings_that_are_left_out_are_not_seen(void)
+{
+    static const double pitches[] = { 0.1, 0, -0.2, -0.6, -1.5 };
+    struct lom_polar_mesh mesh = { .rings = 0 };
+    for (size_t i = 0; i < sizeof pitches / sizeof pitches[0]; i++) {
+        const lom_vec3 eye = { 0, 0, 0 }, up = { 0, 1, 0 },
+                       to = { lom_double_cos(pitches[i]), lom_double_sin(pitches[i]), 0.4 };
+        struct lom_polar_mesh_desc desc = { .projection = lom_perspective(0.8, 1.6, 0.1),
+                                            .view = lom_look_at(eye, to, up),
+                                            .level = -6,
+                                            .near_plane = 0.1,
+                                            .lowest = -1,
+                                            .highest = 1.5,
+                                            .reach = 0.8,
+                                            .quad = { -900, -900, 900, 900 },
+                                            .cell = 6,
+                                            .pixel_angle = 0.001 };
+        lom_error error = { 0 };
+        lom_mat4 clip = lom_multiply(&desc.projection, &desc.view);
+        lom_frustum frustum = lom_view_frustum(&clip, false);
+        CHECK(lom_fill_polar_mesh(&mesh, &desc, &error), "%s", error.text);
+        int first = lom_first_seen_ring(&mesh, &desc, &frustum);
+        for (int k = 0; k < 20000 && first > 0; k++) {
+            double r = (double)mesh.radius[first] * lom_random_uniform(3, (uint64_t)k), turn = 6.2831853 * k / 20000;
+            double x = mesh.apex[0] + r * lom_double_cos(turn), z = mesh.apex[1] + r * lom_double_sin(turn);
+            double y = desc.level + (k % 2 != 0 ? desc.highest : desc.lowest);
+            lom_vec3 low = { x - 0.5, y, z - 0.5 }, high = { x + 0.5, y, z + 0.5 };
+            CHECK(lom_box_visibility(&frustum, (lom_box){ low, high }) == LOM_OUTSIDE,
+                  "pitch %g: %g %g %g is seen, ring %d is the first", pitches[i], x, y, z, first);
+        }
+        CHECK(pitches[i] < -1 ? first == 0 : pitches[i] < -0.5 || first > mesh.rings / 20,
+              "pitch %g: the first of %d is %d", pitches[i], mesh.rings, first);
+    }
+    lom_free_polar_mesh(&mesh);
+}
+
 /* Waves grow and fall, and cells change: what is kept of the mesh of the frame before shows nowhere. */
 static void a_mesh_is_that_of_its_frame_alone(void)
 {
@@ -342,6 +380,7 @@ int main(int argc, char **argv)
     RUN(bounds_and_height_hold);
     RUN(the_mesh_closes_and_reaches_the_corners);
     RUN(the_outline_is_that_of_the_quad);
+    RUN(rings_that_are_left_out_are_not_seen);
     RUN(a_mesh_is_that_of_its_frame_alone);
     return check_result();
 }

@@ -7,7 +7,8 @@
 #include "render/water/surface.h"
 #include "water/underwater.h"
 
-static bool fill_mesh(struct surface *surface, struct frame *f, lom_error *error)
+/* Fills the mesh and the draw's triangles, those that may be seen. */
+static bool fill_mesh(struct surface *surface, struct frame *f, lom_draw_desc *draw, lom_error *error)
 {
     struct lom_surface_uniforms *u = &surface->uniforms;
     struct lom_polar_mesh *mesh = &f->renderer->water.polar;
@@ -32,12 +33,16 @@ static bool fill_mesh(struct surface *surface, struct frame *f, lom_error *error
                                                .farthest = mesh->farthest,
                                                .columns = mesh->columns,
                                                .apex = { (float)mesh->apex[0], (float)mesh->apex[1] } };
+    const lom_frustum frustum = lom_view_frustum(&surface->clip_from_offset, false);
+    const size_t before = (size_t)lom_first_seen_ring(mesh, &desc, &frustum) * (size_t)(mesh->columns - 1) * 6;
+    draw->indices = mesh->indices + before;
+    draw->count = mesh->index_count - before;
+    draw->vertex_count = (size_t)mesh->rings * (size_t)mesh->columns;
     return true;
 }
 
 static bool draw_surface(struct surface *surface, struct frame *f, lom_error *error)
 {
-    lom_renderer *r = f->renderer;
     const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
     lom_draw_desc draw = { .shader = model->shader, .uniforms = &surface->uniforms };
     switch (model->form) {
@@ -46,11 +51,8 @@ static bool draw_surface(struct surface *surface, struct frame *f, lom_error *er
         draw.topology = LOM_TRIANGLE_STRIP;
         break;
     case LOM_SURFACE_MESH:
-        if (!fill_mesh(surface, f, error))
+        if (!fill_mesh(surface, f, &draw, error))
             return false;
-        draw.indices = r->water.polar.indices;
-        draw.count = r->water.polar.index_count;
-        draw.vertex_count = (size_t)r->water.polar.rings * (size_t)r->water.polar.columns;
         break;
     case LOM_SURFACE_RAYS:
         draw.count = 3;
