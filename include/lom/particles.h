@@ -71,6 +71,7 @@ typedef struct lom_spray {
     double jet_time, jet_width;
     double life;     /* s; the reader has put the time of the fall here when the file gives a height */
     double height;   /* metres; 0: the file gives none */
+    double bounce;   /* share of its speed that a drop keeps when it hits the ground, 0..1; 0: it falls through */
     double size[2];  /* radius at birth and at death, metres; linear between them */
     double stretch;  /* seconds of its way that a drop is drawn along; its light is spread over them */
     double color[3]; /* linear: the share of light that it sends on */

@@ -217,7 +217,7 @@ void lom_begin_pass(lom_device *device, const lom_pass_desc *desc)
     lom_enter_float_state(&state);
     device->uniforms_size = 0;
     device->in_pass = prepare_pass(device, desc);
-    if (device->in_pass && device->recorder != NULL)
+    if (device->in_pass && device->recorder != NULL && !desc->feedback_only)
         lom_record_begin(device);
     if (device->in_pass && device->tallier != NULL)
         lom_tally_begin(device);
@@ -249,7 +249,7 @@ bool lom_end_pass(lom_device *device)
     lom_float_state state;
     lom_enter_float_state(&state);
     bool done = lom_run_pass(device);
-    if (done && device->recorder != NULL)
+    if (done && device->recorder != NULL && !device->pass.desc.feedback_only)
         lom_record_ended(device);
     lom_leave_float_state(&state);
     return done;

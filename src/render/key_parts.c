@@ -71,7 +71,7 @@ const struct lom_key_row lom_key_rows[] = {
                   "clouds.haze_distance clouds.shadows clouds.shadow_strength clouds.wind.height clouds.wind.speed "
                   "clouds.wind.direction clouds.wind.gust clouds.wind.gust_period clouds.swell" },
 
-    { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible" },
+    { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible spray.bounce" },
     { each_frame, "spray.name spray.seed spray.from spray.to spray.velocity spray.spread spray.spread_up spray.wind "
                   "spray.drag spray.jets spray.jet_time spray.jet_width spray.life spray.height spray.size "
                   "spray.stretch spray.color spray.opacity spray.soft spray.forward" },
@@ -86,12 +86,12 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
     { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
-    { LOM_PART_GROUND, "quality.ambient_occlusion" },
+    { LOM_PART_GROUND, "quality.ambient_occlusion quality.tessellation" },
     { LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_TARGETS, "quality.wireframe" },
     { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
                   "quality.impostor.* quality.shading quality.reflection quality.toon_thresholds "
-                  "quality.toon_tones quality.lamp_tiles quality.scissor quality.reference.* quality.terrain_error "
-                  "quality.wireframe_color quality.terrain_composite" },
+                  "quality.toon_tones quality.lamp_tiles quality.normals quality.scissor quality.reference.* "
+                  "quality.terrain_error quality.wireframe_color quality.terrain_composite" },
 };
 const size_t lom_key_row_count = sizeof lom_key_rows / sizeof *lom_key_rows;
 

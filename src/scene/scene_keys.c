@@ -181,6 +181,10 @@ static const lom_key quality[] = {
     { "terrain_composite", LOM_KEY_NUMBER, AT(lom_quality, terrain_composite), .maximum = 64, .unit = "pixels",
       .text = "Colours distant terrain from one picture of all its layers, seen from above, four texels a quad of the "
               "height map: where a texel of it covers at most so many pixels. 0: the layers are sampled everywhere." },
+    { "tessellation", LOM_KEY_BOOL, AT(lom_quality, tessellation),
+      .text =
+          "Terrain is cut by tessellation, each edge as finely as `terrain_error` asks for, instead of block by block "
+          "(docs/stages.md): the surface changes without jumps while the camera moves." },
     { "terrain_shadows", LOM_KEY_BOOL, AT(lom_quality, terrain_shadows),
       .text = "Terrain keeps the sun off terrain, entities and water that lie behind it." },
     { "entity_shadows", LOM_KEY_INTEGER, AT(lom_quality, entity_shadows), .minimum = 0, .maximum = 8192,
@@ -188,6 +192,8 @@ static const lom_key quality[] = {
       .text =
           "Entities keep the sun off terrain and entities: a side of each of two maps, one of the entities near the "
           "eye. 0: they do not." },
+    { "normals", LOM_KEY_NUMBER, AT(lom_quality, normals), .maximum = 1000, .unit = "metres",
+      .text = "Length of lines that show the normals of entities' vertices. 0: none are drawn." },
     { "ambient_occlusion", LOM_KEY_BOOL, AT(lom_quality, ambient_occlusion),
       .text = "Ambient light on terrain only from the part of the sky that the terrain around leaves free." },
     { "wireframe", LOM_KEY_CHOICE, AT(lom_quality, wireframe), .choices = { "off", "visible", "all" },

@@ -111,7 +111,8 @@ static void join_jet(const lom_emitter *e, size_t index, double birth, double *a
         normal[i] = 0.8 * common[i] + 0.6 * normal[i];
 }
 
-static lom_particle particle_at(const lom_emitter *e, size_t index, double time)
+/* The particle as it is at a time, but where it was born, and with the velocity of its birth. */
+static lom_particle birth_at(const lom_emitter *e, size_t index, double time)
 {
     enum { PLACE, SPREAD, RISE, DRAWS };
     double lives = time / e->life + (double)index / (double)e->count, whole = lom_double_floor(lives);
@@ -120,17 +121,31 @@ static lom_particle particle_at(const lom_emitter *e, size_t index, double time)
     lom_particle p = { .share = lives - whole, .life = lom_int64_of(whole) };
     p.alpha = ramp(10 * p.share) * ramp(10 * (1 - p.share));
     const uint64_t key = lom_random_bits(e->seed, index), counter = (uint64_t)p.life * DRAWS;
-    double along = lom_random_uniform(key, counter + PLACE), normal[2], rise[2], start[3];
+    double along = lom_random_uniform(key, counter + PLACE), normal[2], rise[2];
     lom_random_normal(key, counter + SPREAD, normal);
     lom_random_normal(key, counter + RISE, rise);
     if (e->jets != 0)
         join_jet(e, index, (whole - (double)index / (double)e->count) * e->life, &along, normal);
     for (int i = 0; i < 3; i++)
-        start[i] = e->from[i] + (e->to[i] - e->from[i]) * along;
-    const double velocity[3] = { e->velocity[0] + e->spread * normal[0], e->velocity[1] + e->spread_up * rise[0],
-                                 e->velocity[2] + e->spread * normal[1] };
-    lom_particle_flight(start, velocity, e->wind, e->drag, p.share * e->life, p.place, p.velocity);
+        p.place[i] = e->from[i] + (e->to[i] - e->from[i]) * along;
+    p.velocity[0] = e->velocity[0] + e->spread * normal[0];
+    p.velocity[1] = e->velocity[1] + e->spread_up * rise[0];
+    p.velocity[2] = e->velocity[2] + e->spread * normal[1];
     return p;
+}
+
+static lom_particle particle_at(const lom_emitter *e, size_t index, double time)
+{
+    const lom_particle born = birth_at(e, index, time);
+    lom_particle p = born;
+    lom_particle_flight(born.place, born.velocity, e->wind, e->drag, p.share * e->life, p.place, p.velocity);
+    return p;
+}
+
+void lom_birth_range(const lom_emitter *emitter, double time, size_t first, size_t end, lom_particle *particles)
+{
+    for (size_t i = first; i < end; i++)
+        particles[i - first] = birth_at(emitter, i, time);
 }
 
 void lom_place_range(const lom_emitter *emitter, double time, size_t first, size_t end, lom_particle *particles)

@@ -63,6 +63,25 @@ struct lom_sprite_reach lom_make_sprites(const lom_spray *spray, const struct lo
 /* What both reach. */
 struct lom_sprite_reach lom_join_reaches(struct lom_sprite_reach a, struct lom_sprite_reach b);
 
+/* ---- drops that bounce (spray.bounce): bounce.wide.c ---- */
+
+/* Floats of a drop between two steps, less `from` of the emitter. */
+enum { LOM_BOUNCE_PLACE, LOM_BOUNCE_LEFT = 3, LOM_BOUNCE_VELOCITY, LOM_BOUNCE_FLOATS = 7 }; /* LEFT: of its age, s */
+#define LOM_BOUNCE_STEP (1.0f / 64)                                                         /* s */
+
+struct lom_bounce_uniforms {
+    float step, drag, bounce, wind[3];
+    const float *heights; /* of terrain, columns + 1 a row; NULL: there is none, the ground is level */
+    int columns, rows;
+    float corner[2], scale[2]; /* column = (x - corner[0]) scale[0], row = (z - corner[1]) scale[1] */
+    float level;               /* of the ground without terrain; what heights count from */
+};
+
+/* The particles at the births of their lives at a time, as lom_place_range; share, alpha and life are those of the time. */
+void lom_birth_range(const lom_emitter *emitter, double time, size_t first, size_t end, lom_particle *particles);
+
+extern const lom_shader lom_bounce_shader; /* a step: attributes and varyings are the floats */
+
 extern const lom_shader lom_spray_shader, lom_spray_layer_shader;
 
 #endif

@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+enum { LONGEST_BOUNCE = 60 }; /* s: every frame steps a drop from its birth on */
+
 #define AT(member) offsetof(lom_spray, member)
 
 static const lom_key keys[] = {
@@ -40,6 +42,10 @@ static const lom_key keys[] = {
       .text = "How long a drop lives. The end of one life is the start of the next." },
     { "height", LOM_KEY_NUMBER, AT(height), .maximum = 1e5, .unit = "m",
       .text = "Instead of `life`: the height through which drops fall from rest in it." },
+    { "bounce", LOM_KEY_NUMBER, AT(bounce), .maximum = 1,
+      .text = "Share of the speed into the ground that a drop comes back with: from the terrain, without one from the "
+              "height "
+              "0. 0: drops fall through it. Such drops are stepped from their birth in every frame (docs/stages.md)." },
     { "size",
       LOM_KEY_NUMBER,
       AT(size),
@@ -68,10 +74,13 @@ static bool check_spray(void *members, const lom_key_check *check)
     if (!check->is_given(check, "to"))
         memcpy(spray->to, spray->from, sizeof spray->to);
     if (!check->is_given(check, "height"))
-        return true;
+        return spray->bounce == 0 || spray->life <= LONGEST_BOUNCE ||
+               check->fail(check, "bounce", "drops that bounce live at most 60 s, and these live longer.");
     if (check->is_given(check, "life"))
         return check->fail(check, "height", "spray has either a life or a height, not both.");
     spray->life = lom_fall_time(spray->height, spray->drag);
+    if (spray->bounce != 0)
+        return check->fail(check, "bounce", "drops that bounce have a life, not a height.");
     return (spray->life >= 0.001 && spray->life <= 3600) ||
            check->fail(check, "height", "a fall through this height must take from 0.001 to 3600 s.");
 }

@@ -24,7 +24,8 @@ static const struct base bases[] = {
       "output camera.position camera.target camera.roll camera.up camera.field_of_view camera.near "
       "camera.interpolation "
       "camera.key camera.person light.azimuth light.elevation light.color light.intensity light.ambient light.ground "
-      "light.key haze sky terrain entity quality.terrain_error quality.terrain_shadows "
+      "light.key haze sky terrain entity quality.terrain_error quality.tessellation quality.normals "
+      "quality.terrain_shadows "
       "quality.entity_shadows quality.ambient_occlusion quality.shading quality.texture_filter quality.anisotropy "
       "quality.mipmaps",
       VIEW KEYS TERRAIN

@@ -24,6 +24,27 @@ static bool is_mirroring(const lom_mat4 *m)
     return determinant < 0;
 }
 
+/* A line along the normal of each vertex. */
+static void draw_normals(lom_renderer *renderer, const struct lom_drawn_entity *entity,
+                         const struct lom_scene_view *view, const struct lom_entity_uniforms *drawn)
+{
+    lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
+    struct lom_normal_uniforms uniforms = { .clip_from_offset = lom_round_matrix(&clip_from_offset),
+                                            .offset_from_model = drawn->offset_from_model,
+                                            .normal_from_model = drawn->normal_from_model,
+                                            .length = (float)renderer->scene->quality.normals };
+    memcpy(uniforms.plane, drawn->view.plane, sizeof uniforms.plane);
+    lom_draw_desc draw = { .shader = &lom_normal_shader,
+                           .uniforms = &uniforms,
+                           .count = entity->source->mesh->vertex_count,
+                           .topology = LOM_POINTS,
+                           .geometry = &lom_normal_lines,
+                           .label = "normals" };
+    set_attributes(&draw, entity->source->mesh);
+    draw.indices = NULL;
+    lom_draw(renderer->device, &draw);
+}
+
 static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_entity_phong,
                                              [LOM_SHADING_GOURAUD] = &lom_entity_gouraud,
                                              [LOM_SHADING_FLAT] = &lom_entity_flat };
@@ -105,6 +126,8 @@ static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
     draw_parts(&p, entity->materials, &draw, 0, mesh->part_count);
     if (mesh->line_part_count != 0 || mesh->point_part_count != 0)
         draw_lines_and_points(&p, draw, view->pixels);
+    if (renderer->scene->quality.normals > 0)
+        draw_normals(renderer, entity, view, &uniforms);
     if (entity->backs == NULL)
         return;
     draw.cull = LOM_CULL_FRONT;

@@ -5,6 +5,8 @@
 
 #include "shading/view_uniform.h"
 
+#include <lom/stages.h>
+
 struct lom_entity_uniforms {
     struct lom_view_uniform view;
     struct lom_matrix_uniform clip_from_model, offset_from_model, normal_from_model; /* multiplied in double */
@@ -23,10 +25,19 @@ struct lom_caster_uniforms {
     struct lom_matrix_uniform clip_from_model;
 };
 
+struct lom_normal_uniforms {
+    struct lom_matrix_uniform clip_from_offset, offset_from_model, normal_from_model;
+    float plane[4]; /* as of lom_view_uniform */
+    float length;   /* metres */
+};
+
 extern const lom_shader lom_entity_phong, lom_entity_gouraud, lom_entity_flat;
 extern const lom_shader lom_entity_bumped;                 /* lom_entity_phong with the material's normal map */
 extern const lom_shader lom_entity_point, lom_entity_disc; /* of points, with light at each of them */
 extern const lom_shader lom_caster_shader;                 /* depth alone */
 extern const lom_shader lom_cut_caster_shader;             /* the same where alpha is 1/2 or more */
+
+extern const lom_shader lom_normal_shader; /* the normals of vertices, with lom_normal_lines */
+extern const lom_geometry lom_normal_lines;
 
 #endif

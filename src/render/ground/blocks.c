@@ -210,6 +210,8 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                 (quality->wireframe == LOM_WIREFRAME_OFF || lom_make_ground_wires(ground, error));
     if (done)
         fill_blocks(&loader);
+    if (done && quality->tessellation)
+        done = lom_make_ground_patches(ground, error);
     if (done && quality->ambient_occlusion)
         done =
             lom_find_sky_visibility(ground->heights, map->width, map->height, t->size, &loader.texels[0][3], 4, error);
@@ -233,5 +235,7 @@ void lom_free_ground_blocks(struct lom_ground *ground)
     lom_release(ground->order);
     lom_release(ground->distance);
     lom_release(ground->position);
+    lom_release(ground->knot);
+    lom_release(ground->patch_corner);
     lom_free_texture(ground->shadow);
 }

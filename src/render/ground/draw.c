@@ -66,6 +66,20 @@ static void set_composed(struct lom_terrain_uniforms *u, const lom_renderer *ren
     }
 }
 
+static struct lom_cut_uniform cut_uniform(const struct lom_ground *ground, const lom_terrain *t)
+{
+    return (struct lom_cut_uniform){
+        .heights = ground->heights,
+        .columns = ground->columns,
+        .rows = ground->rows,
+        .step = { (float)(t->size[0] / ground->columns), (float)(t->size[1] / ground->rows) },
+        .corner = { (float)(-t->size[0] / 2), (float)(-t->size[1] / 2) },
+        .eye = { (float)ground->eye.x, (float)(ground->eye.y - t->base), (float)ground->eye.z },
+        .parallel = ground->parallel,
+        .scale = (float)(ground->errors_allowed < 1e30 ? ground->errors_allowed : 1e30)
+    };
+}
+
 struct lom_terrain_uniforms lom_terrain_uniforms_of(const lom_renderer *renderer, const struct lom_view_uniform *view,
                                                     lom_vec3 place)
 {
@@ -89,6 +103,8 @@ struct lom_terrain_uniforms lom_terrain_uniforms_of(const lom_renderer *renderer
     for (size_t i = 0; i < t->layer_count; i++)
         u.layer[i] = layer_uniform(renderer, i, eye);
     set_composed(&u, renderer, eye);
+    if (renderer->ground.knot != NULL)
+        u.cut = cut_uniform(&renderer->ground, t);
     return u;
 }
 
@@ -114,14 +130,32 @@ const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *g
     return pattern;
 }
 
+static const lom_shader *const cut_shaders[] = { [LOM_SHADING_PHONG] = &lom_terrain_cut_phong,
+                                                 [LOM_SHADING_GOURAUD] = &lom_terrain_cut_gouraud,
+                                                 [LOM_SHADING_FLAT] = &lom_terrain_cut_flat };
+
+/* The patches of a block in place of its triangles. */
+static void take_patches(lom_draw_desc *draw, const struct lom_ground *ground, const struct lom_ground_block *block)
+{
+    draw->attribute[0] = (lom_attribute){ ground->knot, ground->knot_count * sizeof *ground->knot, sizeof *ground->knot,
+                                          LOM_ATTRIBUTE_FLOAT4 };
+    draw->indices = ground->patch_corner + block->first_corner;
+    draw->count = block->corners;
+    draw->topology = LOM_PATCHES;
+    draw->patch_points = 4;
+}
+
 void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc)
 {
     const struct lom_ground *ground = &renderer->ground;
     lom_draw_desc draw = *desc;
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
-        if (lom_find_ground_draw(ground, i, culler, &draw, &number) != NULL)
-            lom_draw(renderer->device, &draw);
+        if (lom_find_ground_draw(ground, i, culler, &draw, &number) == NULL)
+            continue;
+        if (draw.tessellation != NULL)
+            take_patches(&draw, ground, &ground->blocks[number]);
+        lom_draw(renderer->device, &draw);
     }
 }
 
@@ -131,8 +165,12 @@ void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, 
     if (renderer->ground.blocks == NULL)
         return;
     struct lom_terrain_uniforms uniforms = lom_terrain_uniforms_of(renderer, uniform, view->eye);
+    const lom_shading shading = renderer->scene->quality.shading;
+    const bool cut = renderer->ground.knot != NULL;
+    const lom_tessellation *patches = shading == LOM_SHADING_GOURAUD ? &lom_terrain_lit_patches : &lom_terrain_patches;
     lom_draw_ground_blocks(renderer, culler,
-                           &(lom_draw_desc){ .shader = shaders[renderer->scene->quality.shading],
+                           &(lom_draw_desc){ .shader = cut ? cut_shaders[shading] : shaders[shading],
+                                             .tessellation = cut ? patches : NULL,
                                              .uniforms = &uniforms,
                                              .cull = LOM_CULL_BACK,
                                              .label = "terrain",

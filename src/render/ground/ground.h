@@ -16,7 +16,8 @@ enum { LOM_MAX_TERRAIN_LAYERS = 8 };
 enum {
     LOM_GROUND_BLOCK = 32, /* quads along an edge of a block, fewer at the far borders of the map */
     LOM_GROUND_LEVELS = 6, /* level n joins 2^n quads along each axis into one */
-    LOM_GROUND_PATTERNS = 4 * LOM_GROUND_LEVELS * 16 /* sizes of a block, levels, sets of edges */
+    LOM_GROUND_PATTERNS = 4 * LOM_GROUND_LEVELS * 16, /* sizes of a block, levels, sets of edges */
+    LOM_GROUND_PATCH = 16                             /* quads along an edge of a patch, and segments of it at most */
 };
 
 /* The edges of a block where the neighbour is one level coarser. */
@@ -27,6 +28,7 @@ struct lom_ground_block {
     lom_box bounds;                  /* in the world */
     size_t first[LOM_GROUND_LEVELS]; /* its vertices at each level in lom_ground.position, row by row */
     float error[LOM_GROUND_LEVELS];  /* metres that the level's surface is off level 0 at most */
+    size_t first_corner, corners;    /* of its patches in lom_ground.patch_corner, four a patch */
 };
 
 /* Triangles of a grid of columns x rows quads whose vertices are numbered row by row. */
@@ -61,12 +63,19 @@ struct lom_ground {
     lom_texture *composed;  /* of the device: all layers from above; or NULL */
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
+    /* With quality.tessellation: column, row, height over the base, metres that the patches around it are off. */
+    float (*knot)[4];
+    uint32_t *patch_corner;
+    size_t knot_count;
 
     /* What a frame has chosen, the same for all of its passes. */
     int *level;      /* of each block */
     int *pattern;    /* of each block: its triangles, without cracks to its neighbours */
     uint32_t *order; /* blocks from near to far */
     double *distance;
+    lom_vec3 eye;          /* from which patches are cut, in the world */
+    double errors_allowed; /* a metre's error at a metre's distance, in errors that are allowed */
+    bool parallel;         /* at whatever distance */
 };
 
 bool lom_load_ground(lom_renderer *renderer, lom_error *error);
@@ -115,6 +124,8 @@ bool lom_find_sky_visibility(const float *heights, int width, int height, const 
 bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
                             float *shadow, lom_error *error);
 
+/* The patches of a terrain whose blocks are there. */
+bool lom_make_ground_patches(struct lom_ground *ground, lom_error *error);
 /* Makes the triangles of every size of block, level and set of coarser neighbours; and their edges. */
 bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error);
 bool lom_make_ground_wires(struct lom_ground *ground, lom_error *error);

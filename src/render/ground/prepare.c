@@ -57,6 +57,10 @@ bool lom_prepare_ground(struct frame *f, lom_error *error)
     double scale = f->height * f->view.projection.m[1][1] / 2;
     if (f->parallel) /* a metre may point across the picture and away from it at once */
         scale *= 1 + lom_magnitude(f->camera.shear[0]) + lom_magnitude(f->camera.shear[1]);
-    lom_choose_ground(ground, f->view.eye, scale, f->scene->quality.terrain_error, f->parallel);
+    const double pixels = f->scene->quality.terrain_error;
+    lom_choose_ground(ground, f->view.eye, scale, pixels, f->parallel);
+    ground->eye = f->view.eye;
+    ground->parallel = f->parallel;
+    ground->errors_allowed = pixels > 0 ? scale / pixels : 1e30;
     return cast_shadow(f, error);
 }

@@ -6,6 +6,8 @@
 #include "render/ground/ground.h"
 #include "shading/view_uniform.h"
 
+#include <lom/stages.h>
+
 /* The sides from which a map is laid on: a map's coordinates run along z and down, x and z, x and down. */
 enum { LOM_SIDE_X, LOM_SIDE_ABOVE, LOM_SIDE_Z, LOM_SIDES };
 
@@ -26,6 +28,16 @@ struct lom_layer_uniform {
     bool triplanar;               /* laid on from three sides instead of from above */
 };
 
+/* How patches are cut (patches.c). Places are over the terrain's base: column * step + corner and so on. */
+struct lom_cut_uniform {
+    const float *heights; /* columns + 1 a row */
+    int columns, rows;    /* quads of the map */
+    float step[2], corner[2];
+    float eye[3];  /* of the frame, whichever pass is drawn */
+    float scale;   /* an error of a metre at a distance of one, in errors that are allowed */
+    bool parallel; /* at whatever distance */
+};
+
 struct lom_terrain_uniforms {
     struct lom_view_uniform view;
     struct lom_material_uniform material;   /* without its texture */
@@ -37,6 +49,7 @@ struct lom_terrain_uniforms {
     float composed_level;             /* its level of detail from which on it stands for the layers */
     int layer_count;
     struct lom_layer_uniform layer[LOM_MAX_TERRAIN_LAYERS];
+    struct lom_cut_uniform cut; /* of patches */
 };
 
 extern const lom_shader lom_terrain_phong, lom_terrain_gouraud, lom_terrain_flat;
@@ -47,5 +60,9 @@ struct lom_terrain_uniforms lom_terrain_uniforms_of(const lom_renderer *renderer
                                                     lom_vec3 place);
 /* The blocks that the culler leaves (NULL: all), near ones first, each a draw of this description with its vertices. */
 void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc);
+
+/* The same of patches, and what cuts them; the second one lights the vertices, for Gouraud. */
+extern const lom_shader lom_terrain_cut_phong, lom_terrain_cut_gouraud, lom_terrain_cut_flat;
+extern const lom_tessellation lom_terrain_patches, lom_terrain_lit_patches;
 
 #endif

@@ -15,9 +15,8 @@ struct ground {
 
 /* Vertices are places over the terrain's base. What the eye's float leaves of it is taken away last: near the eye the
  * first difference is exact (Sterbenz 1974), so terrain of any size is as sharp as a small one. */
-static lom_float3 transform(lom_vertex *out, const lom_attributes *in, const struct lom_terrain_uniforms *terrain)
+static lom_float3 transform(lom_vertex *out, lom_float3 place, const struct lom_terrain_uniforms *terrain)
 {
-    lom_float3 place = { in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
     lom_float3 offset = lom_sub3(lom_sub3(place, lom_uniform3(terrain->eye)), lom_uniform3(terrain->eye_rest));
     LOM_NAME_VALUE(offset);
     out->position = lom_transform4(&terrain->view.clip_from_offset, offset);
@@ -38,15 +37,19 @@ static struct ground look_up(const struct lom_terrain_uniforms *terrain, lom_flo
     return g;
 }
 
-static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+LOM_INLINE lom_float3 place_of(const lom_attributes *in)
 {
-    transform(out, in, uniforms);
+    return (lom_float3){ in->attribute[0].x, in->attribute[0].y, in->attribute[0].z };
 }
 
-static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
-    const struct lom_terrain_uniforms *terrain = uniforms;
-    lom_float3 offset = transform(out, in, terrain);
+    transform(out, place_of(in), uniforms);
+}
+
+static void light_vertex(lom_vertex *out, lom_float3 place, const struct lom_terrain_uniforms *terrain)
+{
+    lom_float3 offset = transform(out, place, terrain);
     struct ground g = look_up(terrain, offset, (lom_float){ 0 });
     struct lom_lit lit = lom_phong_light(&terrain->view, &terrain->material, offset, g.normal, g.sky);
     out->varying[TEXTURED] = lit.textured.x;
@@ -55,6 +58,11 @@ static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *un
     out->varying[HIGHLIGHT] = lit.highlight.x;
     out->varying[HIGHLIGHT + 1] = lit.highlight.y;
     out->varying[HIGHLIGHT + 2] = lit.highlight.z;
+}
+
+static void lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    light_vertex(out, place_of(in), uniforms);
 }
 
 LOM_INLINE lom_float3 load3(const lom_varyings *in, int v)
@@ -272,3 +280,88 @@ LOM_SHADER(lom_terrain_gouraud, lit_vertex, gouraud_fragment, .attributes = 1, .
 LOM_SHADER(lom_terrain_albedo, vertex, albedo_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
            .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
            .uniforms_size = sizeof(struct lom_terrain_uniforms))
+
+/* ---- patches ---- */
+
+/* Column, row, height and error of a knot, as they are. */
+static void knot(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->position = in->attribute[0];
+}
+
+LOM_INLINE lom_float3 place_at(const struct lom_cut_uniform *cut, lom_float column, lom_float row, lom_float height)
+{
+    return (lom_float3){ column * cut->step[0] + cut->corner[0], height, row * cut->step[1] + cut->corner[1] };
+}
+
+/* Segments of the edge between two knots: with n of them it is off by about 1 / n of what a whole edge is (terrain is rough:
+ * of something smooth it would be 1 / n^2), which at its nearest place may be seen as much as is allowed. The same from
+ * either end. */
+static lom_float level_of(const struct lom_cut_uniform *cut, const lom_vertex *a, const lom_vertex *b)
+{
+    lom_float3 p = place_at(cut, a->position.x, a->position.y, a->position.z);
+    lom_float3 q = place_at(cut, b->position.x, b->position.y, b->position.z);
+    lom_float3 middle = lom_scale3(lom_add3(p, q), lom_splat(0.5f));
+    lom_float3 along = lom_sub3(q, p), off = lom_sub3(middle, lom_uniform3(cut->eye));
+    lom_float half = lom_sqrt(lom_dot3(along, along)) * 0.5f;
+    lom_float away = lom_max(lom_sqrt(lom_dot3(off, off)) - half, lom_splat(1e-3f));
+    if (cut->parallel)
+        away = lom_splat(1);
+    return lom_max(lom_max(a->position.w, b->position.w) * cut->scale / away, lom_splat(1));
+}
+
+static void cut_patch(lom_levels *out, const lom_patch *in, const void *uniforms)
+{
+    const struct lom_cut_uniform *cut = &((const struct lom_terrain_uniforms *)uniforms)->cut;
+    for (int i = 0; i < 4; i++)
+        out->outer[i] = level_of(cut, &in->point[(i + 3) % 4], &in->point[i]);
+    out->inner[0] = lom_max(out->outer[1], out->outer[3]);
+    out->inner[1] = lom_max(out->outer[0], out->outer[2]);
+}
+
+LOM_INLINE lom_float height_of(const struct lom_cut_uniform *cut, lom_int column, lom_int row)
+{
+    return lom_gather(cut->heights, row * (cut->columns + 1) + column);
+}
+
+/* On the map's triangles, a b c and d c b of each quad: a function of column and row alone, so neighbours agree. */
+static lom_float3 place_on_map(const lom_domain_point *in, const struct lom_cut_uniform *cut)
+{
+    const lom_vertex *p = in->patch.point;
+    lom_float column = p[0].position.x + in->u * (p[1].position.x - p[0].position.x);
+    lom_float row = p[0].position.y + in->v * (p[3].position.y - p[0].position.y);
+    lom_int i = lom_min_int(lom_to_int(column), lom_splat_int(cut->columns - 1));
+    lom_int j = lom_min_int(lom_to_int(row), lom_splat_int(cut->rows - 1));
+    lom_float s = column - lom_to_float(i), t = row - lom_to_float(j);
+    lom_float a = height_of(cut, i, j), b = height_of(cut, i + 1, j);
+    lom_float c = height_of(cut, i, j + 1), d = height_of(cut, i + 1, j + 1);
+    lom_float upper = a + s * (b - a) + t * (c - a), lower = d + (1.0f - s) * (c - d) + (1.0f - t) * (b - d);
+    return place_at(cut, column, row, lom_select(s + t <= 1.0f, upper, lower));
+}
+
+static void evaluate(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
+{
+    const struct lom_terrain_uniforms *terrain = uniforms;
+    transform(out, place_on_map(in, &terrain->cut), terrain);
+}
+
+static void evaluate_lit(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
+{
+    const struct lom_terrain_uniforms *terrain = uniforms;
+    light_vertex(out, place_on_map(in, &terrain->cut), terrain);
+}
+
+LOM_TESSELLATION(lom_terrain_patches, cut_patch, evaluate, .domain = LOM_DOMAIN_QUADS,
+                 .spacing = LOM_SPACING_FRACTIONAL_EVEN, .most = LOM_GROUND_PATCH)
+LOM_TESSELLATION(lom_terrain_lit_patches, cut_patch, evaluate_lit, .domain = LOM_DOMAIN_QUADS,
+                 .spacing = LOM_SPACING_FRACTIONAL_EVEN, .most = LOM_GROUND_PATCH)
+LOM_SHADER(lom_terrain_cut_phong, knot, phong_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
+           .uniforms_size = sizeof(struct lom_terrain_uniforms))
+LOM_SHADER(lom_terrain_cut_flat, knot, flat_fragment, .attributes = 1, .varyings = VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(OFFSET, 3), .differentiates = LOM_VARYINGS(OFFSET, 3), .colors = 1,
+           .uniforms_size = sizeof(struct lom_terrain_uniforms))
+LOM_SHADER(lom_terrain_cut_gouraud, knot, gouraud_fragment, .attributes = 1, .varyings = LIT_VARYINGS,
+           .clip_distances = 1, .reads = LOM_VARYINGS(0, LIT_VARYINGS), .differentiates = LOM_VARYINGS(OFFSET, 3),
+           .colors = 1, .uniforms_size = sizeof(struct lom_terrain_uniforms))

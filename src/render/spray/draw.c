@@ -25,16 +25,31 @@ struct moving {
     const lom_emitter *emitter;
     const struct lom_spray_view *view;
     double time;
+    const float *state; /* of drops that bounce; NULL: they fly freely */
     struct lom_sprite *sprites;
     float *depth;
     struct lom_sprite_reach *reach; /* of each piece */
 };
 
+static void take_states(const struct moving *m, size_t first, size_t end, lom_particle *particles)
+{
+    lom_birth_range(m->emitter, m->time, first, end, particles);
+    for (size_t i = first; i < end; i++)
+        for (int k = 0; k < 3; k++) {
+            const float *state = m->state + i * LOM_BOUNCE_FLOATS;
+            particles[i - first].place[k] = m->emitter->from[k] + (double)state[LOM_BOUNCE_PLACE + k];
+            particles[i - first].velocity[k] = (double)state[LOM_BOUNCE_VELOCITY + k];
+        }
+}
+
 static void move_piece(void *context, size_t first, size_t end)
 {
     const struct moving *m = context;
     lom_particle particles[LOM_DROPS_TOGETHER];
-    lom_place_range(m->emitter, m->time, first, end, particles);
+    if (m->state == NULL)
+        lom_place_range(m->emitter, m->time, first, end, particles);
+    else
+        take_states(m, first, end, particles);
     m->reach[first / LOM_DROPS_TOGETHER] =
         lom_make_sprites(m->spray, m->view, particles, end - first, m->sprites + first, m->depth + first);
 }
@@ -51,11 +66,20 @@ static bool move_drops(struct frame *f, const struct lom_spray_view *view, struc
     for (size_t i = 0; i < scene->spray_count; i++) {
         const lom_spray *spray = &scene->sprays[i];
         lom_emitter emitter = lom_spray_emitter(spray);
-        if (!spray->visible || emitter.count == 0 || !is_in_view(spray, &emitter, &frustum))
+        if (!spray->visible || emitter.count == 0 || (spray->bounce == 0 && !is_in_view(spray, &emitter, &frustum)))
             continue;
         if (!lom_check_emitter(&emitter, f->time, error))
             return false;
-        struct moving moving = { spray, &emitter, view, f->time, m->sprites + moved, m->depth + moved, m->reaches };
+        if (spray->bounce > 0 && !lom_bounce_drops(f, spray, &emitter))
+            return false;
+        struct moving moving = { .spray = spray,
+                                 .emitter = &emitter,
+                                 .view = view,
+                                 .time = f->time,
+                                 .state = spray->bounce > 0 ? m->state[0] : NULL,
+                                 .sprites = m->sprites + moved,
+                                 .depth = m->depth + moved,
+                                 .reach = m->reaches };
         lom_share_work(f->renderer->device, emitter.count, LOM_DROPS_TOGETHER, move_piece, &moving);
         for (size_t piece = 0; piece * LOM_DROPS_TOGETHER < emitter.count; piece++)
             *reach = lom_join_reaches(*reach, m->reaches[piece]);

@@ -18,18 +18,24 @@ bool lom_load_spray(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
     struct lom_drawn_spray *m = &renderer->spray;
-    size_t largest = 0;
+    size_t largest = 0, bouncing = 0;
     m->capacity = lom_count_drops(scene);
     if (m->capacity == 0)
         return true;
     for (size_t i = 0; i < scene->spray_count; i++)
         largest = count_of(&scene->sprays[i]) > largest ? count_of(&scene->sprays[i]) : largest;
+    for (size_t i = 0; i < scene->spray_count; i++)
+        if (scene->sprays[i].bounce > 0 && count_of(&scene->sprays[i]) > bouncing)
+            bouncing = count_of(&scene->sprays[i]);
     m->reaches = lom_allocate(largest / LOM_DROPS_TOGETHER + 1, sizeof *m->reaches, error);
     m->sprites = lom_allocate(m->capacity, sizeof *m->sprites, error);
     m->depth = lom_allocate(m->capacity, sizeof *m->depth, error);
+    for (int i = 0; i < 2 && bouncing != 0; i++)
+        m->state[i] = lom_allocate(bouncing, LOM_BOUNCE_FLOATS * sizeof *m->state[i], error);
     m->order = lom_allocate(m->capacity, sizeof *m->order, error);
     m->scratch = lom_allocate(m->capacity, sizeof *m->scratch, error);
-    return m->reaches != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
+    return (bouncing == 0 || (m->state[0] != NULL && m->state[1] != NULL)) && m->reaches != NULL &&
+           m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
 }
 
 void lom_free_spray(lom_renderer *renderer)
@@ -38,6 +44,8 @@ void lom_free_spray(lom_renderer *renderer)
     lom_release(m->reaches);
     lom_release(m->sprites);
     lom_release(m->depth);
+    lom_release(m->state[0]);
+    lom_release(m->state[1]);
     lom_release(m->order);
     lom_release(m->scratch);
 }

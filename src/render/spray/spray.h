@@ -17,11 +17,14 @@ struct lom_drawn_spray {
     struct lom_sprite_reach *reaches; /* of the pieces of an emitter */
     struct lom_sprite *sprites;
     float *depth;
+    float *state[2]; /* of drops that bounce; NULL: there are none */
     uint32_t *order, *scratch;
 };
 
 bool lom_load_spray(lom_renderer *renderer, lom_error *error);
 /* Moves the drops and draws them over all, a step of the plan. */
+/* The states of an emitter's drops that bounce, into state[0] of the renderer's; false with an error on the device. */
+bool lom_bounce_drops(struct frame *f, const lom_spray *spray, const lom_emitter *emitter);
 bool lom_draw_spray(struct frame *f, lom_error *error);
 void lom_free_spray(lom_renderer *renderer);
 
