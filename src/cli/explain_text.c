@@ -125,6 +125,8 @@ static void print_vertex(const struct text *t, const lom_draw_record *draw, int 
     fprintf(t->out, "%s      vertex %d", t->indent, number);
     if (v->index != UINT32_MAX)
         fprintf(t->out, " (index %u)", v->index);
+    else if (draw->desc.tessellation != NULL || draw->desc.geometry != NULL)
+        fputs(" (made by a stage behind the vertices)", t->out);
     else
         fputs(" (of the clipped piece)", t->out);
     print_code(t, v->code);
