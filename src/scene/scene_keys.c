@@ -205,7 +205,12 @@ static const lom_key quality[] = {
 };
 static bool check_quality(void *members, const lom_key_check *check)
 {
-    const double *t = ((const lom_quality *)members)->toon_thresholds;
+    const lom_quality *q = members;
+    const double *t = q->toon_thresholds;
+    if (q->tessellation && q->wireframe != LOM_WIREFRAME_OFF)
+        return check->fail(check, "wireframe",
+                           "edges are drawn of terrain in blocks, not of what tessellation cuts: "
+                           "either wireframe or tessellation.");
     return (t[0] <= t[1] && t[1] <= t[2]) ||
            check->fail(check, "toon_thresholds", "the thresholds of tones rise from the first to the last.");
 }
