@@ -61,7 +61,7 @@ refused() { # name, what the sentence says, arguments
 }
 refused lines_have_a_length normals --set quality.normals=-1
 refused tessellation_is_on_or_off tessellation --set quality.tessellation=3
-refused edges_are_of_blocks 'either wireframe or tessellation' --set quality.wireframe=visible
+refused edges_are_of_blocks 'either wireframe or tessellation' --set quality.tessellation=true --set quality.wireframe=visible
 scene=assets/scenes/features/bounce.toml
 refused a_share_is_at_most_1 bounce --set spray.left.bounce=1.5
 refused drops_that_bounce_live_briefly '60 s' --set spray.left.life=61
