@@ -316,11 +316,11 @@ typedef struct lom_quality {
     bool scissor;             /* pictures are drawn only where lookups can reach; changes no byte */
     double terrain_error;     /* pixels that terrain may be off where it is drawn coarser; 0: full density */
     double terrain_composite; /* pixels that a texel of the picture of all layers may cover; 0: layers are sampled */
-    bool tessellation;        /* terrain is cut by tessellation, each edge by its own error, instead of block by block */
-    bool terrain_shadows;     /* terrain keeps the sun off what lies behind it */
-    int entity_shadows;       /* texels a side of the maps of what entities keep the sun off; 0: they do not */
-    double normals;           /* metres of the lines that show the normals of entities' vertices; 0: none */
-    bool ambient_occlusion;   /* terrain gets ambient light only from the sky it sees */
+    bool tessellation;      /* terrain is cut by tessellation, each edge by its own error, instead of block by block */
+    bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
+    int entity_shadows;     /* texels a side of the maps of what entities keep the sun off; 0: they do not */
+    double normals;         /* metres of the lines that show the normals of entities' vertices; 0: none */
+    bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
     lom_wireframe wireframe;
     double wireframe_color[3]; /* linear */
 } lom_quality;
