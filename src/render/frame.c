@@ -70,8 +70,9 @@ static bool draw_opaque(struct frame *f, lom_error *error)
 {
     (void)error;
     lom_renderer *r = f->renderer;
-    lom_step *step = lom_add_step(f, "scene", true, "terrain, entities and sky, from the camera%s",
-                                  f->parallel ? ", by parallel rays" : "");
+    lom_step *step = lom_add_step(f, "scene", true, "terrain, entities and sky, from the camera%s%s",
+                                  f->parallel ? ", by parallel rays" : "",
+                                  lom_hides_below(f) ? "; nothing of them below the waves, which cover it" : "");
     step->width = f->crop.width;
     step->height = f->crop.height;
     lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
@@ -80,6 +81,7 @@ static bool draw_opaque(struct frame *f, lom_error *error)
     struct lom_scene_view part = f->view;
     part.window = &shown;
     lom_begin_pass(r->device, &pass);
+    lom_draw_lid(f);
     lom_draw_scene(r, &part);
     return lom_end_pass(r->device) && lom_draw_wires(f);
 }

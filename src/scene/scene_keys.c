@@ -170,9 +170,8 @@ static const lom_key quality[] = {
           "Look at each lamp only on the squares of ground that its light reaches. Changes time alone: off gives the "
           "same bytes." },
     { "scissor", LOM_KEY_BOOL, AT(lom_quality, scissor), .initial = { 1 },
-      .text = "Draw these pictures only where the water can look them up, and begin with what the frame shows of them. "
-              "Changes "
-              "time alone: off gives the same bytes." },
+      .text = "Draw these pictures only where the water can look them up, begin with what the frame shows of them, and "
+              "leave out of the frame what waves cover. Changes time alone: off gives the same bytes." },
     { "reference", LOM_KEY_TABLE, AT(lom_quality, reference), .table = &reference_table },
     { "terrain_error", LOM_KEY_NUMBER, AT(lom_quality, terrain_error), .maximum = 1000, .initial = { 1 },
       .unit = "pixels",

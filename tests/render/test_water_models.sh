@@ -55,6 +55,26 @@ copied=$(triangles) drawn=$(triangles $again)
 [ $((copied - drawn)) = 1 ] || why="$copied triangles and $drawn: the copy is two of them, photons are one"
 verdict what_the_frame_shows_behind_the_surface_is_copied "$why"
 
+# The scene is not shaded where waves will cover it: whatever the eye sees of them, at every width, and less is shaded.
+packets() { draw --stats - --hash "$@" | sed -n 's/.*"packets": \([0-9]*\),.*/\1/p'; }
+for model in displaced marched; do
+    why=
+    for look in '--set camera.pitch=-40' '--set camera.pitch=-89' '--set camera.roll=35 --set camera.pitch=-15' \
+        '--set camera.position=[0,0.45,9]' '--set camera.position=[0,300,0] --set camera.pitch=-75' \
+        '--set water.size=[20,9] --set camera.pitch=-30' '--set water.size=[9,60] --set camera.position=[-3,2,9]' \
+        '--set camera.field_of_view=140 --set camera.pitch=-20' '--set camera.near=0.001' '--set output.samples=4'; do
+        for lanes in 4 8; do
+            less=$(hash $look --lanes $lanes) all=$(hash $look --lanes $lanes --set quality.scissor=false)
+            [ -n "$less" ] && [ "$less" = "$all" ] || why="$look: $less with $lanes lanes, not $all"
+        done
+    done
+    case $(plan --set camera.pitch=-40) in *'below the waves'*) ;; *) why='the plan does not say what is left out' ;; esac
+    case $(plan --set camera.position=[40.5,2,0]) in *'below the waves'*) why='an eye beside the water has a lid' ;; esac
+    less=$(packets --set camera.pitch=-40) all=$(packets --set camera.pitch=-40 --set quality.scissor=false)
+    [ "$less" -lt "$all" ] || why="$less packets, not less than $all"
+    verdict what_waves_cover_is_not_shaded_$model "$why"
+done
+
 # Schlick's approximation is near the exact reflectance, the mix of the reference works is not, in each of them.
 for model in normal_map displaced marched; do
     for fresnel in exact schlick dot; do draw --set water.optics.fresnel=$fresnel -o "$folder/$fresnel.ppm"; done

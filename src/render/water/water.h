@@ -42,6 +42,9 @@ bool lom_shows_waves(const lom_scene *scene);
 bool lom_shows_foam(const lom_scene *scene);
 bool lom_shows_caustics(const lom_scene *scene);
 
+/* Whether the scene's pass leaves out what water will cover; and its depth into that pass, which has begun. */
+bool lom_hides_below(const struct frame *f);
+void lom_draw_lid(const struct frame *f);
 /* Makes the waves, and what they do to the light on what is drawn after them. */
 bool lom_prepare_water(struct frame *f, lom_error *error);
 /* Draws tinted or planar water over the scene; or finds where the scene leaves water with waves to be seen, and draws
