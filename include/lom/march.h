@@ -332,7 +332,8 @@ typedef struct lom_medium_result {
 void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *rays, const lom_medium_desc *desc,
                                 lom_march_count *count);
 
-/* Optical depth of a medium between two distances along rays, by the midpoint rule with `steps` steps. */
+/* Optical depth of a medium between two distances along rays, by the midpoint rule with `steps` steps; of what is empty
+ * none is evaluated unless desc->walk says so, which gives the same bytes. */
 void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, const lom_medium_desc *desc, int steps);
 
 /* Where rays cross the unit box: the distances between which they are inside, enter >= 0; lanes that miss it are

@@ -26,14 +26,14 @@ void lom_free_light_grid(lom_light_grid *grid)
 
 /* ---- making ---- */
 
-static double density_at(const lom_image *image, int x, int y, int z)
+/* Of voxel x of a row. */
+static double density_at(lom_format format, const void *row, int x)
 {
-    const void *p = lom_image_pixel(image, x, y, z);
-    if (image->format == LOM_FORMAT_R8)
-        return *(const uint8_t *)p / 255.0;
-    if (image->format == LOM_FORMAT_R16)
-        return *(const uint16_t *)p / 65535.0;
-    float value = *(const float *)p;
+    if (format == LOM_FORMAT_R8)
+        return ((const uint8_t *)row)[x] / 255.0;
+    if (format == LOM_FORMAT_R16)
+        return ((const uint16_t *)row)[x] / 65535.0;
+    float value = ((const float *)row)[x];
     return value > 0 ? value < 1 ? value : 1 : 0;
 }
 
@@ -63,9 +63,11 @@ static void average_density(lom_light_grid *grid, const lom_image *image, const 
                 find_span(x, grid->width, image->width, &x0, &x1);
                 double sum = 0;
                 for (int k = z0; k < z1; k++)
-                    for (int j = y0; j < y1; j++)
+                    for (int j = y0; j < y1; j++) {
+                        const void *row = lom_image_pixel(image, 0, j, k);
                         for (int i = x0; i < x1; i++)
-                            sum += erode(eroded, density_at(image, i, j, k));
+                            sum += erode(eroded, density_at(image->format, row, i));
+                    }
                 double mean = sum / ((double)(x1 - x0) * (y1 - y0) * (z1 - z0));
                 *to++ = (uint16_t)lom_count_of(mean * 65535 + 0.5, 65535);
             }

@@ -27,21 +27,21 @@ void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
     rays->active &= (*enter < *leave) & ~still;
 }
 
-LOM_INLINE lom_float sample_density(const lom_medium *m, bool fixed, lom_float3 p)
+LOM_INLINE lom_float sample_density(const lom_medium *m, bool fixed, const lom_volume_place *place)
 {
-    lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
     if (!fixed)
-        return lom_sample_medium(m, place);
-    struct fixed_place at = fix_place(place);
+        return lom_sample_medium(m, *place);
+    struct fixed_place at = fix_place(*place);
     return fixed_medium(m, &at);
 }
 
 /* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below
  * 0 (Schneider and Vos 2015). Far away the noise is its mean. */
-static lom_float find_density(const lom_medium_desc *desc, lom_float3 p, lom_float distance)
+static lom_float find_density(const lom_medium_desc *desc, lom_float3 p, const lom_volume_place *place,
+                              lom_float distance)
 {
     bool fixed = desc->filtering == LOM_FILTERING_FIXED;
-    lom_float density = sample_density(desc->medium, fixed, p);
+    lom_float density = sample_density(desc->medium, fixed, place);
     if (desc->detail == NULL || !lom_any((density > 0.0f) & (density < 1.0f)))
         return density;
     lom_float noise = lom_splat(desc->detail->mean);
@@ -69,31 +69,36 @@ static lom_float sun_share(const lom_medium_desc *desc, const lom_medium_rays *r
     return sum;
 }
 
-/* Whole steps that are empty for every ray from the places p on: cells nearer than the distance are, and a ray crosses
- * at most `speed` cells a step along any axis. 1.01 covers the place within its cell and the rounding of positions. */
-static int empty_steps(const lom_medium *m, lom_float3 p, lom_mask alive, lom_float speed)
+/* Whole steps that are empty for every ray from the places on: cells nearer than the distance are, and a ray is in a cell
+ * for at least `per_cell` steps. 1.01 covers the place within its cell and the rounding of positions. */
+static int empty_steps(const lom_medium *m, const lom_volume_place *place, lom_mask alive, lom_float per_cell)
 {
-    lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
     int32_t index[LOM_LANES];
-    float per_step[LOM_LANES];
-    lom_store_int(index, place.index);
-    lom_store(per_step, speed);
-    uint32_t lanes = lom_bits(alive);
-    int least = 65536;
-    for (; lanes != 0; lanes &= lanes - 1) {
+    float steps[LOM_LANES], least = 65535;
+    lom_store_int(index, place->index);
+    lom_store(steps, per_cell);
+    for (uint32_t lanes = lom_bits(alive); lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);
         float room = (float)m->distance[index[i]] - 1.01f;
-        int steps = room >= 0 ? 1 + lom_int_of(room / per_step[i]) : 0;
-        least = steps < least ? steps : least;
-        if (least == 0)
+        if (room < 0)
             return 0;
+        least = room * steps[i] < least ? room * steps[i] : least;
     }
-    return least;
+    return 1 + lom_int_of(least);
 }
 
 LOM_INLINE lom_float largest3(lom_float a, lom_float b, lom_float c)
 {
     return lom_max(lom_max(lom_abs(a), lom_abs(b)), lom_abs(c));
+}
+
+/* Steps that a ray takes from cell to cell along the axis on which it is fastest, or fewer, whatever is rounded. */
+static lom_float steps_per_cell(const lom_medium *m, const lom_medium_rays *rays, lom_float step)
+{
+    lom_float speed = step * largest3(rays->along.x * (float)m->width, rays->along.y * (float)m->height,
+                                      rays->along.z * (float)m->depth) +
+                      1e-6f;
+    return 0.99999f / speed;
 }
 
 /* The step of each ray in metres: the asked one, or longer where the ray would take too many. */
@@ -109,9 +114,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
     const lom_medium *m = desc->medium;
     lom_medium_result sum = { .transmittance = lom_splat(1.0f) };
     lom_float step = step_of(desc, rays);
-    lom_float speed = step * largest3(rays->along.x * (float)m->width, rays->along.y * (float)m->height,
-                                      rays->along.z * (float)m->depth) +
-                      1e-6f;
+    lom_float per_cell = steps_per_cell(m, rays, step);
     lom_mask alive = rays->active;
     LOM_NOTE(LOM_NOTE_RAY, m, rays->enter, rays->leave, step);
     lom_float first = rays->enter + (rays->shift - 1.0f) * step;
@@ -127,15 +130,16 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
             break;
         lom_float length = lom_max(high - low, (lom_float){ 0 }), middle = (low + high) * 0.5f;
         lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, middle));
+        lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
         if (was_empty && !desc->walk) {
-            int empty = empty_steps(m, p, alive, speed);
+            int empty = empty_steps(m, &place, alive, per_cell);
             if (empty != 0) {
                 i += empty - 1;
                 continue;
             }
         }
         sampled++;
-        lom_float density = find_density(desc, p, middle);
+        lom_float density = find_density(desc, p, &place, middle);
         LOM_NOTE(LOM_NOTE_STEP, m, middle, length, density, lom_as_float(alive));
         was_empty = !lom_any((density > 0.0f) & alive);
         if (was_empty)
@@ -167,11 +171,24 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
 {
     lom_float sum = { 0 };
     lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
+    const lom_medium *m = desc->medium;
+    lom_float per_cell = steps_per_cell(m, rays, step);
+    bool was_empty = true;
     LOM_NOTE(LOM_NOTE_RAY, desc->medium, rays->enter, rays->leave, step);
-    for (int i = 0; i < steps; i++) {
+    for (int i = 0; i < steps && lom_any(rays->active); i++) {
         lom_float at = rays->enter + step * ((float)i + 0.5f);
-        lom_float density = find_density(desc, lom_add3(rays->start, lom_scale3(rays->along, at)), lom_splat(3e38f));
+        lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, at));
+        lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
+        if (was_empty && !desc->walk) {
+            int empty = empty_steps(m, &place, rays->active, per_cell);
+            if (empty != 0) {
+                i += empty - 1;
+                continue;
+            }
+        }
+        lom_float density = find_density(desc, p, &place, lom_splat(3e38f));
         LOM_NOTE(LOM_NOTE_STEP, desc->medium, at, step, density, lom_as_float(rays->active));
+        was_empty = !lom_any((density > 0.0f) & rays->active);
         sum += density;
     }
     *depth = lom_as_float(lom_as_int(sum * (step * desc->extinction)) & rays->active);

@@ -16,29 +16,38 @@ void lom_free_medium(lom_medium *medium)
     lom_release(medium);
 }
 
-static uint32_t value_at(const lom_image *image, int x, int y, int z)
+/* Voxel x of a row, or the last one. */
+static uint32_t value_at(const lom_image *image, const void *row, int x)
 {
-    const void *p = lom_image_pixel(image, lom_smaller_int(x, image->width - 1), lom_smaller_int(y, image->height - 1),
-                                    lom_smaller_int(z, image->depth - 1));
+    x = lom_smaller_int(x, image->width - 1);
     if (image->format == LOM_FORMAT_R8)
-        return 257u * *(const uint8_t *)p;
+        return 257u * ((const uint8_t *)row)[x];
     if (image->format == LOM_FORMAT_R16)
-        return *(const uint16_t *)p;
-    float value = *(const float *)p;
+        return ((const uint16_t *)row)[x];
+    float value = ((const float *)row)[x];
     return (uint32_t)lom_count_of((value > 0 ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f, 65535);
+}
+
+/* Words k = 0, 1 of the cells of a row, from the voxels of rows y + k. */
+static void store_row(int32_t *to, const lom_image *image, int y, int z)
+{
+    for (int k = 0; k < 2; k++) {
+        const void *row =
+            lom_image_pixel(image, 0, lom_smaller_int(y + k, image->height - 1), lom_smaller_int(z, image->depth - 1));
+        uint32_t value = value_at(image, row, 0);
+        for (int x = 0; x <= image->width; x++) {
+            uint32_t next = value_at(image, row, x + 1), word = value | next << 16;
+            memcpy(&to[2 * x + k], &word, sizeof word);
+            value = next;
+        }
+    }
 }
 
 static void store_corners(lom_medium *m, const lom_image *image)
 {
     for (int z = 0; z <= m->depth; z++)
         for (int y = 0; y <= m->height; y++)
-            for (int x = 0; x <= m->width; x++) {
-                size_t cell = cell_index(m->width, m->height, x, y, z);
-                for (int k = 0; k < 2; k++) {
-                    uint32_t word = value_at(image, x, y + k, z) | value_at(image, x + 1, y + k, z) << 16;
-                    memcpy(&m->density[2 * cell + (size_t)k], &word, sizeof word);
-                }
-            }
+            store_row(m->density + 2 * cell_index(m->width, m->height, 0, y, z), image, y, z);
     size_t slice = cell_index(m->width, m->height, 0, 0, 1), cells = slice * (size_t)(m->depth + 1);
     for (size_t cell = 0; cell < cells; cell++) {
         size_t next = cell + slice < cells ? cell + slice : cell;

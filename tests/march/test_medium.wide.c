@@ -181,6 +181,12 @@ static void skipping_changes_no_byte(void)
             desc.walk = false;
             LOM_WIDE(lom_march_medium)(&skipped, &rays, &desc, &count);
             CHECK(memcmp(&walked, &skipped, sizeof walked) == 0, "round %d, rays %d", round, i);
+            lom_float depth, without;
+            desc.walk = true;
+            LOM_WIDE(lom_medium_depth)(&depth, &rays, &desc, 40 + i);
+            desc.walk = false;
+            LOM_WIDE(lom_medium_depth)(&without, &rays, &desc, 40 + i);
+            CHECK(memcmp(&depth, &without, sizeof depth) == 0, "depth: round %d, rays %d", round, i);
         }
         lom_free_medium(medium);
         lom_free_image(image);
