@@ -131,6 +131,7 @@ typedef struct lom_material {
     float bump;            /* of a normal map that holds heights: white is bump / 64 of its width above black */
     char diffuse_map[256]; /* path relative to the OBJ file's folder; empty when there is none */
     char emissive_map[256], specular_map[256], gloss_map[256], normal_map[256]; /* likewise */
+    char opacity_map[256]; /* likewise: map_d, which multiplies opacity */
 } lom_material;
 
 typedef struct lom_mesh_part { /* triangles (or lines, or points) of one material, in file order */

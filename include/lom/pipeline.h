@@ -75,6 +75,19 @@ lom_counters lom_device_counters(const lom_device *device);
  * a frame's time is its serial share, which bounds what more workers can gain. 0 with one thread, and for NULL. */
 double lom_device_shared_seconds(const lom_device *device);
 
+/* Occlusion queries: how many samples draws leave (OpenGL 4.6, 4.2.1). A query is named by draws (lom_draw_desc.query);
+ * after lom_end_pass its result is the number of samples of all draws of that pass which name it, that passed stencil and
+ * depth test and were not discarded; where nothing is tested, that were covered. It stays until another pass has such
+ * draws. The same for any threads, lanes and tiles. */
+typedef struct lom_query lom_query;
+
+/* Owned by the device and freed with it; NULL (error on the device) on failure. */
+lom_query *lom_make_query(lom_device *device);
+/* Frees one before the device; NULL is allowed; within a pass, and of one of another device, it is an error. */
+void lom_release_query(lom_device *device, lom_query *query);
+/* False, and 0 samples, as long as no pass that ended had a draw with it. */
+bool lom_query_result(const lom_query *query, uint64_t *samples);
+
 /* ---- shaders ---- */
 
 enum {
@@ -354,9 +367,10 @@ typedef struct lom_pass_desc {
     lom_rect scissor;              /* of the frame: pixels outside keep their clear value (or their content) */
     lom_clip_range clip_range;
     float min_depth, max_depth; /* both 0: 0 and 1 */
-    lom_load_action color_load[LOM_MAX_COLORS], depth_load;
+    lom_load_action color_load[LOM_MAX_COLORS], depth_load, stencil_load;
     float clear_color[LOM_MAX_COLORS][4]; /* linear light */
     float clear_depth;                    /* 0 is the far plane of reversed depth */
+    uint8_t clear_stencil;                /* of depth attachments that have a stencil */
     bool feedback_only; /* no attachments: its draws fill feedback (lom/stages.h) and nothing is rasterized */
     const char *label;  /* what records (lom/record.h) call the pass; not copied; may be NULL */
 } lom_pass_desc;
@@ -450,7 +464,17 @@ typedef enum lom_factor {
     LOM_FACTOR_TARGET_COLOR,
     LOM_FACTOR_ONE_MINUS_TARGET_COLOR,
     LOM_FACTOR_TARGET_ALPHA,
-    LOM_FACTOR_ONE_MINUS_TARGET_ALPHA
+    LOM_FACTOR_ONE_MINUS_TARGET_ALPHA,
+    LOM_FACTOR_CONSTANT_COLOR, /* of the draw's blend_constant */
+    LOM_FACTOR_ONE_MINUS_CONSTANT_COLOR,
+    LOM_FACTOR_CONSTANT_ALPHA,
+    LOM_FACTOR_ONE_MINUS_CONSTANT_ALPHA,
+    LOM_FACTOR_SOURCE_ALPHA_SATURATE, /* colours: min(source alpha, 1 - target alpha); alpha: 1 */
+    LOM_FACTOR_SECOND_COLOR,          /* of the second source: the shader's color[1] */
+    LOM_FACTOR_ONE_MINUS_SECOND_COLOR,
+    LOM_FACTOR_SECOND_ALPHA,
+    LOM_FACTOR_ONE_MINUS_SECOND_ALPHA,
+    LOM_FACTOR_COUNT
 } lom_factor;
 
 typedef enum lom_blend_operation {
@@ -458,17 +482,71 @@ typedef enum lom_blend_operation {
     LOM_BLEND_SUBTRACT,         /* source - target */
     LOM_BLEND_REVERSE_SUBTRACT, /* target - source */
     LOM_BLEND_MIN,              /* factors ignored */
-    LOM_BLEND_MAX
+    LOM_BLEND_MAX,
+    LOM_BLEND_OPERATION_COUNT
 } lom_blend_operation;
 
 /* result = source * source_factor (operation) target * target_factor, for colour and for alpha. Into 8-bit unorm the
- * source is rounded to the format first and the sum is rounded once (exact); sRGB and float attachments blend in float.
- */
+ * source, the second source and the constant are rounded to the format first and the sum is rounded once (exact); into
+ * sRGB they are clamped to 0..1, and sRGB and float attachments blend in float. Two sources: the pass has one colour
+ * attachment and the shader two colours, of which the second is stored nowhere. OpenGL 4.6, 17.3.6 "Blending". */
 typedef struct lom_blend {
     bool enabled;
     lom_factor source_color, target_color, source_alpha, target_alpha;
     lom_blend_operation color_operation, alpha_operation;
 } lom_blend;
+
+/* Logical operations on the bits of source s and target d, in place of blending: OpenGL 4.6, 17.3.9, table 17.3. Of
+ * 8-bit unorm attachments alone; the source is rounded to the format first. */
+typedef enum lom_logic {
+    LOM_LOGIC_OFF = 0,
+    LOM_LOGIC_CLEAR,         /* 0 */
+    LOM_LOGIC_AND,           /* s & d */
+    LOM_LOGIC_AND_REVERSE,   /* s & ~d */
+    LOM_LOGIC_COPY,          /* s */
+    LOM_LOGIC_AND_INVERTED,  /* ~s & d */
+    LOM_LOGIC_NOTHING,       /* d */
+    LOM_LOGIC_XOR,           /* s ^ d */
+    LOM_LOGIC_OR,            /* s | d */
+    LOM_LOGIC_NOR,           /* ~(s | d) */
+    LOM_LOGIC_EQUIVALENT,    /* ~(s ^ d) */
+    LOM_LOGIC_INVERT,        /* ~d */
+    LOM_LOGIC_OR_REVERSE,    /* s | ~d */
+    LOM_LOGIC_COPY_INVERTED, /* ~s */
+    LOM_LOGIC_OR_INVERTED,   /* ~s | d */
+    LOM_LOGIC_NAND,          /* ~(s & d) */
+    LOM_LOGIC_SET,           /* all ones */
+    LOM_LOGIC_COUNT
+} lom_logic;
+
+/* What becomes of the stored s: OpenGL 4.6, 17.3.3 "Stencil Test". */
+typedef enum lom_stencil_operation {
+    LOM_STENCIL_KEEP = 0,
+    LOM_STENCIL_ZERO,
+    LOM_STENCIL_REPLACE,        /* the reference */
+    LOM_STENCIL_INCREMENT,      /* min(s + 1, 255) */
+    LOM_STENCIL_DECREMENT,      /* max(s - 1, 0) */
+    LOM_STENCIL_INVERT,         /* ~s */
+    LOM_STENCIL_INCREMENT_WRAP, /* (s + 1) modulo 256 */
+    LOM_STENCIL_DECREMENT_WRAP, /* (s - 1) modulo 256 */
+    LOM_STENCIL_OPERATION_COUNT
+} lom_stencil_operation;
+
+/* The test passes where the reference compares with what is stored, both without the bits of read_off. */
+typedef struct lom_stencil_face {
+    lom_compare compare;                          /* DEFAULT: always */
+    lom_stencil_operation fail, depth_fail, pass; /* where it fails; where depth does after it; where both pass */
+    uint8_t reference;
+    uint8_t read_off, write_off; /* bits that are not compared, not written */
+} lom_stencil_face;
+
+/* Of each sample, after the shader's discard and alpha to coverage, before the depth test. A sample that fails writes
+ * neither colour nor depth. Where depth is not tested it passes. Needs a depth attachment with stencil. */
+typedef struct lom_stencil {
+    bool enabled;
+    bool two_sided;               /* triangles that face back have `back`; else all have `front` */
+    lom_stencil_face front, back; /* sprites, points and lines face front */
+} lom_stencil;
 
 /* Clusters of a mesh: its triangles in runs, with the box around the vertices of each. A draw that has them leaves out
  * those of which nothing can be seen before it touches a vertex; no pixel changes. */
@@ -521,10 +599,18 @@ typedef struct lom_draw_desc {
     /* Near and far do not cut: what lies before or behind them has the depth of the one or the other (then the depth bias).
      * w > 0 still cuts. OpenGL 4.6, 13.7 and 17.3.5 (DEPTH_CLAMP). Sprites and points are drawn if w > 0. */
     bool depth_clamp;
+    lom_stencil stencil;
+    lom_query *query; /* counts its samples; NULL: none */
+    /* The draw is left out where this query's result is 0 when lom_draw is called (`condition_inverted`: is not 0), that is,
+     * as a pass that has ended left it; an error where none has. OpenGL 4.6, 10.9 "Conditional Rendering". NULL: none. */
+    const lom_query *condition;
+    bool condition_inverted;
     float depth_bias;       /* units r; finite */
     float depth_bias_slope; /* times the slope m; finite */
     float depth_bias_clamp; /* most (or, negative, least) that is added; 0 and NaN: no limit */
     lom_blend blend[LOM_MAX_COLORS];
+    float blend_constant[4];          /* linear light; finite */
+    lom_logic logic;                  /* of all attachments, which are then not blended; OFF: none */
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
     bool per_sample;                  /* the fragment shader runs for each sample */

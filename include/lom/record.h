@@ -39,6 +39,7 @@ typedef enum lom_fate {
     LOM_FATE_SCISSOR,      /* outside the scissor */
     LOM_FATE_CLIPPED,      /* outside the near or far plane here */
     LOM_FATE_UNSHADED,     /* drawn, but its draw writes no colour and no depth here */
+    LOM_FATE_STENCIL,      /* failed the stencil test */
     LOM_FATES
 } lom_fate;
 const char *lom_fate_text(lom_fate fate); /* a part of a sentence: "failed the depth test" */
@@ -96,6 +97,7 @@ typedef struct lom_fragment_record {
     float b[3];             /* perspective-correct, the same order */
     bool shaded, discarded; /* the fragment shader ran; and dropped it */
     bool inside_distances;
+    bool stencil_failed; /* then it was not tested for depth */
     bool depth_tested, depth_passed, depth_written;
     float z;                   /* with the bias */
     float depth, depth_before; /* attachment units: tested, and stored until then */

@@ -195,13 +195,15 @@ typedef struct lom_haze {
 typedef struct lom_scene_material {
     bool present;
     bool has_ambient, has_diffuse, has_specular, has_shininess; /* false: an entity's mesh keeps its own */
-    bool has_emissive, has_bump;
+    bool has_emissive, has_bump, has_opacity;
     double ambient[3], diffuse[3], specular[3]; /* linear factors */
     double emissive[3];                         /* linear: light of its own */
     double shininess;                           /* Phong exponent */
     double bump;                                /* as of lom_material */
     const char *texture; /* colour texture that multiplies ambient and diffuse; NULL: the mesh's own */
     const char *emissive_map, *specular_map, *gloss_map, *normal_map; /* likewise, of emissive, specular, shininess */
+    double opacity;          /* of an entity: the share of what is behind it that it hides; below 1 it is transparent */
+    const char *opacity_map; /* multiplies opacity; NULL: the mesh's own */
 } lom_scene_material;
 
 /* ---- [terrain] ---- */

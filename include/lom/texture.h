@@ -110,6 +110,9 @@ typedef struct lom_texture_desc {
     /* Of a 2D target: passes of so many samples a pixel (2, 4, 8, 16) keep them with the texture, for the passes that go on
      * with LOM_LOAD_KEEP. 0 and 1: those begin from the texel in each sample. */
     int samples;
+    /* A 2D DEPTH24 or DEPTH32F texture has 8 bits of stencil for each texel besides, zeros at first: D24S8 and D32FS8. What
+     * is sampled and read is the depth. */
+    bool stencil;
     const char *label; /* what records (lom/record.h) call it; not copied, stays valid with the texture; may be NULL */
 } lom_texture_desc;
 
@@ -126,6 +129,10 @@ void lom_free_texture(lom_texture *texture); /* NULL is allowed */
 /* One level as a picture in the texture's format. layer: the face of a cube, the slice of a 3D texture or the layer of an
  * array; -1: all of them, as the image's depth. */
 lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lom_error *error);
+
+/* Its stencil as an R8 picture, which another texture can be made from. NULL with an error where it has none, or
+ * without memory. */
+lom_image *lom_read_stencil(const lom_texture *texture, lom_error *error);
 
 /* What a texture is. */
 int lom_texture_width(const lom_texture *texture);

@@ -13,10 +13,25 @@ const char *lom_compare_text(lom_compare compare)
 
 const char *lom_factor_text(lom_factor factor)
 {
-    static const char *const texts[] = {
-        "0",      "1",          "source",       "1 - source",      "source alpha", "1 - source alpha",
-        "target", "1 - target", "target alpha", "1 - target alpha"
-    };
+    static const char *const texts[] = { "0",
+                                         "1",
+                                         "source",
+                                         "1 - source",
+                                         "source alpha",
+                                         "1 - source alpha",
+                                         "target",
+                                         "1 - target",
+                                         "target alpha",
+                                         "1 - target alpha",
+                                         "constant",
+                                         "1 - constant",
+                                         "constant alpha",
+                                         "1 - constant alpha",
+                                         "min(source alpha, 1 - target alpha)",
+                                         "second source",
+                                         "1 - second source",
+                                         "second source alpha",
+                                         "1 - second source alpha" };
     return texts[factor];
 }
 

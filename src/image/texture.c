@@ -74,6 +74,9 @@ static bool check_desc(const lom_texture_desc *desc, lom_error *error)
         return lom_fail(error, LOM_ERROR_USAGE,
                         "A texture keeps 1, 2, 4, 8 or 16 samples a pixel, and only a 2D one more than 1; not %d.",
                         desc->samples);
+    if (desc->stencil &&
+        (desc->kind != LOM_TEXTURE_2D || (desc->format != LOM_FORMAT_DEPTH24 && desc->format != LOM_FORMAT_DEPTH32F)))
+        return lom_fail(error, LOM_ERROR_USAGE, "Only a 2D texture of DEPTH24 or DEPTH32F has a stencil.");
     return check_sizes(desc, error);
 }
 
@@ -220,7 +223,10 @@ static lom_texture *create(const lom_texture_desc *asked, lom_error *error)
     set_sampler(texture, desc);
     texture->label = desc->label;
     texture->samples = desc->samples > 1 ? desc->samples : 0;
-    if (!lay_out(texture, desc, error)) {
+    bool laid = lay_out(texture, desc, error);
+    if (laid && desc->stencil)
+        texture->stencil = lom_allocate((size_t)desc->width, (size_t)desc->height, error);
+    if (!laid || (desc->stencil && texture->stencil == NULL)) {
         lom_free_texture(texture);
         return NULL;
     }
@@ -279,6 +285,7 @@ void lom_free_texture(lom_texture *texture)
     lom_release(texture->texels);
     lom_release(texture->kept.memory);
     lom_release(texture->kept.held);
+    lom_release(texture->stencil);
     lom_release(texture);
 }
 

@@ -55,11 +55,12 @@ struct lom_texture {
     bool plain;             /* 2D, fixed, linear within levels and between those there are, and no border */
     float lod_min, lod_max; /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
     lom_level_row row[LOM_MAX_LEVELS];
+    uint8_t *stencil; /* rows of level 0, one after the other, without an apron; NULL: none */
     /* What passes of `samples` samples a pixel left of them; 0: they keep none (pipeline/samples.c). */
     int samples;
     struct lom_kept_samples {
-        uint8_t *memory;                /* of the grid's tiles */
-        uint8_t *held;                  /* a flag a tile: memory holds it; else every sample is the texel */
+        uint8_t *memory; /* of the grid's tiles */
+        uint8_t *held; /* a flag a tile: memory holds it, its stencil in a flag apart; else every sample is the texel */
         size_t capacity, held_capacity; /* in bytes */
         int edge, x0, y0;               /* of a tile; where the grid begins, relative to the texture's first pixel */
     } kept;

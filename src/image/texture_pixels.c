@@ -134,6 +134,19 @@ lom_image *lom_read_texture(const lom_texture *texture, int level, int layer, lo
     return image;
 }
 
+lom_image *lom_read_stencil(const lom_texture *texture, lom_error *error)
+{
+    if (texture->stencil == NULL) {
+        lom_fail(error, LOM_ERROR_USAGE, "The texture has no stencil.");
+        return NULL;
+    }
+    const lom_level *l = &texture->level[0];
+    lom_image *image = lom_create_image(l->width, l->height, 1, LOM_FORMAT_R8, error);
+    if (image != NULL)
+        memcpy(image->pixels, texture->stencil, (size_t)l->width * (size_t)l->height);
+    return image;
+}
+
 /* ---- the whole ---- */
 
 static uint32_t linear15(uint32_t code)

@@ -46,31 +46,68 @@ LOM_INLINE pairs alpha_of(struct channels c)
     return (pairs)(alpha | alpha << 16);
 }
 
-/* A factor in units of 1/255, for one half of the channels. */
-LOM_INLINE pairs byte_factor(lom_factor factor, pairs source, pairs source_alpha, pairs target, pairs target_alpha)
+/* What factors are made of, in one half of the channels: values, and the alpha of each in both of its channels. */
+struct operands {
+    pairs source, source_alpha, target, target_alpha;
+    pairs second, second_alpha, constant, constant_alpha; /* only where the draw blends by them */
+    pairs saturate;                                       /* likewise: SOURCE_ALPHA_SATURATE */
+};
+
+/* The factors that few draws have. */
+LOM_INLINE pairs rare_factor(lom_factor factor, const struct operands *o)
 {
     const pairs one = splat_pairs(255);
     switch (factor) {
+    case LOM_FACTOR_CONSTANT_COLOR:
+        return o->constant;
+    case LOM_FACTOR_ONE_MINUS_CONSTANT_COLOR:
+        return one - o->constant;
+    case LOM_FACTOR_CONSTANT_ALPHA:
+        return o->constant_alpha;
+    case LOM_FACTOR_ONE_MINUS_CONSTANT_ALPHA:
+        return one - o->constant_alpha;
+    case LOM_FACTOR_SOURCE_ALPHA_SATURATE:
+        return o->saturate;
+    case LOM_FACTOR_SECOND_COLOR:
+        return o->second;
+    case LOM_FACTOR_ONE_MINUS_SECOND_COLOR:
+        return one - o->second;
+    case LOM_FACTOR_SECOND_ALPHA:
+        return o->second_alpha;
+    case LOM_FACTOR_ONE_MINUS_SECOND_ALPHA:
+        return one - o->second_alpha;
+    default:
+        return (pairs){ 0 };
+    }
+}
+
+/* A factor in units of 1/255, for one half of the channels. */
+LOM_INLINE pairs byte_factor(lom_factor factor, const struct operands *o)
+{
+    const pairs one = splat_pairs(255);
+    switch (factor) {
+    case LOM_FACTOR_ZERO:
+        return (pairs){ 0 };
     case LOM_FACTOR_ONE:
         return one;
     case LOM_FACTOR_SOURCE_COLOR:
-        return source;
+        return o->source;
     case LOM_FACTOR_ONE_MINUS_SOURCE_COLOR:
-        return one - source;
+        return one - o->source;
     case LOM_FACTOR_SOURCE_ALPHA:
-        return source_alpha;
+        return o->source_alpha;
     case LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA:
-        return one - source_alpha;
+        return one - o->source_alpha;
     case LOM_FACTOR_TARGET_COLOR:
-        return target;
+        return o->target;
     case LOM_FACTOR_ONE_MINUS_TARGET_COLOR:
-        return one - target;
+        return one - o->target;
     case LOM_FACTOR_TARGET_ALPHA:
-        return target_alpha;
+        return o->target_alpha;
     case LOM_FACTOR_ONE_MINUS_TARGET_ALPHA:
-        return one - target_alpha;
+        return one - o->target_alpha;
     default:
-        return (pairs){ 0 };
+        return rare_factor(factor, o);
     }
 }
 
@@ -98,27 +135,50 @@ LOM_INLINE pairs combine(lom_blend_operation operation, pairs s, pairs d)
     return select_pairs((pairs)(sum < s) | (pairs)(sum > largest), largest, sum);
 }
 
-LOM_INLINE pairs blend_half(struct equation e, pairs source, pairs source_alpha, pairs target, pairs target_alpha)
+LOM_INLINE pairs blend_half(struct equation e, const struct operands *o)
 {
     if (e.operation == LOM_BLEND_MIN)
-        return select_pairs((pairs)(source < target), source, target);
+        return select_pairs((pairs)(o->source < o->target), o->source, o->target);
     if (e.operation == LOM_BLEND_MAX)
-        return select_pairs((pairs)(source > target), source, target);
-    pairs s = source * byte_factor(e.source, source, source_alpha, target, target_alpha);
-    pairs d = target * byte_factor(e.target, source, source_alpha, target, target_alpha);
-    return divide_by_255(combine(e.operation, s, d));
+        return select_pairs((pairs)(o->source > o->target), o->source, o->target);
+    return divide_by_255(
+        combine(e.operation, o->source * byte_factor(e.source, o), o->target * byte_factor(e.target, o)));
+}
+
+/* The second source and the constant of draws that blend by them. */
+struct rare_sources {
+    struct channels second, constant;
+};
+
+LOM_INLINE bool needs_alpha_apart(struct equation color, struct equation alpha)
+{
+    return color.source != alpha.source || color.target != alpha.target || color.operation != alpha.operation ||
+           color.source == LOM_FACTOR_SOURCE_ALPHA_SATURATE || color.target == LOM_FACTOR_SOURCE_ALPHA_SATURATE;
 }
 
 /* Of any equations. */
-LOM_INLINE struct channels blend_bytes(const lom_blend *blend, struct channels source, struct channels target)
+LOM_INLINE struct channels blend_bytes(const lom_blend *blend, struct channels source, struct channels target,
+                                       const struct rare_sources *rare)
 {
     struct equation color = equation_of(blend, 0), alpha = equation_of(blend, 3);
-    pairs source_alpha = alpha_of(source), target_alpha = alpha_of(target);
-    struct channels result = { blend_half(color, source.rb, source_alpha, target.rb, target_alpha),
-                               blend_half(color, source.ga, source_alpha, target.ga, target_alpha) };
-    if (color.source != alpha.source || color.target != alpha.target || color.operation != alpha.operation) {
-        pairs upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
-        result.ga = select_pairs(upper, blend_half(alpha, source.ga, source_alpha, target.ga, target_alpha), result.ga);
+    const pairs one = splat_pairs(255), upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
+    struct operands rb = { .source = source.rb, .source_alpha = alpha_of(source), .target = target.rb };
+    rb.target_alpha = alpha_of(target);
+    rb.saturate =
+        select_pairs((pairs)(rb.source_alpha < one - rb.target_alpha), rb.source_alpha, one - rb.target_alpha);
+    rb.second = rare->second.rb;
+    rb.second_alpha = alpha_of(rare->second);
+    rb.constant = rare->constant.rb;
+    rb.constant_alpha = alpha_of(rare->constant);
+    struct operands ga = rb;
+    ga.source = source.ga;
+    ga.target = target.ga;
+    ga.second = rare->second.ga;
+    ga.constant = rare->constant.ga;
+    struct channels result = { blend_half(color, &rb), blend_half(color, &ga) };
+    if (needs_alpha_apart(color, alpha)) {
+        ga.saturate = one;
+        result.ga = select_pairs(upper, blend_half(alpha, &ga), result.ga);
     }
     return result;
 }

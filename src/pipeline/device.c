@@ -100,6 +100,7 @@ void lom_close_device(lom_device *device)
     lom_release(device->draws);
     lom_release(device->uniforms);
     lom_release(device->runs);
+    lom_free_queries(device);
     lom_release(device);
 }
 

@@ -31,12 +31,30 @@ struct lom_device {
     size_t draw_capacity;
     struct lom_run *runs; /* of the pass's draws that have clusters */
     size_t run_count, run_capacity;
+    lom_query **queries; /* all; those that draws of the pass name come first */
+    size_t query_count, query_capacity;
+    uint64_t *counted; /* a row of numbers for each worker */
+    size_t counted_capacity;
     uint8_t *uniforms; /* copies, 64 bytes aligned; offsets are kept while it grows */
     size_t uniforms_size, uniforms_capacity;
 };
 
 /* Checks a descriptor and records it; false with an error on the device. */
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
+/* Whether a draw's stencil can be, or an error; the same with its defaults resolved (stencil.c). */
+bool lom_check_stencil(lom_device *device, const lom_draw_desc *desc);
+void lom_resolve_stencil_state(lom_stencil *stencil);
+/* Queries (query.c): whether a draw's can be, or an error; whether its condition lets it be drawn; room to count those of
+ * the pass; their results; and their end with the device. */
+bool lom_check_queries(lom_device *device, const lom_draw_desc *desc);
+bool lom_meets_condition(const lom_draw_desc *desc);
+size_t lom_name_query(lom_device *device, lom_query *query);
+bool lom_begin_counting(lom_device *device);
+void lom_end_counting(lom_device *device);
+void lom_free_queries(lom_device *device);
+/* Whether the pass's targets can take what a draw does to them, or an error; and what follows from that (draw_output.c). */
+bool lom_check_output(lom_device *device, const lom_draw_desc *desc);
+void lom_derive_output(const struct lom_pass *pass, struct lom_draw *draw);
 /* The runs of a draw's clusters of which something may be seen, and how many chunks they make; false without memory. */
 bool lom_find_runs(lom_device *device, struct lom_draw *draw);
 /* What both rectangles cover. */

@@ -221,25 +221,6 @@ static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
     return true;
 }
 
-static lom_output_kind output_of(const struct lom_pass *pass, const lom_draw_desc *desc)
-{
-    const lom_blend *b = &desc->blend[0];
-    const struct lom_color_target *target = &pass->color[0];
-    bool bytes = target->kind == COLOR_UNORM8;
-    bool floats = target->kind == COLOR_FLOAT && lom_describe_format(target->format)->bits == 32;
-    if (pass->colors != 1 || desc->shader->colors < 1 || desc->mask_off[0] != 0 || (!bytes && !floats))
-        return OUTPUT_GENERAL;
-    if (!b->enabled)
-        return bytes ? OUTPUT_BYTES : OUTPUT_GENERAL;
-    if (b->color_operation != LOM_BLEND_ADD || b->alpha_operation != LOM_BLEND_ADD ||
-        b->source_color != b->source_alpha || b->target_color != LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA ||
-        b->target_alpha != LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA)
-        return OUTPUT_GENERAL;
-    if (b->source_color == LOM_FACTOR_ONE)
-        return bytes ? OUTPUT_MULTIPLIED : OUTPUT_FLOATS_MULTIPLIED;
-    return bytes && b->source_color == LOM_FACTOR_SOURCE_ALPHA ? OUTPUT_STRAIGHT : OUTPUT_GENERAL;
-}
-
 static void derive(struct lom_pass *pass, struct lom_draw *draw)
 {
     lom_draw_desc *desc = &draw->desc;
@@ -268,16 +249,15 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     draw->depth_write = depth && !desc->depth_write_off;
     draw->late_depth = shader->discards || shader->writes_depth || desc->alpha_to_coverage;
     draw->biased = pass->depth != NULL && (desc->depth_bias != 0 || desc->depth_bias_slope != 0);
-    draw->blends = false;
-    for (int i = 0; i < pass->colors; i++)
-        draw->blends |= desc->blend[i].enabled || desc->mask_off[i] != 0;
-    draw->output = output_of(pass, desc);
+    lom_derive_output(pass, draw);
+    lom_resolve_stencil_state(&desc->stencil);
+    draw->full_tests = desc->stencil.enabled || desc->query != NULL;
     desc->per_sample = (desc->per_sample || pass->desc.per_sample) && pass->samples > 1;
-    draw->sampled = pass->samples > 1 || desc->alpha_to_coverage;
+    draw->sampled = pass->samples > 1 || desc->alpha_to_coverage || (draw->full_tests && draw->late_depth);
     draw->constant = !pass->is_recorded && pass->samples == 1 && shader->fragment[draw->variant] != NULL &&
                      shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&
-                     !draw->sprites && !shader->reads_depth;
-    draw->queues_depth = shader->reads_position || draw->late_depth;
+                     !draw->sprites && !shader->reads_depth && !draw->two_sources && !draw->full_tests;
+    draw->queues_depth = shader->reads_position || draw->late_depth || draw->full_tests;
     draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
     draw->rasterizes = !pass->desc.feedback_only && draw->scissor.width > 0 && draw->scissor.height > 0;
     draw->constant &= draw->rasterizes;
@@ -293,12 +273,16 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
         desc = &counted;
     }
     if (!check_shader(device, desc) || !check_geometry(device, desc) || !lom_check_stages(device, desc) ||
-        !check_sprites(device, desc) || !check_vertices(device, desc) || !check_clusters(device, desc))
+        !check_sprites(device, desc) || !check_vertices(device, desc) || !check_clusters(device, desc) ||
+        !lom_check_output(device, desc) || !lom_check_stencil(device, desc) || !lom_check_queries(device, desc))
         return false;
+    size_t counter = desc->query != NULL ? lom_name_query(device, desc->query) : 0;
+    if (!lom_meets_condition(desc))
+        return true;
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     struct lom_draw *draw = &device->draws[pass->draw_count];
-    *draw = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc) };
+    *draw = (struct lom_draw){ .desc = *desc, .variant = choose_shader_variant(device, desc), .counter = counter };
     if (draw->variant < 0)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "Shader %s was built for no width that this processor runs.",
                         desc->shader->name);

@@ -3,7 +3,7 @@
  *
  * Invariant: depths are rounded to what the attachment holds before they are compared. */
 #include "pipeline/record.h"
-#include "pipeline/window.h"
+#include "pipeline/sample_tests.h"
 
 #include <lom/lanes_mathematics.h>
 
@@ -77,6 +77,8 @@ void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_
     LOM_RECORD_HOOK(lom_record_covered, tile, at, mask, &covered, l, &z);
     if (tile->tests_early)
         covered = lom_test_depth(tile, at->base + tile->offset[at->part * LOM_LANES], covered, z);
+    else if (tile->tests_all)
+        LOM_WIDE(lom_test_part)(tile, at, &covered, &z);
     LOM_RECORD_HOOK(lom_record_tested, tile, at, &covered);
     uint32_t bits = lom_bits(covered);
     if (bits == 0)

@@ -2,43 +2,92 @@
  * formats. 8-bit unorm blends in exact integers; sRGB and float attachments blend in float. */
 #include "pipeline/blend_bytes.h"
 
-/* The value of a blend factor. S and D: source and target, channel c; A of each their alphas. */
-static lom_float float_factor(lom_factor factor, const lom_float *source, const lom_float *target, int c)
+/* What float factors are made of: channels, of which the second source and the constant only where the draw blends by
+ * them. */
+struct float_operands {
+    const lom_float *source, *target;
+    lom_float second[4], constant[4];
+};
+
+static lom_float rare_float_factor(lom_factor factor, const struct float_operands *o, int c)
 {
     const lom_float one = lom_splat(1.0f);
     switch (factor) {
-    case LOM_FACTOR_ONE:
-        return one;
-    case LOM_FACTOR_SOURCE_COLOR:
-        return source[c];
-    case LOM_FACTOR_ONE_MINUS_SOURCE_COLOR:
-        return one - source[c];
-    case LOM_FACTOR_SOURCE_ALPHA:
-        return source[3];
-    case LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA:
-        return one - source[3];
-    case LOM_FACTOR_TARGET_COLOR:
-        return target[c];
-    case LOM_FACTOR_ONE_MINUS_TARGET_COLOR:
-        return one - target[c];
-    case LOM_FACTOR_TARGET_ALPHA:
-        return target[3];
-    case LOM_FACTOR_ONE_MINUS_TARGET_ALPHA:
-        return one - target[3];
+    case LOM_FACTOR_CONSTANT_COLOR:
+        return o->constant[c];
+    case LOM_FACTOR_ONE_MINUS_CONSTANT_COLOR:
+        return one - o->constant[c];
+    case LOM_FACTOR_CONSTANT_ALPHA:
+        return o->constant[3];
+    case LOM_FACTOR_ONE_MINUS_CONSTANT_ALPHA:
+        return one - o->constant[3];
+    case LOM_FACTOR_SOURCE_ALPHA_SATURATE:
+        return c == 3 ? one : lom_min(o->source[3], one - o->target[3]);
+    case LOM_FACTOR_SECOND_COLOR:
+        return o->second[c];
+    case LOM_FACTOR_ONE_MINUS_SECOND_COLOR:
+        return one - o->second[c];
+    case LOM_FACTOR_SECOND_ALPHA:
+        return o->second[3];
+    case LOM_FACTOR_ONE_MINUS_SECOND_ALPHA:
+        return one - o->second[3];
     default:
         return (lom_float){ 0 };
     }
 }
 
-static lom_float blend_floats(struct equation e, const lom_float *source, const lom_float *target, int c)
+/* The value of a blend factor in channel c. */
+static lom_float float_factor(lom_factor factor, const struct float_operands *o, int c)
+{
+    const lom_float one = lom_splat(1.0f);
+    switch (factor) {
+    case LOM_FACTOR_ZERO:
+        return (lom_float){ 0 };
+    case LOM_FACTOR_ONE:
+        return one;
+    case LOM_FACTOR_SOURCE_COLOR:
+        return o->source[c];
+    case LOM_FACTOR_ONE_MINUS_SOURCE_COLOR:
+        return one - o->source[c];
+    case LOM_FACTOR_SOURCE_ALPHA:
+        return o->source[3];
+    case LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA:
+        return one - o->source[3];
+    case LOM_FACTOR_TARGET_COLOR:
+        return o->target[c];
+    case LOM_FACTOR_ONE_MINUS_TARGET_COLOR:
+        return one - o->target[c];
+    case LOM_FACTOR_TARGET_ALPHA:
+        return o->target[3];
+    case LOM_FACTOR_ONE_MINUS_TARGET_ALPHA:
+        return one - o->target[3];
+    default:
+        return rare_float_factor(factor, o, c);
+    }
+}
+
+static lom_float blend_floats(struct equation e, const struct float_operands *o, int c)
 {
     if (e.operation == LOM_BLEND_MIN)
-        return lom_min(source[c], target[c]);
+        return lom_min(o->source[c], o->target[c]);
     if (e.operation == LOM_BLEND_MAX)
-        return lom_max(source[c], target[c]);
-    lom_float s = source[c] * float_factor(e.source, source, target, c);
-    lom_float d = target[c] * float_factor(e.target, source, target, c);
+        return lom_max(o->source[c], o->target[c]);
+    lom_float s = o->source[c] * float_factor(e.source, o, c);
+    lom_float d = o->target[c] * float_factor(e.target, o, c);
     return e.operation == LOM_BLEND_ADD ? s + d : e.operation == LOM_BLEND_SUBTRACT ? s - d : d - s;
+}
+
+/* The second source and the constant, `from` being the first source; clamped where the attachment's format is. */
+static void find_rare_operands(const struct lom_draw *draw, const lom_float4 *from, bool clamps,
+                               struct float_operands *o)
+{
+    const lom_float4 *two = &from[draw->two_sources];
+    const lom_float second[4] = { two->x, two->y, two->z, two->w };
+    for (int c = 0; c < 4; c++) {
+        const lom_float constant = lom_splat(draw->desc.blend_constant[c]);
+        o->second[c] = clamps ? lom_saturate(second[c]) : second[c];
+        o->constant[c] = clamps ? lom_saturate(constant) : constant;
+    }
 }
 
 LOM_INLINE lom_int pack(const lom_int *c)
@@ -70,6 +119,61 @@ LOM_INLINE struct channels quantise(const lom_float4 *color)
     return (struct channels){ (pairs)(red | blue << 16), (pairs)(green | alpha << 16) };
 }
 
+/* The bits of source s and target d by a logical operation. */
+static lom_int combine_bits(lom_logic logic, lom_int s, lom_int d)
+{
+    switch (logic) {
+    case LOM_LOGIC_AND:
+        return s & d;
+    case LOM_LOGIC_AND_REVERSE:
+        return s & ~d;
+    case LOM_LOGIC_COPY:
+        return s;
+    case LOM_LOGIC_AND_INVERTED:
+        return ~s & d;
+    case LOM_LOGIC_NOTHING:
+        return d;
+    case LOM_LOGIC_XOR:
+        return s ^ d;
+    case LOM_LOGIC_OR:
+        return s | d;
+    case LOM_LOGIC_NOR:
+        return ~(s | d);
+    case LOM_LOGIC_EQUIVALENT:
+        return ~(s ^ d);
+    case LOM_LOGIC_INVERT:
+        return ~d;
+    case LOM_LOGIC_OR_REVERSE:
+        return s | ~d;
+    case LOM_LOGIC_COPY_INVERTED:
+        return ~s;
+    case LOM_LOGIC_OR_INVERTED:
+        return ~s | d;
+    case LOM_LOGIC_NAND:
+        return ~(s & d);
+    case LOM_LOGIC_SET:
+        return lom_splat_int(-1);
+    default: /* CLEAR */
+        return (lom_int){ 0 };
+    }
+}
+
+/* `source` blended over, or combined with, what the target holds; from[1] is the second source. */
+static lom_int mix_bytes(const struct lom_draw *draw, int i, struct channels source, lom_int old,
+                         const lom_float4 *from)
+{
+    const float *k = draw->desc.blend_constant;
+    struct rare_sources rare = { { { 0 }, { 0 } }, { { 0 }, { 0 } } };
+    if (draw->desc.logic != LOM_LOGIC_OFF)
+        return combine_bits(draw->desc.logic, join(source), old);
+    if (draw->rare_factors) {
+        const lom_float4 constant = { lom_splat(k[0]), lom_splat(k[1]), lom_splat(k[2]), lom_splat(k[3]) };
+        rare.second = quantise(&from[draw->two_sources]);
+        rare.constant = quantise(&constant);
+    }
+    return join(blend_bytes(&draw->desc.blend[i], source, split(old), &rare));
+}
+
 static void write_unorm8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float4 *color,
                          int i)
 {
@@ -77,14 +181,14 @@ static void write_unorm8(struct lom_tile *tile, const struct lom_places *places,
     int32_t *memory = tile->color[i];
     struct channels source = quantise(color);
     int32_t kept = kept_bits(desc->mask_off[i]);
-    if (!desc->blend[i].enabled && kept == 0) {
+    bool mixes = desc->blend[i].enabled || desc->logic != LOM_LOGIC_OFF;
+    if (!mixes && kept == 0) {
         lom_store_places(memory, tile, places, mask, join(source));
         return;
     }
     lom_int old = lom_load_places(memory, tile, places);
-    if (desc->blend[i].enabled)
-        source = blend_bytes(&desc->blend[i], source, split(old));
-    lom_store_places(memory, tile, places, mask, (join(source) & ~kept) | (old & kept));
+    lom_int result = mixes ? mix_bytes(tile->draw, i, source, old, color) : join(source);
+    lom_store_places(memory, tile, places, mask, (result & ~kept) | (old & kept));
 }
 
 static void write_srgb8(struct lom_tile *tile, const struct lom_places *places, lom_mask mask, const lom_float4 *from,
@@ -107,8 +211,11 @@ static void write_srgb8(struct lom_tile *tile, const struct lom_places *places, 
         for (int c = 0; c < 3; c++)
             target[c] = lom_float_of_srgb8_lanes(code[c]);
         target[3] = lom_float_of_unorm_lanes(code[3], 255.0f);
+        struct float_operands o = { .source = source, .target = target };
+        if (tile->draw->rare_factors)
+            find_rare_operands(tile->draw, from, true, &o);
         for (int c = 0; c < 4; c++)
-            result[c] = blend_floats(equation_of(&desc->blend[i], c), source, target, c);
+            result[c] = blend_floats(equation_of(&desc->blend[i], c), &o, c);
     }
     for (int c = 0; c < 3; c++)
         code[c] = lom_srgb8_of_lanes(result[c]);
@@ -138,12 +245,15 @@ static void write_float(struct lom_tile *tile, const struct lom_places *places, 
     const lom_float color[4] = { from->x, from->y, from->z, from->w };
     lom_float target[4];
     bool blends = desc->blend[i].enabled;
+    struct float_operands o = { .source = color, .target = target };
+    if (blends && tile->draw->rare_factors)
+        find_rare_operands(tile->draw, from, false, &o);
     for (size_t c = 0; c < 4 && blends; c++)
         target[c] = lom_as_float(lom_load_places((const int32_t *)memory + c * plane, tile, places));
     for (int c = 0; c < 4; c++) {
         if (desc->mask_off[i] >> c & 1)
             continue;
-        lom_float result = blends ? blend_floats(equation_of(&desc->blend[i], c), color, target, c) : color[c];
+        lom_float result = blends ? blend_floats(equation_of(&desc->blend[i], c), &o, c) : color[c];
         lom_store_places((int32_t *)memory + (size_t)c * plane, tile, places, mask,
                          lom_as_int(round_to_format(format, result)));
     }

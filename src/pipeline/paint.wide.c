@@ -12,17 +12,19 @@ struct constant_blend {
 /* Whether blending a constant is of that form: a sum whose factors do not read the target. */
 static bool reduce_blend(const lom_blend *blend, uint32_t bytes, struct constant_blend *reduced)
 {
-    struct channels source = split(lom_splat_int((int32_t)bytes)), zero = { { 0 }, { 0 } };
+    struct channels source = split(lom_splat_int((int32_t)bytes));
     pairs alpha = alpha_of(source), upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
     pairs factor[2][2], sum[2][2]; /* of rb and ga, by the colour's and the alpha's equation */
     for (int k = 0; k < 2; k++) {
         struct equation e = equation_of(blend, k == 0 ? 0 : 3);
         if (e.operation != LOM_BLEND_ADD || e.source >= LOM_FACTOR_TARGET_COLOR || e.target >= LOM_FACTOR_TARGET_COLOR)
             return false;
-        factor[0][k] = byte_factor(e.target, source.rb, alpha, zero.rb, zero.rb);
-        factor[1][k] = byte_factor(e.target, source.ga, alpha, zero.rb, zero.rb);
-        sum[0][k] = source.rb * byte_factor(e.source, source.rb, alpha, zero.rb, zero.rb);
-        sum[1][k] = source.ga * byte_factor(e.source, source.ga, alpha, zero.rb, zero.rb);
+        const struct operands rb = { .source = source.rb, .source_alpha = alpha },
+                              ga = { .source = source.ga, .source_alpha = alpha };
+        factor[0][k] = byte_factor(e.target, &rb);
+        factor[1][k] = byte_factor(e.target, &ga);
+        sum[0][k] = source.rb * byte_factor(e.source, &rb);
+        sum[1][k] = source.ga * byte_factor(e.source, &ga);
     }
     reduced->factor = (struct channels){ factor[0][0], select_pairs(upper, factor[1][1], factor[1][0]) };
     reduced->add = (struct channels){ sum[0][0], select_pairs(upper, sum[1][1], sum[1][0]) };
@@ -58,7 +60,8 @@ void LOM_WIDE(lom_find_paint)(const struct lom_pass *pass, struct lom_draw *draw
         paint->bytes |= lom_unorm_of(paint->color[0][c], 255) << 8 * c;
     paint->blends = desc->blend[0].enabled;
     paint->fills = pass->colors == 1 && pass->color[0].kind == COLOR_UNORM8 && desc->shader->colors >= 1 &&
-                   desc->mask_off[0] == 0 && (!paint->blends || reduce_blend(&desc->blend[0], paint->bytes, &reduced));
+                   desc->mask_off[0] == 0 && desc->logic == LOM_LOGIC_OFF &&
+                   (!paint->blends || reduce_blend(&desc->blend[0], paint->bytes, &reduced));
     if (paint->fills && paint->blends) {
         paint->factor[0] = first_lane(reduced.factor.rb);
         paint->factor[1] = first_lane(reduced.factor.ga);

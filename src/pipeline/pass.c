@@ -85,6 +85,7 @@ static void add_depth(struct lom_pass *pass)
 {
     static const double scales[] = { [LOM_FORMAT_DEPTH16] = 65535, [LOM_FORMAT_DEPTH24] = 16777215 };
     pass->depth = pass->desc.depth;
+    pass->has_stencil = pass->depth->stencil != NULL;
     lom_format format = pass->depth->format;
     pass->depth_scale = format == LOM_FORMAT_DEPTH32F ? 0 : scales[format];
     float clear = pass->desc.clear_depth > 0 ? pass->desc.clear_depth < 1 ? pass->desc.clear_depth : 1 : 0;
@@ -127,7 +128,7 @@ static bool lay_tiles(lom_device *device)
     pass->tile_y0 = pass->desc.origin_y / edge * edge;
     pass->tiles_x = (pass->desc.origin_x + pass->width - pass->tile_x0 + edge - 1) / edge;
     pass->tiles_y = (pass->desc.origin_y + pass->height - pass->tile_y0 + edge - 1) / edge;
-    pass->tile_bytes = pass->depth != NULL ? 4 : 0;
+    pass->tile_bytes = pass->depth != NULL ? pass->has_stencil ? 8 : 4 : 0;
     for (int i = 0; i < pass->colors; i++)
         pass->tile_bytes += pass->color[i].kind == COLOR_FLOAT ? 16 : 4;
     pass->tile_bytes *= (size_t)edge * (size_t)edge;

@@ -86,7 +86,7 @@ static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t n
 /* Whether the fragments of the draw's small triangles can be computed together, from their records alone. */
 static bool packs(const struct lom_draw *draw)
 {
-    return !draw->constant && !draw->biased && !draw->desc.shader->quads && !draw->desc.per_sample;
+    return !draw->constant && !draw->biased && !draw->desc.shader->quads && !draw->desc.per_sample && !draw->full_tests;
 }
 
 /* Whether a fragment that fails the depth test now fails it after its shader, too: the shader leaves its depth as it is, and
@@ -95,7 +95,7 @@ static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *dr
 {
     bool stays = !draw->depth_write || (draw->compare != LOM_COMPARE_NOT_EQUAL && draw->compare != LOM_COMPARE_ALWAYS);
     return tile->depth != NULL && draw->late_depth && !draw->desc.shader->writes_depth && stays &&
-           !tile->pass->one_by_one && !draw->desc.per_sample;
+           !tile->pass->one_by_one && !draw->desc.per_sample && !draw->full_tests;
 }
 
 static void raster_alone(struct lom_tile *tile, int32_t number)
@@ -167,8 +167,9 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
     tile->facet.primitive = NULL;
-    tile->tests_early =
-        tile->depth != NULL && !draw->late_depth && (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
+    tile->tests_early = tile->depth != NULL && !draw->late_depth && !draw->full_tests &&
+                        (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
+    tile->tests_all = draw->full_tests && !draw->late_depth;
     tile->rejects_early = rejects_early(tile, draw);
     size_t folded = tile->is_whole ? LOM_WIDE(lom_fold)(tile, list, count) : 0;
     if (tile->is_whole && folded < count)

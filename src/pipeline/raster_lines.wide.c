@@ -9,7 +9,7 @@
  *
  * Invariant: the pixels of a column follow from the snapped ends alone, whatever tile they lie in. */
 #include "pipeline/sample_depth.h"
-#include "pipeline/window.h"
+#include "pipeline/sample_tests.h"
 
 #include <lom/lanes_mathematics.h>
 
@@ -145,6 +145,8 @@ static void emit_samples(struct lom_tile *tile, const struct part *at, lom_mask 
     }
     if (tile->tests_early)
         lom_test_sample_depths(tile, f.pixel, lanes, depth);
+    else if (tile->tests_all)
+        LOM_WIDE(lom_test_samples)(tile, &f.pixel, true, lanes, depth);
     for (int s = 0; s < tile->pass->samples; s++)
         f.samples |= lanes[s] & 1 << s;
     f.covered = f.samples != 0;

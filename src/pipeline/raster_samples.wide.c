@@ -6,7 +6,7 @@
  * pixel that lies where the sample lies: edge functions are exact integers there too, since samples lie on sixteenths. */
 #include "pipeline/edges.h"
 #include "pipeline/sample_depth.h"
-#include "pipeline/window.h"
+#include "pipeline/sample_tests.h"
 
 enum { CENTRE = LOM_MAX_SAMPLES, PLACES = LOM_MAX_SAMPLES + 1 }; /* the samples of a pixel, then its centre */
 
@@ -176,7 +176,11 @@ static lom_float depth_of(const struct lom_tile *tile, const struct sampled *g, 
 static void test_samples(struct lom_tile *tile, const struct sampled *g, const struct at *at, struct coverage *c,
                          const lom_float depth[LOM_MAX_SAMPLES])
 {
-    lom_test_sample_depths(tile, pixels_of(tile, at), c->lanes, depth);
+    const lom_int pixel = pixels_of(tile, at);
+    if (tile->tests_all)
+        LOM_WIDE(lom_test_samples)(tile, &pixel, lom_faces_front(tile->draw, &g->triangle->primitive), c->lanes, depth);
+    else
+        lom_test_sample_depths(tile, pixel, c->lanes, depth);
     c->any = (lom_mask){ 0 };
     for (int s = 0; s < g->samples; s++)
         c->any |= c->lanes[s];
@@ -257,7 +261,7 @@ static void raster_part(struct lom_tile *tile, const struct sampled *g, const st
         place_shading(tile, g, at, &c, &f);
     if (tile->depth != NULL || draw->queues_depth)
         find_depths(tile, g, at, depth);
-    if (tile->tests_early)
+    if (tile->tests_early || tile->tests_all)
         test_samples(tile, g, at, &c, depth);
     if (!each || !shades)
         tile->fragments += lom_count(c.any);

@@ -5,7 +5,7 @@
  * or part of a window it lies in. What a point covers follows from that distance itself. */
 #include "pipeline/record.h"
 #include "pipeline/sample_depth.h"
-#include "pipeline/window.h"
+#include "pipeline/sample_tests.h"
 
 enum { AHEAD = 4 };
 
@@ -97,6 +97,21 @@ static void begin_strip(struct sprite *sprite, int y)
     }
 }
 
+/* With draw->full_tests. */
+static __attribute__((noinline)) void test_part(struct lom_tile *tile, const struct sprite *sprite, int base, int part,
+                                                lom_mask *covered)
+{
+    const struct part at = { .triangle = &sprite->record, .number = -1, .base = base, .part = part };
+    LOM_WIDE(lom_test_part)(tile, &at, covered, &sprite->in.z);
+}
+
+static __attribute__((noinline)) void write_tested(struct lom_tile *tile, const struct lom_places *places,
+                                                   const lom_mask *mask, const lom_fragment *out)
+{
+    const struct lom_packet packet = { .places = *places, .triangles = 1 };
+    LOM_WIDE(lom_write_tested)(tile, &packet, mask, out);
+}
+
 static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part, int place)
 {
     const struct lom_draw *draw = tile->draw;
@@ -122,7 +137,9 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
     if (draw->desc.alpha_to_coverage)
         mask &= out.color[0].w >= 0.5f;
-    if (draw->late_depth)
+    if (draw->late_depth && draw->full_tests)
+        write_tested(tile, &places, &mask, &out);
+    else if (draw->late_depth)
         LOM_WIDE(lom_write_in_order)(tile, &places, &mask, true, &out);
     else if (draw->output == OUTPUT_FLOATS_MULTIPLIED)
         lom_lay_over(tile, &places, mask, out.color);
@@ -145,6 +162,8 @@ static void raster_window(struct lom_tile *tile, struct sprite *sprite, int x, i
         LOM_RECORD_HOOK(lom_record_sprite_covered, tile, &covered);
         if (tile->tests_early && lom_any(covered))
             covered = lom_test_depth(tile, place, covered, sprite->in.z);
+        else if (tile->tests_all)
+            test_part(tile, sprite, memory_index(tile, x, y), part, &covered);
         LOM_RECORD_HOOK(lom_record_sprite_tested, tile, place, &covered);
         if (!lom_any(covered))
             continue;
@@ -231,6 +250,8 @@ static void cover_samples(struct lom_tile *tile, struct sprite *sprite, int x, i
     }
     if (tile->tests_early)
         lom_test_sample_depths(tile, pixel, covered, depth);
+    else if (tile->tests_all)
+        LOM_WIDE(lom_test_samples)(tile, &pixel, true, covered, depth);
 }
 
 static void raster_sampled_part(struct lom_tile *tile, struct sprite *sprite, int x, int y, int part)

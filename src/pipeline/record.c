@@ -179,6 +179,7 @@ const char *lom_fate_text(lom_fate fate)
         [LOM_FATE_SCISSOR] = "outside the scissor",
         [LOM_FATE_CLIPPED] = "outside the near or the far plane",
         [LOM_FATE_UNSHADED] = "drawn without writing here",
+        [LOM_FATE_STENCIL] = "failed the stencil test",
     };
     return (unsigned)fate < LOM_FATES ? texts[fate] : "unknown";
 }

@@ -156,6 +156,7 @@ void lom_record_attributes(const struct lom_attributes *in, int count);
 void lom_record_covered(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_mask *inside,
                         const lom_float l[3], const lom_float *z);
 void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_mask *passed);
+void lom_record_stencil(struct lom_tile *tile, const struct part *at, const lom_mask *failed);
 void lom_record_packet(struct lom_tile *tile, const struct lom_packet *packet);
 /* What follows is shaded without packets, and not recorded, but tallied (tally.h): a block of 2x2 pixels at a time, which
  * begins at `place` in tile memory. */
@@ -167,6 +168,9 @@ void lom_record_sprite_shaded(struct lom_tile *tile, const lom_fragment *out);
 void lom_record_weights(struct lom_tile *tile, const lom_float *b1, const lom_float *b2);
 void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out);
 void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask);
+/* The same with draw->full_tests: the lanes that are about to be tested; those that passed, and that failed for stencil. */
+void lom_record_late_begins(struct lom_tile *tile, const lom_float *depth, const lom_mask *tested);
+void lom_record_late_ends(struct lom_tile *tile, const lom_mask *passed, const lom_mask *failed);
 void lom_record_write_begins(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask);
 void lom_record_write_ends(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask,
                            const lom_float4 *color);

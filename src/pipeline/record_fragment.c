@@ -97,16 +97,26 @@ void lom_record_tested(struct lom_tile *tile, const struct part *at, const lom_m
 {
     if (tile->pass->tallier != NULL)
         lom_tally_tested(tile, place_of(tile, at, 0), passed);
-    if (!tile->tests_early || is_beside(tile, at))
+    if ((!tile->tests_early && !tile->tests_all) || is_beside(tile, at))
         return;
     for (int i = 0; i < LOM_LANES; i++) {
         size_t next = 0;
         struct record_raw *raw;
         while ((raw = next_raw(tile, place_of(tile, at, i), at->number, &next)) != NULL) {
-            raw->fragment.depth_tested = raw->fragment.inside_distances;
+            raw->fragment.depth_tested = raw->fragment.inside_distances && !raw->fragment.stencil_failed;
             raw->fragment.depth_passed = (*passed)[i] != 0;
             raw->fragment.depth_written = raw->fragment.depth_passed && tile->draw->depth_write;
         }
+    }
+}
+
+void lom_record_stencil(struct lom_tile *tile, const struct part *at, const lom_mask *failed)
+{
+    for (int i = 0; i < LOM_LANES && !is_beside(tile, at); i++) {
+        size_t next = 0;
+        struct record_raw *raw;
+        while ((*failed)[i] != 0 && (raw = next_raw(tile, place_of(tile, at, i), at->number, &next)) != NULL)
+            raw->fragment.stencil_failed = true;
     }
 }
 
@@ -239,6 +249,35 @@ void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_fl
             f->depth_passed = (*mask)[i] != 0;
             f->depth = stored_depth(tile->pass, (*units)[i]);
             f->depth_before = stored_depth(tile->pass, (*stored)[i]);
+            f->depth_written = f->depth_passed && tile->draw->depth_write;
+        }
+    }
+}
+
+void lom_record_late_begins(struct lom_tile *tile, const lom_float *depth, const lom_mask *tested)
+{
+    const lom_float units = lom_depth_units(tile->pass, *depth);
+    for (int i = 0; i < LOM_LANES && tile->depth != NULL && is_watched(tile); i++) {
+        size_t next = 0;
+        struct record_raw *raw;
+        while ((*tested)[i] != 0 && (raw = next_of_lane(tile, i, &next)) != NULL) {
+            raw->fragment.depth_passed = false; /* unless it does */
+            raw->fragment.depth = stored_depth(tile->pass, units[i]);
+            raw->fragment.depth_before =
+                stored_depth(tile->pass, tile->depth[worker_of(tile)->packet->places.pixel[i]]);
+        }
+    }
+}
+
+void lom_record_late_ends(struct lom_tile *tile, const lom_mask *passed, const lom_mask *failed)
+{
+    for (int i = 0; i < LOM_LANES && is_watched(tile); i++) {
+        size_t next = 0;
+        struct record_raw *raw;
+        while (((*passed)[i] | (*failed)[i]) != 0 && (raw = next_of_lane(tile, i, &next)) != NULL) {
+            lom_fragment_record *f = &raw->fragment;
+            f->stencil_failed = (*failed)[i] != 0;
+            f->depth_passed = (*passed)[i] != 0;
             f->depth_written = f->depth_passed && tile->draw->depth_write;
         }
     }

@@ -173,6 +173,8 @@ static lom_fate fate_of(const struct joint *j, const lom_fragment_record *f)
         return LOM_FATE_DISTANCE;
     if (f->discarded)
         return LOM_FATE_DISCARDED;
+    if (f->stencil_failed)
+        return LOM_FATE_STENCIL;
     if (!f->depth_passed)
         return LOM_FATE_DEPTH;
     return (a < 0 ? f->depth_written : f->write[a].written) ? LOM_FATE_STORED : LOM_FATE_UNSHADED;

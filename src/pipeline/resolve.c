@@ -182,6 +182,10 @@ void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
         lom_load_depth(pass, number, (float *)(void *)memory);
         memory += tile_pixels(pass) * 4;
     }
+    if (pass->uses_stencil) {
+        lom_load_stencil(pass, number, (int32_t *)(void *)memory);
+        memory += tile_pixels(pass) * 4;
+    }
     for (int i = 0; i < pass->colors; i++) {
         lom_load_color(pass, i, number, memory);
         memory += lom_image_bytes(pass, i);
@@ -236,6 +240,10 @@ void lom_resolve_tile(const struct lom_pass *pass, int number, const uint8_t *me
         lom_resolve_depth(pass, number, pass->writes_depth ? memory : NULL);
     if (pass->uses_depth)
         memory += tile_pixels(pass) * 4;
+    if (pass->has_stencil)
+        lom_resolve_stencil(pass, number, pass->uses_stencil ? (const int32_t *)(const void *)memory : NULL);
+    if (pass->uses_stencil)
+        memory += tile_pixels(pass) * 4;
     for (int i = 0; i < pass->colors; i++) {
         lom_resolve_color(pass, i, number, memory);
         memory += lom_image_bytes(pass, i);
@@ -257,6 +265,8 @@ void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t co
     struct lom_rectangle r = byte_rectangle(pass, 0, &p);
     if (pass->depth != NULL)
         resolve_depth(pass, &p, NULL);
+    if (pass->has_stencil)
+        lom_resolve_stencil(pass, number, NULL);
     stages_of(pass)->fill_rectangle(&r, color);
 }
 
@@ -265,6 +275,8 @@ void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory)
     struct part p = part_of(pass, number);
     if (pass->depth != NULL)
         resolve_depth(pass, &p, NULL);
+    if (pass->has_stencil)
+        lom_resolve_stencil(pass, number, NULL);
     for (int i = 0; i < pass->colors; i++) {
         const struct lom_color_target *target = &pass->color[i];
         struct lom_rectangle r = byte_rectangle(pass, i, &p);

@@ -33,6 +33,7 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
     tile->x = pass->tile_x0 + number % pass->tiles_x * pass->tile;
     tile->y = pass->tile_y0 + number / pass->tiles_x * pass->tile;
     tile->depth = NULL;
+    tile->stencil = NULL;
     tile->number = number;
     tile->memory = memory;
     for (int k = 0; k < 16; k++)
@@ -43,6 +44,10 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
     }
     if (pass->uses_depth) {
         tile->depth = (float *)(void *)memory;
+        memory += pixels * 4;
+    }
+    if (pass->uses_stencil) {
+        tile->stencil = (int32_t *)(void *)memory;
         memory += pixels * 4;
     }
     for (int i = 0; i < pass->colors; i++) {
@@ -279,6 +284,7 @@ static void find_paint(lom_device *device, struct lom_draw *draw)
 static void note_depth(struct lom_pass *pass, const struct lom_draw *draw)
 {
     pass->writes_depth |= draw->depth_write;
+    pass->uses_stencil |= draw->desc.stencil.enabled;
     pass->uses_depth |= draw->depth_write || draw->compare != LOM_COMPARE_ALWAYS || draw->desc.shader->reads_depth;
 }
 
@@ -306,7 +312,7 @@ bool lom_run_pass(lom_device *device)
             device->draws[i].desc.feedback->written = device->draws[i].desc.feedback->needed = 0;
     }
     lom_forget_other_samples(pass);
-    if (!cull_draws(device))
+    if (!cull_draws(device) || !lom_begin_counting(device))
         return false;
     if (!lay_tile_memory(device))
         return false;
@@ -321,6 +327,7 @@ bool lom_run_pass(lom_device *device)
     if (!run_batch(device))
         return false;
     count_work(device);
+    lom_end_counting(device);
     for (int i = 0; i < pass->colors; i++)
         lom_finish_attachment(device, pass->color[i].texture);
     if (pass->depth != NULL)

@@ -47,6 +47,12 @@ static size_t depth_bytes(const struct lom_pass *pass)
     return tile_pixels(pass) * 4 * (size_t)pass->sample_pitch;
 }
 
+/* Of the depth attachment: its depths, then its stencil. */
+static size_t depth_stencil_bytes(const struct lom_pass *pass)
+{
+    return pass->has_stencil ? 2 * depth_bytes(pass) : depth_bytes(pass);
+}
+
 /* Of the samples of colour attachment i. */
 static size_t sample_bytes(const struct lom_pass *pass, int i)
 {
@@ -72,20 +78,30 @@ static bool keeps(const struct lom_pass *pass, const lom_texture *texture)
     return texture->samples == pass->samples;
 }
 
+/* What kept.held says of a tile: the samples are in memory, those of the stencil are. */
+enum held { HELD = 1, HELD_STENCIL = 2 };
+
+static void forget(lom_texture *texture, enum held part)
+{
+    for (size_t i = 0; i < texture->kept.held_capacity; i++)
+        texture->kept.held[i] = (uint8_t)(texture->kept.held[i] & ~part);
+}
+
 void lom_forget_samples(lom_texture *texture)
 {
-    if (texture->kept.held != NULL)
-        memset(texture->kept.held, 0, texture->kept.held_capacity);
+    forget(texture, HELD);
 }
 
 void lom_forget_other_samples(const struct lom_pass *pass)
 {
-    if (pass->depth != NULL && !keeps(pass, pass->depth) &&
-        (pass->writes_depth || pass->desc.depth_load != LOM_LOAD_KEEP))
-        lom_forget_samples(pass->depth);
+    const bool others = pass->depth != NULL && !keeps(pass, pass->depth);
+    if (others && (pass->writes_depth || pass->desc.depth_load != LOM_LOAD_KEEP))
+        forget(pass->depth, HELD);
+    if (others && (pass->uses_stencil || pass->desc.stencil_load != LOM_LOAD_KEEP))
+        forget(pass->depth, HELD_STENCIL);
     for (int i = 0; i < pass->colors; i++)
         if (!keeps(pass, pass->color[i].texture))
-            lom_forget_samples(pass->color[i].texture);
+            forget(pass->color[i].texture, HELD);
 }
 
 /* Room for the tiles of the pass. What a texture holds for another grid is forgotten. */
@@ -94,8 +110,10 @@ static bool keep(lom_device *device, const struct lom_pass *pass, lom_texture *t
     struct lom_kept_samples *kept = &texture->kept;
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     int x0 = pass->tile_x0 - pass->desc.origin_x, y0 = pass->tile_y0 - pass->desc.origin_y;
-    if (kept->edge != pass->tile || kept->x0 != x0 || kept->y0 != y0)
-        lom_forget_samples(texture);
+    if (kept->edge != pass->tile || kept->x0 != x0 || kept->y0 != y0) {
+        forget(texture, HELD);
+        forget(texture, HELD_STENCIL);
+    }
     kept->edge = pass->tile;
     kept->x0 = x0;
     kept->y0 = y0;
@@ -110,8 +128,8 @@ bool lom_lay_samples(lom_device *device, struct lom_pass *pass)
 {
     pass->tile_bytes = 0;
     if (pass->depth != NULL && !keeps(pass, pass->depth))
-        pass->tile_bytes += depth_bytes(pass);
-    else if (pass->depth != NULL && !keep(device, pass, pass->depth, depth_bytes(pass)))
+        pass->tile_bytes += depth_stencil_bytes(pass);
+    else if (pass->depth != NULL && !keep(device, pass, pass->depth, depth_stencil_bytes(pass)))
         return false;
     for (int i = 0; i < pass->colors; i++) {
         lom_texture *texture = pass->color[i].texture;
@@ -137,8 +155,9 @@ static uint8_t *place(const struct lom_pass *pass, const lom_texture *texture, i
 void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *memory)
 {
     if (pass->depth != NULL) {
-        uint8_t *depth = place(pass, pass->depth, tile->number, depth_bytes(pass), &memory);
+        uint8_t *depth = place(pass, pass->depth, tile->number, depth_stencil_bytes(pass), &memory);
         tile->depth = pass->uses_depth ? (float *)(void *)depth : NULL;
+        tile->stencil = pass->uses_stencil ? (int32_t *)(void *)(depth + depth_bytes(pass)) : NULL;
     }
     for (int i = 0; i < pass->colors; i++) {
         uint8_t *image = place(pass, pass->color[i].texture, tile->number, color_bytes(pass, i), &memory);
@@ -149,13 +168,13 @@ void lom_place_samples(struct lom_pass *pass, struct lom_tile *tile, uint8_t *me
 }
 
 /* Whether memory has the tile's samples as the pass before left them. */
-static bool holds(const struct lom_pass *pass, const lom_texture *texture, int number)
+static bool holds(const struct lom_pass *pass, const lom_texture *texture, int number, enum held part)
 {
-    return keeps(pass, texture) && texture->kept.held[number];
+    return keeps(pass, texture) && (texture->kept.held[number] & part) != 0;
 }
 
-/* A depth for each pixel to all its samples. */
-static void spread_depth(const struct lom_pass *pass, const float *from, float *to)
+/* A word for each pixel to all its samples. */
+static void spread(const struct lom_pass *pass, const uint32_t *from, uint32_t *to)
 {
     const size_t pitch = (size_t)pass->sample_pitch;
     for (size_t i = 0; i < tile_pixels(pass); i++)
@@ -163,28 +182,49 @@ static void spread_depth(const struct lom_pass *pass, const float *from, float *
             to[i * pitch + s] = from[i];
 }
 
+/* Sample 0 of each pixel. */
+static void take_first(const struct lom_pass *pass, const uint32_t *from, uint32_t *to)
+{
+    for (size_t i = 0; i < tile_pixels(pass); i++)
+        to[i] = from[i * (size_t)pass->sample_pitch];
+}
+
+/* Every sample is the clear value. */
+static void clear(const struct lom_pass *pass, void *memory, uint32_t word)
+{
+    lom_stages_of(pass->device->variant)->fill_words(memory, word, depth_bytes(pass) / 4);
+}
+
 static void begin_depth(const struct lom_pass *pass, struct lom_tile *tile)
 {
-    float *plane = (float *)(void *)tile->scratch;
-    bool keeps_texels = pass->desc.depth_load == LOM_LOAD_KEEP;
-    if (keeps_texels && holds(pass, pass->depth, tile->number))
-        return;
-    if (!keeps_texels) {
-        uint32_t bits;
-        memcpy(&bits, &pass->clear_depth, sizeof bits);
-        lom_stages_of(pass->device->variant)->fill_words((uint32_t *)(void *)tile->depth, bits, depth_bytes(pass) / 4);
-        return;
+    uint32_t bits;
+    memcpy(&bits, &pass->clear_depth, sizeof bits);
+    if (pass->desc.depth_load != LOM_LOAD_KEEP) {
+        clear(pass, tile->depth, bits);
+    } else if (!holds(pass, pass->depth, tile->number, HELD)) {
+        lom_load_depth(pass, tile->number, (float *)(void *)tile->scratch);
+        spread(pass, (const uint32_t *)(const void *)tile->scratch, (uint32_t *)(void *)tile->depth);
     }
-    lom_load_depth(pass, tile->number, plane);
-    spread_depth(pass, plane, tile->depth);
+}
+
+static void begin_stencil(const struct lom_pass *pass, struct lom_tile *tile)
+{
+    if (pass->desc.stencil_load != LOM_LOAD_KEEP) {
+        clear(pass, tile->stencil, pass->desc.clear_stencil);
+    } else if (!holds(pass, pass->depth, tile->number, HELD_STENCIL)) {
+        lom_load_stencil(pass, tile->number, (int32_t *)(void *)tile->scratch);
+        spread(pass, (const uint32_t *)(const void *)tile->scratch, (uint32_t *)tile->stencil);
+    }
 }
 
 void lom_begin_samples(struct lom_pass *pass, struct lom_tile *tile)
 {
     if (tile->depth != NULL)
         begin_depth(pass, tile);
+    if (tile->stencil != NULL)
+        begin_stencil(pass, tile);
     for (int i = 0; i < pass->colors; i++) {
-        if (pass->color[i].keep && holds(pass, pass->color[i].texture, tile->number))
+        if (pass->color[i].keep && holds(pass, pass->color[i].texture, tile->number, HELD))
             continue;
         lom_load_color(pass, i, tile->number, tile->color[i]);
         memset(tile->several[i], 0, tile_pixels(pass) / 4);
@@ -192,22 +232,34 @@ void lom_begin_samples(struct lom_pass *pass, struct lom_tile *tile)
 }
 
 /* Says whether a texture's memory holds the tile's samples from now on. */
-static void note(const struct lom_pass *pass, lom_texture *texture, int number, bool held)
+static void note(const struct lom_pass *pass, lom_texture *texture, int number, enum held part, bool held)
 {
     if (keeps(pass, texture))
-        texture->kept.held[number] = held;
+        texture->kept.held[number] = (uint8_t)((texture->kept.held[number] & ~part) | (held ? part : 0));
 }
 
 static void end_depth(struct lom_pass *pass, struct lom_tile *tile)
 {
     float *plane = (float *)(void *)tile->scratch;
-    for (size_t i = 0; pass->writes_depth && i < tile_pixels(pass); i++)
-        plane[i] = tile->depth[i * (size_t)pass->sample_pitch];
+    if (pass->writes_depth)
+        take_first(pass, (const uint32_t *)(const void *)tile->depth, (uint32_t *)(void *)plane);
     lom_resolve_depth(pass, tile->number, pass->writes_depth ? plane : NULL);
     if (pass->writes_depth)
-        note(pass, pass->depth, tile->number, true);
+        note(pass, pass->depth, tile->number, HELD, true);
     else if (pass->desc.depth_load != LOM_LOAD_KEEP)
-        note(pass, pass->depth, tile->number, false);
+        note(pass, pass->depth, tile->number, HELD, false);
+}
+
+static void end_stencil(struct lom_pass *pass, struct lom_tile *tile)
+{
+    int32_t *plane = (int32_t *)(void *)tile->scratch;
+    if (pass->uses_stencil)
+        take_first(pass, (const uint32_t *)tile->stencil, (uint32_t *)plane);
+    lom_resolve_stencil(pass, tile->number, pass->uses_stencil ? plane : NULL);
+    if (pass->uses_stencil)
+        note(pass, pass->depth, tile->number, HELD_STENCIL, true);
+    else if (pass->desc.stencil_load != LOM_LOAD_KEEP)
+        note(pass, pass->depth, tile->number, HELD_STENCIL, false);
 }
 
 /* Images of divided blocks are of no use to the samples, so the means may go there. */
@@ -216,7 +268,7 @@ static void end_color(struct lom_pass *pass, struct lom_tile *tile, int i)
     if (memchr(tile->several[i], 1, tile_pixels(pass) / 4) != NULL)
         lom_stages_of(pass->device->variant)->find_means(pass, tile, i);
     lom_resolve_color(pass, i, tile->number, tile->color[i]);
-    note(pass, pass->color[i].texture, tile->number, true);
+    note(pass, pass->color[i].texture, tile->number, HELD, true);
 }
 
 /* A tile that nothing came near: its texels are cleared or left, and so are its samples. */
@@ -224,10 +276,12 @@ static void end_untouched(struct lom_pass *pass, struct lom_tile *tile)
 {
     lom_clear_tile(pass, tile->number, tile->scratch);
     if (pass->depth != NULL && pass->desc.depth_load != LOM_LOAD_KEEP)
-        note(pass, pass->depth, tile->number, false);
+        note(pass, pass->depth, tile->number, HELD, false);
+    if (pass->has_stencil && pass->desc.stencil_load != LOM_LOAD_KEEP)
+        note(pass, pass->depth, tile->number, HELD_STENCIL, false);
     for (int i = 0; i < pass->colors; i++)
         if (!pass->color[i].keep)
-            note(pass, pass->color[i].texture, tile->number, false);
+            note(pass, pass->color[i].texture, tile->number, HELD, false);
 }
 
 void lom_end_samples(struct lom_pass *pass, struct lom_tile *tile, bool touched)
@@ -238,6 +292,8 @@ void lom_end_samples(struct lom_pass *pass, struct lom_tile *tile, bool touched)
     }
     if (pass->depth != NULL)
         end_depth(pass, tile);
+    if (pass->has_stencil)
+        end_stencil(pass, tile);
     for (int i = 0; i < pass->colors; i++)
         end_color(pass, tile, i);
 }

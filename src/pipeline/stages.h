@@ -80,7 +80,11 @@ struct lom_draw {
     lom_compare compare;           /* LOM_COMPARE_NEVER + 1 ...; ALWAYS when depth is off */
     bool instanced, clamps_points; /* with attributes of instances; sprites or points with depth_clamp */
     bool depth_write, late_depth, blends, constant, biased;
-    bool sampled; /* several samples a pixel, or alpha as coverage */
+    bool rare_factors; /* it blends by a constant or by a second source */
+    bool two_sources;  /* by the latter */
+    bool sampled;      /* several samples a pixel, alpha as coverage, or full_tests after the shader */
+    bool full_tests;   /* a stencil test or a query besides the depth test: sample_tests.wide.c */
+    size_t counter;    /* with a query: which of the pass's */
     lom_output_kind output;
     bool expands;           /* it has stages between vertices and clipping, or feedback */
     bool rasterizes;        /* something of it may be drawn */
@@ -212,6 +216,8 @@ struct lom_pass {
         offset_pair[LOM_MAX_SAMPLES + 1]; /* of the centre, then of each, as pairs of 16 bits (lanes/pair_products.h) */
     int reach_low, reach_high;            /* how far they lie from centres along x and y, in 1/SUBPIXELS; <= 0, >= 0 */
     bool uses_depth, writes_depth;        /* a draw tests, reads or writes depth; one writes it */
+    bool has_stencil, uses_stencil;       /* the depth attachment has one; a draw tests it */
+    size_t queries;                       /* that its draws name: the first of the device's */
     bool one_by_one;                      /* as lom_device's */
     bool streams;                         /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
@@ -318,6 +324,9 @@ void lom_load_depth(const struct lom_pass *pass, int number, float *memory);
 void lom_load_color(const struct lom_pass *pass, int i, int number, void *memory);
 void lom_resolve_depth(const struct lom_pass *pass, int number, const void *memory);
 void lom_resolve_color(const struct lom_pass *pass, int i, int number, const void *memory);
+/* The same of its stencil, a word a pixel; NULL: it ends as it began (stencil.c). */
+void lom_load_stencil(const struct lom_pass *pass, int number, int32_t *memory);
+void lom_resolve_stencil(const struct lom_pass *pass, int number, const int32_t *memory);
 /* Bytes of an image of colour attachment i in tile memory. */
 size_t lom_image_bytes(const struct lom_pass *pass, int i);
 /* The same for a tile that is one colour; and tile memory of such a tile, which then is none any more. */

@@ -71,10 +71,13 @@ struct lom_tile {
     const struct lom_chunk *chunk; /* likewise */
     bool tests_early;              /* the draw's depth test comes before its fragment shader */
     bool rejects_early;            /* it comes after, but who fails before would fail then, and is not shaded */
+    bool tests_all;                /* all tests come before it, those of sample_tests.wide.c */
     int x, y;                      /* frame pixel of the tile's first pixel */
     int edge;
     int32_t offset[16];          /* of the pixels of a 4x4 window to its first, in tile memory */
     float *depth;                /* attachment units; NULL where no draw of the pass uses depth */
+    int32_t *stencil;            /* as depth; NULL where no draw of the pass tests it */
+    uint64_t *counted;           /* samples that passed, for each of the pass's queries */
     void *color[LOM_MAX_COLORS]; /* uint32_t for 8-bit formats, else 4 planes of floats */
     int number;
     uint8_t *memory;

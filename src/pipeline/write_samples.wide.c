@@ -3,7 +3,8 @@
  *
  * Invariant: each sample ends as if the packets were drawn into it alone. A block of 2x2 pixels has one colour a
  * pixel as long as every fragment that comes to it covers all samples of its pixel: what is written then is the same in all. */
-#include "pipeline/packet.h"
+#include "pipeline/record.h"
+#include "pipeline/sample_tests.h"
 
 /* Four samples side by side. */
 typedef int32_t row __attribute__((vector_size(16), aligned(4), may_alias));
@@ -56,14 +57,19 @@ void LOM_WIDE(lom_run_sampled)(struct lom_tile *tile, const struct lom_packet *p
     out.depth = packet->depth;
     out.discard = (lom_mask){ 0 };
     shader->fragment[draw->variant](&out, in, draw->uniforms);
+    LOM_RECORD_HOOK(lom_record_shaded, tile, in, &out);
     tile->packets++;
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
     if (count_samples(tile) > 1) {
         LOM_WIDE(lom_write_samples)(tile, packet, &mask, packet->triangles == 1, &out);
         return;
     }
-    mask &= cover_by_alpha(tile, out.color[0].w) != 0;
-    LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
+    if (draw->desc.alpha_to_coverage)
+        mask &= cover_by_alpha(tile, out.color[0].w) != 0;
+    if (draw->full_tests)
+        LOM_WIDE(lom_write_tested)(tile, packet, &mask, &out);
+    else
+        LOM_WIDE(lom_write_in_order)(tile, &packet->places, &mask, packet->triangles == 1, &out);
 }
 
 /* ---- samples ---- */
@@ -76,25 +82,36 @@ static struct lom_places find_apart(const struct lom_tile *tile, const struct lo
     return places;
 }
 
-/* The depth test after the shader: the samples that pass. */
+static lom_mask test_depth(struct lom_tile *tile, int32_t *memory, const struct lom_places *places, lom_mask mask,
+                           lom_float z)
+{
+    lom_float units = lom_depth_units(tile->pass, z);
+    mask &= lom_compare_depth(tile->draw->compare, units, lom_as_float(lom_load_places(memory, tile, places)));
+    if (tile->draw->depth_write)
+        lom_store_places(memory, tile, places, mask, lom_as_int(units));
+    return mask;
+}
+
+/* The tests after the shader: the samples that pass. */
 static lom_int test_late(struct lom_tile *tile, const struct lom_packet *packet, lom_int samples, lom_float depth)
 {
     const struct lom_draw *draw = tile->draw;
     const struct lom_places places = find_apart(tile, packet);
-    int32_t *memory = (int32_t *)(void *)tile->depth;
     lom_int passed = { 0 };
-    for (int s = 0; s < count_samples(tile); s++, memory++) {
+    lom_mask front, failed;
+    if (draw->full_tests)
+        LOM_WIDE(lom_find_front)(tile, packet, &front);
+    for (int s = 0; s < count_samples(tile); s++) {
         lom_mask mask = (samples & 1 << s) != 0;
         if (!lom_any(mask))
             continue;
         lom_float z =
             draw->desc.shader->writes_depth ? depth : lom_load(packet->sample_depth + packet->depth_pitch * (size_t)s);
-        z = lom_select(z == z, z, (lom_float){ 0 });
-        lom_float units = lom_depth_units(tile->pass, lom_saturate(z));
-        lom_float stored = lom_as_float(lom_load_places(memory, tile, &places));
-        mask &= lom_compare_depth(draw->compare, units, stored);
-        if (draw->depth_write)
-            lom_store_places(memory, tile, &places, mask, lom_as_int(units));
+        z = lom_saturate(lom_select(z == z, z, (lom_float){ 0 }));
+        if (draw->full_tests)
+            LOM_WIDE(lom_test_sample)(tile, &places, s, &mask, &z, &front, &failed);
+        else
+            mask = test_depth(tile, (int32_t *)(void *)tile->depth + s, &places, mask, z);
         passed |= mask & 1 << s;
     }
     return passed;
@@ -235,7 +252,8 @@ void LOM_WIDE(lom_write_samples)(struct lom_tile *tile, const struct lom_packet 
                                  bool apart, const lom_fragment *out)
 {
     const struct lom_draw *draw = tile->draw;
-    bool late = draw->late_depth && tile->depth != NULL, rounds = (late || draw->blends) && !apart;
+    bool late = draw->late_depth && (tile->depth != NULL || draw->full_tests),
+         rounds = (late || draw->blends) && !apart;
     lom_int samples = packet->samples & *shaded;
     if (draw->desc.alpha_to_coverage)
         samples &= cover_by_alpha(tile, out->color[0].w);
