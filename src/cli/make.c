@@ -138,7 +138,8 @@ static bool write_textures(const lom_mesh *mesh, const char *path, int folder, l
     for (size_t i = 0; i < mesh->material_count; i++) {
         const lom_material *m = &mesh->materials[i];
         done = done && (m->diffuse_map[0] == 0 || write_texture(m->diffuse_map, path, folder, error)) &&
-               (m->emissive_map[0] == 0 || write_texture(m->emissive_map, path, folder, error));
+               (m->emissive_map[0] == 0 || write_texture(m->emissive_map, path, folder, error)) &&
+               (m->opacity_map[0] == 0 || write_texture(m->opacity_map, path, folder, error));
     }
     return done;
 }
@@ -201,6 +202,7 @@ static const recipe recipes[] = {
     { "entity", "boulder", "entities/boulder.obj", make_entity, { .seed = 1 } },
     { "entity", "stones", "entities/stones.obj", make_entity, { .seed = 1 } },
     { "entity", "reeds", "entities/reeds.obj", make_entity, { .seed = 1 } },
+    { "entity", "floats", "entities/floats.obj", make_entity, { .seed = 1 } },
     { "entity", "aircraft", "entities/aircraft.obj", make_entity, { .seed = 1 } },
     { "entity", "lit_cabin", "entities/lit_cabin.obj", make_entity, { .seed = 1 } },
     { "entity", "lantern", "entities/lantern.obj", make_entity, { .seed = 1 } },

@@ -57,5 +57,6 @@ void lom_paint_needles(lom_canvas *canvas);
 void lom_paint_reed(lom_canvas *canvas);
 void lom_paint_window(lom_canvas *canvas);
 void lom_paint_lit_window(lom_canvas *canvas);
+void lom_paint_net(lom_canvas *canvas);
 
 #endif

@@ -109,6 +109,7 @@ static const struct albedo {
     { "lit_window", 128, lom_paint_lit_window },
     { "stone", 256, lom_paint_rock },
     { "livery", 512, lom_paint_livery },
+    { "net", 128, lom_paint_net },
 };
 
 const char *lom_albedo_name(size_t index)

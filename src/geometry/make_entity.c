@@ -17,6 +17,7 @@ static const struct entity {
     { "lantern", lom_build_lantern, 1000 },   { "lamp_post", lom_build_lamp_post, 1000 },
     { "fire", lom_build_fire, 1000 },         { "ball", lom_build_ball, 1000 },
     { "bowl", lom_build_bowl, 1000 },         { "slab", lom_build_slab, 1000 },
+    { "floats", lom_build_floats, 10000 },
 };
 
 const char *lom_entity_name(size_t index)

@@ -64,5 +64,6 @@ void lom_build_pine(lom_mesh_builder *builder, uint64_t seed);
 void lom_build_boulder(lom_mesh_builder *builder, uint64_t seed);
 void lom_build_stones(lom_mesh_builder *builder, uint64_t seed);
 void lom_build_reeds(lom_mesh_builder *builder, uint64_t seed);
+void lom_build_floats(lom_mesh_builder *builder, uint64_t seed);
 
 #endif

@@ -184,6 +184,7 @@ static const struct {
     { "map_bump", read_map, offsetof(lom_material, normal_map) },
     { "bump", read_map, offsetof(lom_material, normal_map) },
     { "norm", read_map, offsetof(lom_material, normal_map) },
+    { "map_d", read_map, offsetof(lom_material, opacity_map) },
 };
 
 static bool read_statement(struct mtl *mtl)

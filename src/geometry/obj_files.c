@@ -79,7 +79,8 @@ static lom_bytes list_and_read(void *context, const char *name, lom_error *error
 
 static bool add_maps(struct list *list, const lom_material *m, lom_error *error)
 {
-    const char *const maps[] = { m->diffuse_map, m->emissive_map, m->specular_map, m->gloss_map, m->normal_map };
+    const char *const maps[] = { m->diffuse_map, m->emissive_map, m->specular_map,
+                                 m->gloss_map,   m->opacity_map,  m->normal_map };
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         if (maps[i][0] != 0 && !add(list, maps[i], error))
             return false;

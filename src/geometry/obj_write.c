@@ -73,12 +73,13 @@ static bool check_mesh(const lom_mesh *mesh, lom_error *error)
 }
 
 /* The maps of a material, and the words before them. */
-enum { MAPS = 5 };
-static const char *const map_words[MAPS] = { "map_Kd", "map_Ke", "map_Ks", "map_Ns", "map_Bump" };
+enum { MAPS = 6 };
+static const char *const map_words[MAPS] = { "map_Kd", "map_Ke", "map_Ks", "map_Ns", "map_Bump", "map_d" };
 
 static const char *map_of(const lom_material *m, int i)
 {
-    const char *const maps[MAPS] = { m->diffuse_map, m->emissive_map, m->specular_map, m->gloss_map, m->normal_map };
+    const char *const maps[MAPS] = { m->diffuse_map, m->emissive_map, m->specular_map,
+                                     m->gloss_map,   m->normal_map,   m->opacity_map };
     return maps[i];
 }
 

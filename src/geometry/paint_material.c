@@ -244,3 +244,24 @@ void lom_paint_lit_window(lom_canvas *c)
             lom_put_tint(c, x, y, lom_mix_tint(dark, light, pane_at(u, v)));
         }
 }
+
+/* A mesh of a net, white where its cords are: two that cross from corner to corner, and the knot where they meet. */
+void lom_paint_net(lom_canvas *c)
+{
+    const double half = 0.055, knot = 0.095, soft = 1.5 / c->size; /* parts of the picture */
+    for (int y = 0; y < c->size; y++)
+        for (int x = 0; x < c->size; x++) {
+            const double u = (x + 0.5) / c->size, v = (y + 0.5) / c->size, s = lom_double_sqrt(0.5);
+            double rising = u + v < 1 ? u + v : 2 - u - v, falling = u < v ? v - u : u - v;
+            rising = (rising < 1 - rising ? rising : 1 - rising) * s;
+            falling = (falling < 1 - falling ? falling : 1 - falling) * s;
+            const double across = u - 0.5, along = v - 0.5, edge_u = u < 0.5 ? u : 1 - u, edge_v = v < 0.5 ? v : 1 - v;
+            const double middle = lom_double_sqrt(across * across + along * along),
+                         corner = lom_double_sqrt(edge_u * edge_u + edge_v * edge_v);
+            const double cord = half - (rising < falling ? rising : falling);
+            const double tied = knot - (middle < corner ? middle : corner);
+            const double inside = cord > tied ? cord : tied;
+            lom_put_tint(c, x, y,
+                         lom_scale_tint(lom_tint_of(255, 255, 255), lom_clamp_double(0.5 + inside / soft, 0, 1)));
+        }
+}

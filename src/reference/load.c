@@ -91,11 +91,14 @@ static bool load_material(lom_reference *reference, const struct lom_world_mater
                                     .diffuse = vector(from->diffuse),
                                     .specular = vector(from->specular),
                                     .emissive = vector(from->emissive),
-                                    .shininess = from->shininess };
+                                    .shininess = from->shininess,
+                                    .opacity = from->opacity,
+                                    .opacity_is_in_alpha = from->opacity_is_in_alpha };
     return find_picture(reference, from->texture, true, &m->picture, error) &&
            find_picture(reference, from->emissive_map, true, &m->emissive_map, error) &&
            find_picture(reference, from->specular_map, true, &m->specular_map, error) &&
            find_picture(reference, from->gloss_map, false, &m->gloss_map, error) &&
+           find_picture(reference, from->opacity_map, false, &m->opacity_map, error) &&
            find_picture(reference, from->normal_map, false, &m->normal_map, error);
 }
 
@@ -109,10 +112,15 @@ static bool load_materials(lom_reference *reference, lom_error *error)
     reference->materials = lom_allocate(count, sizeof *reference->materials, error);
     for (size_t i = 0; reference->materials != NULL && i < world->entity_count; i++) {
         const struct lom_world_entity *entity = &world->entities[i];
-        for (size_t k = 0; k < entity->mesh->part_count; k++)
+        const size_t parts = entity->mesh->part_count;
+        for (size_t k = 0; k < parts; k++) {
+            struct lom_ray_material *m = &reference->materials[reference->material_count];
             if (!load_material(reference, &entity->parts[k].material, error))
                 return false;
-        for (size_t k = 0; entity->entity->two_sided && k < entity->mesh->part_count; k++)
+            m->is_transparent = lom_is_transparent(&entity->parts[k], entity->entity);
+            m->back = (uint32_t)(reference->material_count - 1 + (entity->entity->two_sided ? parts : 0));
+        }
+        for (size_t k = 0; entity->entity->two_sided && k < parts; k++)
             if (!load_material(reference, &entity->parts[k].back, error))
                 return false;
     }

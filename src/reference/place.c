@@ -65,7 +65,8 @@ static bool add_ground(lom_reference *reference, lom_error *error)
     return ground != NULL;
 }
 
-/* One side of an entity; a back has the triangles the other way round and the normals too. */
+/* The points of one side of an entity, and its triangles that are opaque; a back has them the other way round and the
+ * normals too. */
 static void add_side(lom_reference *reference, const lom_mesh *mesh, const struct lom_placement *at, bool back,
                      uint32_t material)
 {
@@ -74,12 +75,32 @@ static void add_side(lom_reference *reference, const lom_mesh *mesh, const struc
         normals.m[i / 4][i % 4] = -normals.m[i / 4][i % 4];
     uint32_t first = add_points(reference, mesh, &at->world_from_model, &normals);
     const bool turned = determinant(&at->world_from_model) < 0;
-    for (size_t k = 0; k < mesh->part_count; k++)
-        add_triangles(reference, mesh, &mesh->parts[k], first, material + (uint32_t)k, turned != back);
+    const uint32_t parts = (uint32_t)mesh->part_count, front = back ? material - parts : material;
+    for (uint32_t k = 0; k < parts; k++)
+        if (!reference->materials[front + k].is_transparent)
+            add_triangles(reference, mesh, &mesh->parts[k], first, material + k, turned != back);
 }
 
+/* Those that are transparent, once for both sides; `first` is the first point of the first entity. */
+static void add_transparent(lom_reference *reference, uint32_t first)
+{
+    uint32_t material = 0;
+    for (size_t i = 0; i < reference->world->entity_count; i++) {
+        const struct lom_world_entity *entity = &reference->world->entities[i];
+        const uint32_t sides = entity->entity->two_sided ? 2 : 1, parts = (uint32_t)entity->mesh->part_count;
+        bool turned = determinant(&reference->moment.placements[i].world_from_model) < 0;
+        for (uint32_t k = 0; k < parts; k++)
+            if (reference->materials[material + k].is_transparent)
+                add_triangles(reference, entity->mesh, &entity->mesh->parts[k], first, material + k, turned);
+        first += sides * (uint32_t)entity->mesh->vertex_count;
+        material += sides * parts;
+    }
+}
+
+/* What is transparent comes last. */
 static void add_entities(lom_reference *reference)
 {
+    const uint32_t first = (uint32_t)reference->point_count;
     uint32_t material = 0;
     for (size_t i = 0; i < reference->world->entity_count; i++) {
         const struct lom_world_entity *entity = &reference->world->entities[i];
@@ -88,6 +109,8 @@ static void add_entities(lom_reference *reference)
             material += (uint32_t)entity->mesh->part_count;
         }
     }
+    reference->opaque.count = (uint32_t)reference->triangle_count;
+    add_transparent(reference, first);
 }
 
 static bool allocate(lom_reference *reference, lom_error *error)
@@ -148,7 +171,7 @@ bool lom_place_reference(lom_reference *reference, double time, lom_error *error
 {
     reference->moment = (struct lom_moment){ .placements = NULL };
     reference->scene = &reference->moment.scene;
-    reference->opaque = (struct lom_ray_triangles){ .points = NULL };
+    reference->opaque = reference->transparent = (struct lom_ray_triangles){ .points = NULL };
     reference->points = NULL;
     reference->corners = NULL;
     reference->triangles = NULL;
@@ -159,15 +182,20 @@ bool lom_place_reference(lom_reference *reference, double time, lom_error *error
     if (!allocate(reference, error) || !add_ground(reference, error))
         return false;
     add_entities(reference);
-    reference->opaque = (struct lom_ray_triangles){ .points = reference->points,
-                                                    .triangles = reference->triangles,
-                                                    .count = (uint32_t)reference->triangle_count };
-    return lom_build_ray_triangles(&reference->opaque, error);
+    const uint32_t opaque = reference->opaque.count;
+    reference->opaque =
+        (struct lom_ray_triangles){ .points = reference->points, .triangles = reference->triangles, .count = opaque };
+    reference->transparent = (struct lom_ray_triangles){ .points = reference->points,
+                                                         .triangles = reference->triangles + opaque,
+                                                         .count = (uint32_t)reference->triangle_count - opaque };
+    return lom_build_ray_triangles(&reference->opaque, error) &&
+           (reference->transparent.count == 0 || lom_build_ray_triangles(&reference->transparent, error));
 }
 
 void lom_free_placed(lom_reference *reference)
 {
     lom_free_ray_triangles(&reference->opaque);
+    lom_free_ray_triangles(&reference->transparent);
     lom_release(reference->triangles);
     lom_release(reference->corners);
     lom_release(reference->points);

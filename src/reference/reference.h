@@ -17,6 +17,10 @@ struct lom_ray_material {
     double shininess;
     int picture;                                           /* multiplies ambient and diffuse */
     int emissive_map, specular_map, gloss_map, normal_map; /* LOM_NO_PICTURE: none */
+    double opacity;
+    int opacity_map; /* multiplies it, by its alpha or its red */
+    bool opacity_is_in_alpha, is_transparent;
+    uint32_t back; /* of the material of its other side */
 };
 
 /* What a corner of a triangle has besides its place, interpolated linearly. */
@@ -48,6 +52,7 @@ struct lom_reference {
     struct lom_moment moment; /* of the time at which it was placed */
     const lom_scene *scene;   /* of the moment */
     struct lom_ray_triangles opaque;
+    struct lom_ray_triangles transparent; /* both sides of them are seen; the triangles behind those of `opaque` */
     lom_vec3 *points;
     struct lom_ray_corner *corners; /* of each point */
     struct lom_ray_triangle *triangles;
@@ -87,6 +92,10 @@ void lom_free_placed(lom_reference *reference);
 /* Shading (shade.c): the light that an opaque surface sends back along a ray. */
 lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                        double time);
+/* The same of a transparent one, of either side; *opacity: the share of what is behind it that it hides. `hit` has a number
+ * of reference->transparent. */
+lom_vec3 lom_shade_transparent(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
+                               double time, double *opacity);
 /* Reflection (reflect.c): sun, ambient light and lamps at a place. */
 struct lom_incident {
     lom_vec3 to_light, light; /* the sun's, as it comes there */

@@ -13,6 +13,7 @@ static lom_vec3 mixed(lom_vec3 a, lom_vec3 b, double share)
 struct point {
     lom_vec3 place, normal, color;
     double u, v;
+    const uint32_t *corner;
     lom_vec3 along_u, along_v; /* tangents of the triangle, of any length; 0: the texture has no area there */
 };
 
@@ -31,7 +32,7 @@ static void find_tangents(const lom_reference *reference, const uint32_t *index,
 
 static struct point find_point(const lom_reference *reference, const struct lom_ray_hit *hit)
 {
-    const uint32_t *index = reference->opaque.triangles[hit->triangle].corner;
+    const uint32_t *index = reference->triangles[hit->triangle].corner;
     const struct lom_ray_corner *c0 = &reference->corners[index[0]], *c1 = &reference->corners[index[1]],
                                 *c2 = &reference->corners[index[2]];
     const double *b = hit->weight;
@@ -39,6 +40,7 @@ static struct point find_point(const lom_reference *reference, const struct lom_
                                             reference->points[index[2]], b),
                            .normal = unit(blended(c0->normal, c1->normal, c2->normal, b)),
                            .color = blended(c0->color, c1->color, c2->color, b),
+                           .corner = index,
                            .u = c0->u * b[0] + c1->u * b[1] + c2->u * b[2],
                            .v = c0->v * b[0] + c1->v * b[1] + c2->v * b[2] };
 }
@@ -223,18 +225,82 @@ static lom_vec3 mapped_normal(const lom_reference *reference, const struct lom_r
 
 /* ---- all of it ---- */
 
+/* The light that comes to a place. */
+static struct lom_incident find_incident(const lom_reference *reference, lom_vec3 place, double time, double *depth)
+{
+    *depth = lom_water_above(reference, place, time);
+    struct lom_incident in = find_light(reference, *depth);
+    if (dot(in.light, in.light) > 0 && !is_lit(reference, place, *depth, in.to_light))
+        in.light = (lom_vec3){ 0, 0, 0 };
+    if (reference->cloud_count > 0)
+        in.light = scaled(in.light, lom_cloud_shadow(reference, place, time));
+    return in;
+}
+
+/* What an entity's material makes of it, all maps looked up; of `facing` all but the albedo and the normal are known. */
+static lom_vec3 reflect(const lom_reference *reference, const struct lom_incident *in, const struct lom_ray_material *m,
+                        struct point *s, struct lom_facing facing)
+{
+    find_tangents(reference, s->corner, s);
+    facing.albedo = product(s->color, look_up(reference, m->picture, s));
+    facing.normal = mapped_normal(reference, m, s);
+    struct lom_ray_material here = *m;
+    here.specular = product(m->specular, look_up(reference, m->specular_map, s));
+    here.shininess = m->shininess * look_up(reference, m->gloss_map, s).x;
+    return sum(lom_reflect_light(reference, in, &here, &facing),
+               product(m->emissive, look_up(reference, m->emissive_map, s)));
+}
+
+static double presence_of(const lom_reference *reference, const struct lom_ray_material *m, const struct point *s)
+{
+    if (m->opacity_map == LOM_NO_PICTURE)
+        return 1;
+    const struct lom_picture *map = &reference->pictures[m->opacity_map].picture;
+    return m->opacity_is_in_alpha ? lom_sample_picture_alpha(map, s->u, s->v) : lom_sample_picture(map, s->u, s->v).x;
+}
+
+/* The material of the side of a triangle that a ray along d meets. */
+static const struct lom_ray_material *met_material(const lom_reference *reference, const struct lom_ray_triangle *t,
+                                                   lom_vec3 d)
+{
+    const lom_vec3 *p = reference->points, corner = p[t->corner[0]];
+    const lom_vec3 n = cross(difference(p[t->corner[1]], corner), difference(p[t->corner[2]], corner));
+    const struct lom_ray_material *front = &reference->materials[t->material];
+    return dot(n, d) > 0 ? &reference->materials[front->back] : front;
+}
+
+/* Ambient and diffuse light count by the opacity, the highlight and light of its own by how much of the surface there is,
+ * which the map says. */
+lom_vec3 lom_shade_transparent(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
+                               double time, double *opacity)
+{
+    struct lom_ray_hit placed = *hit;
+    placed.triangle += reference->opaque.count;
+    struct point s = find_point(reference, &placed);
+    const struct lom_ray_material *m = met_material(reference, &reference->triangles[placed.triangle], ray->direction);
+    struct lom_ray_material rough = *m, polished = *m;
+    double depth, presence = presence_of(reference, m, &s);
+    struct lom_incident in = find_incident(reference, s.place, time, &depth);
+    const lom_vec3 none = { 0, 0, 0 };
+    if (dot(s.normal, ray->direction) > 0)
+        s.normal = scaled(s.normal, -1);
+    *opacity = presence * m->opacity;
+    rough.specular = rough.emissive = none;
+    polished.ambient = polished.diffuse = none;
+    struct lom_facing facing = { s.place, s.normal, scaled(ray->direction, -1), { 1, 1, 1 }, depth };
+    lom_vec3 light = reflect(reference, &in, &rough, &s, facing);
+    lom_vec3 highlight = reflect(reference, &in, &polished, &s, facing);
+    return sum(scaled(light, *opacity), scaled(highlight, presence));
+}
+
 lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                        double time)
 {
     struct point s = find_point(reference, hit);
-    double depth = lom_water_above(reference, s.place, time);
-    struct lom_incident in = find_light(reference, depth);
-    if (dot(in.light, in.light) > 0 && !is_lit(reference, s.place, depth, in.to_light))
-        in.light = (lom_vec3){ 0, 0, 0 };
-    if (reference->cloud_count > 0)
-        in.light = scaled(in.light, lom_cloud_shadow(reference, s.place, time));
+    double depth;
+    struct lom_incident in = find_incident(reference, s.place, time, &depth);
     struct lom_facing facing = { s.place, s.normal, scaled(ray->direction, -1), { 1, 1, 1 }, depth };
-    uint32_t material = reference->opaque.triangles[hit->triangle].material;
+    uint32_t material = reference->triangles[hit->triangle].material;
     if (material == LOM_TERRAIN_MATERIAL) {
         s.normal = ground_facing(reference, s.place);
         facing.normal = ground_normal(reference, &s);
@@ -242,14 +308,7 @@ lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray
         return lom_reflect_light(reference, &in, &reference->ground, &facing);
     }
     const struct lom_ray_material *m = &reference->materials[material];
-    find_tangents(reference, reference->opaque.triangles[hit->triangle].corner, &s);
-    facing.albedo = product(s.color, look_up(reference, m->picture, &s));
-    facing.normal = mapped_normal(reference, m, &s);
-    struct lom_ray_material here = *m;
-    here.specular = product(m->specular, look_up(reference, m->specular_map, &s));
-    here.shininess = m->shininess * look_up(reference, m->gloss_map, &s).x;
-    return sum(lom_reflect_light(reference, &in, &here, &facing),
-               product(m->emissive, look_up(reference, m->emissive_map, &s)));
+    return reflect(reference, &in, m, &s, facing);
 }
 
 /* shading/gradient.h in double; d of unit length. */

@@ -29,6 +29,16 @@ static lom_vec3 texel(const struct lom_picture *picture, int x, int y, int z)
     return (lom_vec3){ picture->decoded[code[0]], picture->decoded[code[1]], picture->decoded[code[2]] };
 }
 
+static double alpha_of(const struct lom_picture *picture, int x, int y)
+{
+    const void *pixel = lom_image_pixel(picture->image, x, y, 0);
+    uint16_t code[4];
+    if (picture->image->format != LOM_FORMAT_RGBA16)
+        return ((const uint8_t *)pixel)[3] / 255.0;
+    memcpy(code, pixel, sizeof code);
+    return code[3] / 65535.0;
+}
+
 double lom_mean_brightness(const struct lom_picture *picture)
 {
     double sum = 0;
@@ -57,15 +67,37 @@ static int find_texel(double s, int size, double *fraction)
     return whole < 0 ? size - 1 : lom_int_of(whole);
 }
 
+/* The four texels around a place, and where it lies between them. */
+struct around {
+    int x[2], y[2];
+    double u, v;
+};
+
+static struct around find_around(const struct lom_picture *picture, double s, double t)
+{
+    struct around a;
+    int width = picture->image->width, height = picture->image->height;
+    a.x[0] = find_texel(s, width, &a.u);
+    a.y[0] = find_texel(t, height, &a.v);
+    a.x[1] = a.x[0] + 1 < width ? a.x[0] + 1 : 0;
+    a.y[1] = a.y[0] + 1 < height ? a.y[0] + 1 : 0;
+    return a;
+}
+
 lom_vec3 lom_sample_picture(const struct lom_picture *picture, double s, double t)
 {
-    double u, v;
-    int width = picture->image->width, height = picture->image->height;
-    int x = find_texel(s, width, &u), y = find_texel(t, height, &v);
-    int right = x + 1 < width ? x + 1 : 0, below = y + 1 < height ? y + 1 : 0;
-    const lom_vec3 corner[4] = { texel(picture, x, y, 0), texel(picture, right, y, 0), texel(picture, x, below, 0),
-                                 texel(picture, right, below, 0) };
-    return bilinear(corner, u, v);
+    const struct around a = find_around(picture, s, t);
+    const lom_vec3 corner[4] = { texel(picture, a.x[0], a.y[0], 0), texel(picture, a.x[1], a.y[0], 0),
+                                 texel(picture, a.x[0], a.y[1], 0), texel(picture, a.x[1], a.y[1], 0) };
+    return bilinear(corner, a.u, a.v);
+}
+
+double lom_sample_picture_alpha(const struct lom_picture *picture, double s, double t)
+{
+    const struct around a = find_around(picture, s, t);
+    double upper = (1 - a.u) * alpha_of(picture, a.x[0], a.y[0]) + a.u * alpha_of(picture, a.x[1], a.y[0]);
+    double lower = (1 - a.u) * alpha_of(picture, a.x[0], a.y[1]) + a.u * alpha_of(picture, a.x[1], a.y[1]);
+    return (1 - a.v) * upper + a.v * lower;
 }
 
 /* ---- cubes ---- */

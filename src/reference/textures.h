@@ -15,6 +15,8 @@ void lom_set_picture(struct lom_picture *picture, const lom_image *image, bool s
 
 /* Repeated in both directions; texel (i, j) has its centre at ((i + 0.5) / width, (j + 0.5) / height). */
 lom_vec3 lom_sample_picture(const struct lom_picture *picture, double s, double t);
+/* The same of its alpha. */
+double lom_sample_picture_alpha(const struct lom_picture *picture, double s, double t);
 /* The mean of red, green and blue over all texels, by their weights in luminance (ITU-R BT.709). */
 double lom_mean_brightness(const struct lom_picture *picture);
 /* A cube in a direction: OpenGL 4.6, table 8.19, and filtered across edges. Beyond a corner of three faces lies the

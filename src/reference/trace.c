@@ -101,6 +101,47 @@ static lom_vec3 divide(const struct tracer *tracer, const struct path *path, con
     return light;
 }
 
+/* Light that comes from t along the path, as it is at its origin. */
+static lom_vec3 carry(const struct tracer *tracer, const struct path *path, double t, lom_vec3 light)
+{
+    if (path->in_water)
+        return cross_medium(tracer, path, light, t);
+    light = lom_light_through_haze(tracer->reference, &path->ray, t, light);
+    return lom_light_through_clouds(tracer->reference, &path->ray, t, tracer->time, light);
+}
+
+/* The nearest side of a transparent face behind `low` and before hit->t. */
+static bool find_layer(const lom_reference *reference, const struct path *path, double low, struct lom_ray_hit *hit)
+{
+    struct lom_ray_triangles back = reference->transparent;
+    back.inside_out = true;
+    bool front = lom_hit_triangles(&reference->transparent, &path->ray, low, hit);
+    return lom_hit_triangles(&back, &path->ray, low, hit) || front;
+}
+
+/* `light` comes from t to the origin, through all transparent faces before t. Air and clouds let T(t) c + S(t) of a light c
+ * through; a face of opacity a gives light c of its own: seen is T c + a S, over (1 - a) of what is seen behind it. */
+static lom_vec3 through_layers(const struct tracer *tracer, const struct path *path, double t, lom_vec3 light)
+{
+    const lom_reference *reference = tracer->reference;
+    const lom_vec3 none = { 0, 0, 0 };
+    struct lom_ray_hit hit = { .t = t };
+    lom_vec3 seen = none;
+    double share = 1, low = path->low;
+    if (reference->transparent.count == 0)
+        return light;
+    while (share > 0 && find_layer(reference, path, low, &hit)) {
+        double opacity;
+        lom_vec3 own = lom_shade_transparent(reference, &path->ray, &hit, tracer->time, &opacity);
+        seen = along(seen, carry(tracer, path, hit.t, own), share);
+        share *= 1 - opacity;
+        seen = along(seen, carry(tracer, path, hit.t, none), -share);
+        low = hit.t * (1 + 1e-9); /* on an edge both its triangles are hit, at places that rounding parts */
+        hit.t = t;
+    }
+    return along(seen, light, share);
+}
+
 static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
 {
     const lom_reference *reference = tracer->reference;
@@ -118,12 +159,9 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
         if (path->by_water)
             light = sum(light, sun_disc(reference, path->ray.direction));
     }
-    if (path->in_water)
-        return cross_medium(tracer, path, light, crossing.t);
-    if (path->by_water)
+    if (path->by_water && !path->in_water)
         light = sum(light, lamp_discs(reference, &path->ray, crossing.t));
-    light = lom_light_through_haze(reference, &path->ray, crossing.t, light);
-    return lom_light_through_clouds(reference, &path->ray, crossing.t, tracer->time, light);
+    return through_layers(tracer, path, crossing.t, carry(tracer, path, crossing.t, light));
 }
 
 lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, double near_distance, double time,

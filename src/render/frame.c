@@ -19,14 +19,15 @@ static const struct stage {
     { lom_prepare_lamps, "lamps" },    /* where each of them reaches */
     { lom_prepare_ground, "terrain" }, /* its levels of detail and its shadow */
     { lom_prepare_entities, "entity_shadow" },
-    { lom_prepare_clouds, "cloud_light" }, /* their light */
-    { lom_prepare_water, "waves" },        /* the waves, and what they do to the light on what follows */
-    { draw_opaque, "scene" },              /* terrain, entities and sky */
-    { lom_draw_lake, "lake" },             /* tinted or planar water over them */
-    { lom_find_surface, "sea_waves" },     /* the waves of a sea where one is seen */
-    { lom_draw_surface, "sea" },           /* or water with waves */
-    { lom_draw_clouds, "clouds" },         /* clouds over all */
-    { lom_draw_spray, "spray" },           /* drops, nearer than most clouds */
+    { lom_prepare_clouds, "cloud_light" },   /* their light */
+    { lom_prepare_water, "waves" },          /* the waves, and what they do to the light on what follows */
+    { draw_opaque, "scene" },                /* terrain, entities and sky */
+    { lom_draw_lake, "lake" },               /* tinted or planar water over them */
+    { lom_find_surface, "sea_waves" },       /* the waves of a sea where one is seen */
+    { lom_draw_surface, "sea" },             /* or water with waves */
+    { lom_draw_clouds, "clouds" },           /* clouds over all */
+    { lom_draw_transparent, "transparent" }, /* what entities have that is transparent */
+    { lom_draw_spray, "spray" },             /* drops, nearer than most clouds */
 };
 
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color)

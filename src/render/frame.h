@@ -22,6 +22,7 @@ struct frame {
     enum lom_waves_known known;     /* how much `waves` has of them: what was needed */
     uint64_t wave_steps;            /* lom_wave_steps before this frame */
     bool below;                     /* the eye is under water with waves */
+    bool shows_water;               /* its surface is drawn over the scene */
     lom_plan *plan;
     const lom_frame_desc *desc;
     double done; /* the share of the stages behind this one */

@@ -186,6 +186,19 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
         lom_draw_sky(renderer, view, &uniform.light);
 }
 
+size_t lom_draw_transparent_scene(lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    struct lom_view_uniform uniform = view_uniform(renderer, view);
+    struct lom_culler culler = lom_culler_of(view, view->window);
+    return lom_draw_transparent_entities(renderer, view, &culler, &uniform);
+}
+
+bool lom_shows_transparent(const lom_renderer *renderer, const struct lom_scene_view *view)
+{
+    struct lom_culler culler = lom_culler_of(view, NULL);
+    return lom_count_transparent_entities(renderer, &culler) != 0;
+}
+
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
     struct lom_culler culler = lom_culler_of(view, NULL);

@@ -49,9 +49,12 @@ bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
 struct lom_window lom_window_of(const lom_rect *part, int width, int height);
 /* Clip coordinates in which the window is what -1..1 was. */
 lom_mat4 lom_zoom_to(const struct lom_window *window, const lom_mat4 *projection);
-/* Draws terrain, entities and sky into the pass that has begun; what is outside the view and its window or behind the
- * plane costs nothing. */
+/* Draws terrain, what is opaque of entities, and sky into the pass that has begun; what is outside the view and its window
+ * or behind the plane costs nothing. */
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view);
+/* Draws what is transparent of it into a pass that has the rest; of how many entities. Whether it would draw any. */
+size_t lom_draw_transparent_scene(lom_renderer *renderer, const struct lom_scene_view *view);
+bool lom_shows_transparent(const lom_renderer *renderer, const struct lom_scene_view *view);
 /* Whether any of it but the sky would be drawn; whether any of the terrain would. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
 bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view *view);

@@ -16,6 +16,7 @@ static bool check_material(void *members, const lom_key_check *check)
     material->has_shininess = check->is_given(check, "shininess");
     material->has_emissive = check->is_given(check, "emissive");
     material->has_bump = check->is_given(check, "bump");
+    material->has_opacity = check->is_given(check, "opacity");
     return true;
 }
 
@@ -65,6 +66,12 @@ static const lom_key material[] = {
               "light at each fragment; a grey picture holds heights." },
     { "bump", LOM_KEY_NUMBER, AT(lom_scene_material, bump), .minimum = -1000, .maximum = 1000, .initial = { 1 },
       .text = "Of a normal map that holds heights: white is so many 64ths of the picture's width above black." },
+    { "opacity", LOM_KEY_NUMBER, AT(lom_scene_material, opacity), .maximum = 1, .initial = { 1 },
+      .text =
+          "The share of what is behind it that it hides. Below 1 it is drawn after all that is opaque, its triangles "
+          "from the farthest to the nearest, and throws no shadow (docs/transparency.md)." },
+    { "opacity_map", LOM_KEY_FILE, AT(lom_scene_material, opacity_map),
+      .text = "Picture that multiplies opacity, and the highlight: its alpha, or where that is whole its red." },
 };
 enum { TERRAIN_KEYS = 4 };
 const lom_key_table lom_entity_material_keys = {

@@ -10,6 +10,9 @@ struct lom_material_uniform {
     float emissive[3];
     bool emits;
     const lom_texture *emissive_map, *specular_map, *gloss_map, *normal_map; /* likewise; NULL: none */
+    float opacity;
+    const lom_texture *opacity_map; /* multiplies opacity; NULL: 1 */
+    bool opacity_is_in_alpha;       /* of that, not in its red */
 };
 
 /* How surfaces reflect (shading/reflection.h): a model, and the thresholds and tones of the toon model. */

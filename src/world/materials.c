@@ -33,6 +33,22 @@ static bool find_map(struct lom_world *world, const char *mesh, const char *map,
     return done;
 }
 
+/* Whether a picture has a texel that its alpha does not make whole. */
+static bool has_alpha(const lom_image *image)
+{
+    const bool deep = image->format == LOM_FORMAT_RGBA16;
+    const size_t samples = 4 * (size_t)image->width * (size_t)image->height;
+    const uint8_t *bytes = image->pixels;
+    for (size_t i = 3; i < samples; i += 4) {
+        uint16_t code = bytes[i];
+        if (deep)
+            memcpy(&code, bytes + 2 * i, sizeof code);
+        if (code != (deep ? UINT16_MAX : UINT8_MAX))
+            return true;
+    }
+    return false;
+}
+
 static void widen(double out[3], const float in[3])
 {
     for (int i = 0; i < 3; i++)
@@ -51,8 +67,9 @@ static bool take_base(struct lom_world *world, const char *mesh, const lom_mater
                  { own->emissive_map, base->emissive_map, &m->emissive_map },
                  { own->specular_map, base->specular_map, &m->specular_map },
                  { own->gloss_map, base->gloss_map, &m->gloss_map },
+                 { own->opacity_map, base->opacity_map, &m->opacity_map },
                  { own->normal_map, base->normal_map, &m->normal_map } };
-    *m = (struct lom_world_material){ .shininess = (double)base->shininess };
+    *m = (struct lom_world_material){ .shininess = (double)base->shininess, .opacity = (double)base->opacity };
     widen(m->ambient, base->ambient);
     widen(m->diffuse, base->diffuse);
     widen(m->specular, base->specular);
@@ -80,12 +97,22 @@ static bool take_own(struct lom_world *world, const lom_scene_material *own, str
     take(m->emissive, own->has_emissive, own->emissive);
     m->shininess = own->has_shininess ? own->shininess : m->shininess;
     m->texture = own->texture != NULL ? own->texture : m->texture;
+    m->opacity = own->has_opacity ? own->opacity : m->opacity;
     return (own->emissive_map == NULL || lom_keep_world_picture(world, own->emissive_map, &m->emissive_map, error)) &&
            (own->specular_map == NULL || lom_keep_world_picture(world, own->specular_map, &m->specular_map, error)) &&
+           (own->opacity_map == NULL || lom_keep_world_picture(world, own->opacity_map, &m->opacity_map, error)) &&
            (own->gloss_map == NULL || lom_keep_world_picture(world, own->gloss_map, &m->gloss_map, error)) &&
            (own->normal_map == NULL ||
             lom_keep_world_normals(world, own->normal_map, own->has_bump ? (float)own->bump : 1, &m->normal_map,
                                    error));
+}
+
+/* Where the map of opacity has it. */
+static bool look_for_alpha(struct lom_world *world, struct lom_world_material *m, lom_error *error)
+{
+    const lom_image *image = m->opacity_map == NULL ? NULL : lom_world_picture(world, m->opacity_map, error);
+    m->opacity_is_in_alpha = image != NULL && has_alpha(image);
+    return m->opacity_map == NULL || image != NULL;
 }
 
 bool lom_resolve_materials(struct lom_world *world, struct lom_world_entity *entity, lom_error *error)
@@ -104,7 +131,8 @@ bool lom_resolve_materials(struct lom_world *world, struct lom_world_entity *ent
             !take_own(world, &source->material, &part->material, error))
             return false;
         part->back = part->material;
-        if (!take_own(world, &source->back, &part->back, error))
+        if (!take_own(world, &source->back, &part->back, error) || !look_for_alpha(world, &part->material, error) ||
+            !look_for_alpha(world, &part->back, error))
             return false;
     }
     return entity->parts != NULL;

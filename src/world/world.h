@@ -16,6 +16,9 @@ struct lom_world_material {
     const char *texture; /* path of the picture that multiplies ambient and diffuse; NULL: white */
     const char *emissive_map, *specular_map, *gloss_map; /* the same of emissive, specular and shininess */
     const char *normal_map;                              /* NULL: normals are the mesh's */
+    double opacity;
+    const char *opacity_map;  /* path of the picture that multiplies it; NULL: 1 */
+    bool opacity_is_in_alpha; /* of that picture, not in its red */
 };
 
 struct lom_world_part {    /* the triangles of one material */
@@ -23,6 +26,13 @@ struct lom_world_part {    /* the triangles of one material */
     struct lom_world_material material;
     struct lom_world_material back; /* of a two-sided entity */
 };
+
+/* Whether something may be seen through a part of an entity. */
+static inline bool lom_is_transparent(const struct lom_world_part *part, const lom_entity *entity)
+{
+    return part->material.opacity < 1 || part->material.opacity_map != NULL ||
+           (entity->two_sided && (part->back.opacity < 1 || part->back.opacity_map != NULL));
+}
 
 /* A visible entity. */
 struct lom_world_entity {

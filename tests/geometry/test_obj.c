@@ -351,7 +351,8 @@ static void mixed_normals(void)
 static const char red_mtl[] =
     "# head\r\nnewmtl red\r\nKa 0.1 0.2 0.3\nKd 1 0 0\nKs .5\nNs 32\nd 0.5\nillum 2\nKe 1 1 1\n"
     "map_Kd -bm 2 -o 1 2 3 -s 4 -clamp on my tex\\red.png # tail\nmap_Ks nonsense\n"
-    "newmtl glass #1\nd -halo 7\nnewmtl thin\nTr .25\nKd spectral f.rfl 1\nKd xyz 1 2 3\n";
+    "newmtl glass #1\nd -halo 7\nnewmtl thin\nTr .25\nKd spectral f.rfl 1\nKd xyz 1 2 3\nmap_d -mm 0 1 "
+    "holes\\thin.png\n";
 
 static lom_bytes read_from_table(void *context, const char *name, lom_error *error)
 {
@@ -413,6 +414,7 @@ static void materials(void)
     CHECK(strcmp(red->diffuse_map, "my tex/red.png") == 0, "\"%s\"", red->diffuse_map);
     CHECK(strcmp(mesh->materials[1].name, "glass #1") == 0 && mesh->materials[1].opacity == 1);
     CHECK(thin->opacity == .75f && near3(thin->diffuse, 1, 1, 1, 0) && thin->diffuse_map[0] == 0);
+    CHECK(strcmp(thin->opacity_map, "holes/thin.png") == 0 && red->opacity_map[0] == 0, "\"%s\"", thin->opacity_map);
     CHECK(strstr(mesh->warnings.text, "\"nowhere\"") != NULL, "\"%s\"", mesh->warnings.text);
     lom_free_mesh(mesh);
 
@@ -596,6 +598,7 @@ static void round_trip(void)
     mesh->materials[1] = lom_default_material("x#y");
     mesh->materials[1].opacity = .3f;
     strncpy(mesh->materials[1].diffuse_map, "maps/a b.png", 20);
+    strncpy(mesh->materials[0].opacity_map, "holes.png", 20);
     lom_bytes obj = lom_encode_obj(mesh, "m.mtl", &error), mtl = lom_encode_mtl(mesh, &error);
     CHECK(obj.data != NULL && mtl.data != NULL, "%s", error.text);
     char folder[] = "/tmp/lom_obj_XXXXXX", obj_path[64], mtl_path[64];

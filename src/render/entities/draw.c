@@ -15,7 +15,7 @@ static void set_attributes(lom_draw_desc *draw, const lom_mesh *mesh)
 }
 
 /* Whether a placed entity is turned inside out by a negative scale. */
-static bool is_mirroring(const lom_mat4 *m)
+bool lom_is_mirroring(const lom_mat4 *m)
 {
     const double(*r)[4] = m->m;
     double determinant = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
@@ -66,6 +66,9 @@ static void draw_parts(const struct parts *p, const struct lom_material_uniform 
                        size_t first, size_t count)
 {
     for (size_t i = first; i < first + count; i++) {
+        if (draw->topology == LOM_TRIANGLES &&
+            lom_is_transparent(&p->entity->source->parts[i], p->entity->source->entity))
+            continue;
         p->uniforms->material = materials[i];
         if (draw->topology == LOM_TRIANGLES)
             draw->shader = shader_of(p->renderer, &materials[i]);
@@ -101,8 +104,9 @@ static void turn_normals(struct lom_matrix_uniform *normal_from_model)
             normal_from_model->m[i][k] = -normal_from_model->m[i][k];
 }
 
-static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *entity,
-                        const struct lom_scene_view *view, const struct lom_view_uniform *uniform)
+lom_draw_desc lom_begin_entity(const lom_renderer *renderer, const struct lom_drawn_entity *entity,
+                               const struct lom_scene_view *view, const struct lom_view_uniform *uniform,
+                               struct lom_entity_uniforms *uniforms)
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
     lom_mat4 offset_from_model = entity->at->world_from_model;
@@ -110,16 +114,24 @@ static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
     offset_from_model.m[1][3] -= view->eye.y;
     offset_from_model.m[2][3] -= view->eye.z;
     lom_mat4 clip_from_model = lom_multiply(&clip_from_offset, &offset_from_model);
-    struct lom_entity_uniforms uniforms = { .view = *uniform,
-                                            .clip_from_model = lom_round_matrix(&clip_from_model),
-                                            .offset_from_model = lom_round_matrix(&offset_from_model),
-                                            .normal_from_model = lom_round_matrix(&entity->at->normal_from_model) };
-    lom_draw_desc draw = { .uniforms = &uniforms,
+    *uniforms = (struct lom_entity_uniforms){ .view = *uniform,
+                                              .clip_from_model = lom_round_matrix(&clip_from_model),
+                                              .offset_from_model = lom_round_matrix(&offset_from_model),
+                                              .normal_from_model = lom_round_matrix(&entity->at->normal_from_model) };
+    lom_draw_desc draw = { .uniforms = uniforms,
                            .cull = LOM_CULL_BACK,
                            .label = entity->source->entity->mesh,
                            .object = LOM_OBJECT_ENTITY + (int)(entity - renderer->entities.items),
-                           .front_clockwise = view->mirrored != is_mirroring(&entity->at->world_from_model) };
+                           .front_clockwise = view->mirrored != lom_is_mirroring(&entity->at->world_from_model) };
     set_attributes(&draw, entity->source->mesh);
+    return draw;
+}
+
+static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *entity,
+                        const struct lom_scene_view *view, const struct lom_view_uniform *uniform)
+{
+    struct lom_entity_uniforms uniforms;
+    lom_draw_desc draw = lom_begin_entity(renderer, entity, view, uniform, &uniforms);
     uniforms.cuts = draw.alpha_to_coverage = entity->source->entity->alpha_to_coverage;
     const struct parts p = { renderer, entity, &uniforms };
     const lom_mesh *mesh = entity->source->mesh;
@@ -142,6 +154,8 @@ static void draw_cut_caster(lom_renderer *renderer, const struct lom_drawn_entit
     const lom_mesh *mesh = entity->source->mesh;
     const struct lom_caster_uniforms whole = { lom_round_matrix(clip_from_model) };
     for (size_t i = 0; i < mesh->part_count; i++) {
+        if (lom_is_transparent(&entity->source->parts[i], entity->source->entity))
+            continue;
         const struct lom_cut_caster_uniforms cut = { whole.clip_from_model, entity->materials[i].texture };
         lom_draw_desc draw = { .shader = cut.texture != NULL ? &lom_cut_caster_shader : &lom_caster_shader,
                                .uniforms = cut.texture != NULL ? (const void *)&cut : &whole,
@@ -166,7 +180,14 @@ void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *enti
                            .count = entity->source->mesh->index_count,
                            .label = entity->source->entity->mesh };
     set_attributes(&draw, entity->source->mesh);
-    lom_draw(renderer->device, &draw);
+    if (entity->transparent.count == 0)
+        lom_draw(renderer->device, &draw);
+    for (size_t i = 0; entity->transparent.count != 0 && i < entity->source->mesh->part_count; i++) {
+        draw.first = entity->source->parts[i].first;
+        draw.count = entity->source->parts[i].count;
+        if (!lom_is_transparent(&entity->source->parts[i], entity->source->entity))
+            lom_draw(renderer->device, &draw);
+    }
 }
 
 struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye)

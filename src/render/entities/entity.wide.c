@@ -101,8 +101,7 @@ static void finish(lom_fragment *out, const lom_varyings *in, const struct lom_e
         out->color[0].w = texel.w;
 }
 
-static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
-                  lom_float3 normal)
+LOM_INLINE struct lom_lit light_up(const lom_varyings *in, const struct lom_entity_uniforms *entity, lom_float3 normal)
 {
     const struct lom_material_uniform *m = &entity->material;
     struct lom_lit lit;
@@ -113,6 +112,13 @@ static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_en
     } else {
         lit = lom_phong_light(&entity->view, m, load3(in, OFFSET), normal, lom_splat(1.0f));
     }
+    return lit;
+}
+
+static void shade(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                  lom_float3 normal)
+{
+    struct lom_lit lit = light_up(in, entity, normal);
     finish(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
 }
 
@@ -186,6 +192,113 @@ LOM_SHADER(lom_entity_point, point_vertex, phong_fragment, .attributes = 4, .var
 LOM_SHADER(lom_entity_disc, point_vertex, phong_fragment, .attributes = 4, .varyings = VARYINGS, .clip_distances = 1,
            .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1, .round = true,
            .uniforms_size = sizeof(struct lom_entity_uniforms))
+
+/* ---- what is transparent ---- */
+
+/* Both sides of a face are its front. */
+static lom_float3 turn_to_eye(const struct lom_view_uniform *view, lom_float3 normal, lom_float3 offset)
+{
+    lom_mask away = lom_dot3(normal, lom_to_eye(&view->eye, offset)) < 0.0f;
+    return lom_scale3(normal, lom_select(away, lom_splat(-1.0f), lom_splat(1.0f)));
+}
+
+static void transparent_lit_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    struct corner c = transform(out, in, entity);
+    struct lom_lit lit =
+        lom_phong_light(&entity->view, &entity->material, c.offset,
+                        turn_to_eye(&entity->view, lom_normalize3(c.normal), c.offset), lom_splat(1.0f));
+    lom_float3 color = { in->attribute[3].x, in->attribute[3].y, in->attribute[3].z };
+    store3(out->varying + TEXTURED, lom_mul3(lit.textured, color));
+    store3(out->varying + HIGHLIGHT, lit.highlight);
+}
+
+/* How much of the surface there is, by the map of its opacity. */
+static lom_float find_presence(const struct lom_entity_uniforms *entity, const lom_varyings *in)
+{
+    const struct lom_material_uniform *m = &entity->material;
+    if (m->opacity_map == NULL)
+        return lom_splat(1.0f);
+    lom_float4 texel = lom_sample_gradient(m->opacity_map, in->varying[UV], in->varying[UV + 1], lom_dx(in, UV),
+                                           lom_dx(in, UV + 1), lom_dy(in, UV), lom_dy(in, UV + 1));
+    return m->opacity_is_in_alpha ? texel.w : texel.x;
+}
+
+/* To lie over what is behind it: its light times its opacity a, but for the highlight, which clear glass has whole; behind
+ * air that lets T c + S of a light c through, that is T (a textured + highlight) + a S. */
+static void finish_transparent(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                               lom_float3 textured, lom_float3 highlight)
+{
+    const struct lom_view_uniform *view = &entity->view;
+    const struct lom_material_uniform *m = &entity->material;
+    lom_float presence = find_presence(entity, in), opacity = presence * m->opacity;
+    lom_float3 offset = load3(in, OFFSET), skin = look_up(m->texture, in);
+    if (m->specular_map != NULL)
+        highlight = lom_mul3(highlight, look_up(m->specular_map, in));
+    lom_float3 whole = highlight;
+    if (m->emits)
+        whole = lom_add3(whole, lom_mul3(lom_uniform3(m->emissive), look_up(m->emissive_map, in)));
+    lom_float3 color = lom_add3(lom_scale3(lom_mul3(textured, skin), opacity), lom_scale3(whole, presence));
+    LOM_NAME_VALUE(textured);
+    LOM_NAME_VALUE(highlight);
+    LOM_NAME_AS(albedo, skin);
+    LOM_NAME_VALUE(opacity);
+    LOM_NAME_VALUE(color);
+    lom_float3 seen = lom_apply_haze(&view->haze, &view->eye, view->light.to_light, offset, color);
+    lom_float3 air = lom_apply_haze(&view->haze, &view->eye, view->light.to_light, offset, lom_splat3(0, 0, 0));
+    seen = lom_sub3(seen, lom_scale3(air, 1.0f - opacity));
+    out->color[0] = (lom_float4){ seen.x, seen.y, seen.z, opacity };
+}
+
+static void shade_transparent(lom_fragment *out, const lom_varyings *in, const struct lom_entity_uniforms *entity,
+                              lom_float3 normal)
+{
+    struct lom_lit lit = light_up(in, entity, normal);
+    finish_transparent(out, in, entity, lom_mul3(lit.textured, load3(in, COLOR)), lit.highlight);
+}
+
+static void transparent_phong_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    lom_float3 normal = lom_normalize3(load3(in, NORMAL));
+    shade_transparent(out, in, entity, turn_to_eye(&entity->view, normal, load3(in, OFFSET)));
+}
+
+static void transparent_bumped_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    lom_float3 normal = turn_to_eye(&entity->view, lom_normalize3(load3(in, NORMAL)), load3(in, OFFSET));
+    shade_transparent(out, in, entity, perturb(in, entity->material.normal_map, normal));
+}
+
+static void transparent_flat_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_entity_uniforms *entity = uniforms;
+    lom_float3 normal = lom_face_normal(in, OFFSET, load3(in, NORMAL));
+    shade_transparent(out, in, entity, turn_to_eye(&entity->view, normal, load3(in, OFFSET)));
+}
+
+static void transparent_gouraud_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    finish_transparent(out, in, uniforms, load3(in, TEXTURED), load3(in, HIGHLIGHT));
+}
+
+LOM_SHADER(lom_transparent_phong, vertex, transparent_phong_fragment, .attributes = 4, .varyings = VARYINGS,
+           .clip_distances = 1, .reads = LOM_VARYINGS(0, VARYINGS), .differentiates = LOM_VARYINGS(UV, 2), .colors = 1,
+           .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_transparent_bumped, vertex, transparent_bumped_fragment, .attributes = 4, .varyings = VARYINGS,
+           .clip_distances = 1, .reads = LOM_VARYINGS(0, VARYINGS),
+           .differentiates = LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3), .colors = 1,
+           .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_transparent_flat, vertex, transparent_flat_fragment, .attributes = 4, .varyings = VARYINGS,
+           .clip_distances = 1, .reads = LOM_VARYINGS(0, VARYINGS),
+           .differentiates = LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3), .colors = 1,
+           .uniforms_size = sizeof(struct lom_entity_uniforms))
+LOM_SHADER(lom_transparent_gouraud, transparent_lit_vertex, transparent_gouraud_fragment, .attributes = 4,
+           .varyings = LIT_VARYINGS, .clip_distances = 1,
+           .reads = LOM_VARYINGS(TEXTURED, 6) | LOM_VARYINGS(UV, 2) | LOM_VARYINGS(OFFSET, 3),
+           .differentiates = LOM_VARYINGS(UV, 2), .colors = 1, .uniforms_size = sizeof(struct lom_entity_uniforms))
 
 static void caster_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {

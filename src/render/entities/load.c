@@ -21,11 +21,14 @@ static bool load_material(lom_renderer *renderer, const struct lom_world_materia
     round3(out->specular, from->specular);
     round3(out->emissive, from->emissive);
     out->shininess = (float)from->shininess;
+    out->opacity = (float)from->opacity;
+    out->opacity_is_in_alpha = from->opacity_is_in_alpha;
     out->emits = out->emissive[0] != 0 || out->emissive[1] != 0 || out->emissive[2] != 0;
     return load_map(renderer, from->texture, true, &out->texture, error) &&
            load_map(renderer, from->emissive_map, true, &out->emissive_map, error) &&
            load_map(renderer, from->specular_map, true, &out->specular_map, error) &&
            load_map(renderer, from->gloss_map, false, &out->gloss_map, error) &&
+           load_map(renderer, from->opacity_map, false, &out->opacity_map, error) &&
            load_map(renderer, from->normal_map, false, &out->normal_map, error);
 }
 
@@ -62,11 +65,14 @@ bool lom_load_entities(lom_renderer *renderer, lom_error *error)
     const struct lom_world *world = renderer->world;
     struct lom_drawn_entities *entities = &renderer->entities;
     entities->items = lom_allocate(world->entity_count, sizeof *entities->items, error);
+    entities->order = lom_allocate(2 * world->entity_count, sizeof *entities->order, error);
+    if (entities->order == NULL)
+        return false;
     for (size_t i = 0; entities->items != NULL && i < world->entity_count; i++) {
         struct lom_drawn_entity *entity = &entities->items[entities->count++];
         entity->source = &world->entities[i];
         entity->at = &renderer->moment.placements[i];
-        if (!load_parts(renderer, entity, error))
+        if (!load_parts(renderer, entity, error) || !lom_list_transparent(entity, error))
             return false;
         if (world->scene->quality.wireframe != LOM_WIREFRAME_OFF && !find_edges(entities, entity, error))
             return false;
@@ -84,10 +90,13 @@ static void free_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
         lom_drop_texture(renderer, m->specular_map);
         lom_drop_texture(renderer, m->gloss_map);
         lom_drop_texture(renderer, m->normal_map);
+        lom_drop_texture(renderer, m->opacity_map);
     }
     lom_release(entity->materials);
     if (!entity->shares_edges)
         lom_release(entity->edges);
+    lom_release(entity->transparent.triangles);
+    lom_release(entity->transparent.indices);
 }
 
 void lom_free_entities(lom_renderer *renderer)
@@ -95,6 +104,7 @@ void lom_free_entities(lom_renderer *renderer)
     for (size_t i = 0; i < renderer->entities.count; i++)
         free_entity(renderer, &renderer->entities.items[i]);
     lom_release(renderer->entities.items);
+    lom_release(renderer->entities.order);
     lom_drop_entity_shadows(renderer);
 }
 

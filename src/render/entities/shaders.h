@@ -36,6 +36,8 @@ extern const lom_shader lom_entity_bumped;                 /* lom_entity_phong w
 extern const lom_shader lom_entity_point, lom_entity_disc; /* of points, with light at each of them */
 extern const lom_shader lom_caster_shader;                 /* depth alone */
 extern const lom_shader lom_cut_caster_shader;             /* the same where alpha is 1/2 or more */
+/* What is transparent: both sides of a face, over what is behind it (its light is multiplied by its opacity). */
+extern const lom_shader lom_transparent_phong, lom_transparent_gouraud, lom_transparent_flat, lom_transparent_bumped;
 
 extern const lom_shader lom_normal_shader; /* the normals of vertices, with lom_normal_lines */
 extern const lom_geometry lom_normal_lines;

@@ -90,12 +90,13 @@ static struct views find_views(const struct frame *f)
     return v;
 }
 
-/* Whether an entity's shadow may be seen. */
+/* Whether an entity's shadow may be seen. What is transparent throws none. */
 static bool casts(const struct lom_drawn_entity *entity, const struct views *views, lom_vec3 to_light,
                   const lom_box *all)
 {
     lom_box volume = shadow_volume(entity->at->bounds, to_light, all);
-    for (int i = 0; i < views->count && !entity->source->is_hidden; i++)
+    bool throws = !entity->source->is_hidden && entity->transparent.count < entity->source->mesh->index_count / 3;
+    for (int i = 0; i < views->count && throws; i++)
         if (lom_box_visibility(&views->frustum[i], volume) != LOM_OUTSIDE)
             return true;
     return false;

@@ -153,7 +153,8 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     lom_draw_scene(r, &part);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
     size_t seen;
-    return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error));
+    return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error)) &&
+           lom_draw_transparent_over(f, &part, pass);
 }
 
 bool lom_skip_water(struct frame *f, const char *reason)
@@ -166,6 +167,9 @@ bool lom_skip_water(struct frame *f, const char *reason)
 
 bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface)
 {
+    if (!lom_draw_transparent_beyond(f))
+        return false;
+    f->shows_water = true;
     lom_step *step = lom_add_step(f, "water", true, "%s", text);
     step->width = f->crop.width;
     step->height = f->crop.height;
