@@ -29,6 +29,10 @@ static const char surf[] = "[surf]\nheight = 0.3\nperiod = 2\n";
 static const char shallow[] = "[shallow]\nsize = 16\ncells = 12\n[[shallow.spring]]\nposition = [0, 0]\nrate = 3\n"
                               "[[shallow.body]]\nposition = [-2, 2]\nhalf = [2, 1]\nheading = 30\n";
 
+static const char lamps[] =
+    "[[lamp]]\nposition = [0, 3, 2]\nrange = 7\n[[lamp.key]]\ntime = 0\n[[lamp.key]]\ntime = 1\n"
+    "position = [2, 3, 2]\n[[lamp]]\ndirection = [0, -1, 1]\n";
+
 static const struct frame_scene {
     const char *name;
     const char *tables[8];
@@ -82,6 +86,19 @@ static const struct frame_scene {
       "[water]\nnormal_map = 'normal.png'\n[quality]\nwater = 'planar'\n",
       "output.samples=4",
       150 },
+    { "lamps and maps of materials, heights too",
+      { camera, land, lamps },
+      "[[entity]]\nmesh = 'box.obj'\n[entity.material]\nemissive = 1\nemissive_map = 'color.png'\nspecular_map = "
+      "'color.png'\ngloss_map = 'color.png'\nnormal_map = 'height.png'\n[entity.back]\nnormal_map = 'normal.png'\n",
+      NULL,
+      60 },
+    { "the reference of lamps and maps of materials",
+      { camera, land, lamps },
+      "[[entity]]\nmesh = 'box.obj'\n[entity.material]\nnormal_map = 'height.png'\ngloss_map = "
+      "'color.png'\n[entity.back]\n"
+      "emissive_map = 'color.png'\n[quality]\nwater = 'reference'\n[quality.reference]\nsamples = 1\n",
+      NULL,
+      60 },
     { "tinted water", { camera, land, "[water]\n" }, "[quality]\nwater = 'tinted'\n", "output.format='rgb32f'", 50 },
     { "the reference of a sea, surf, spray and clouds",
       { camera, land, clouds, "[water]\nsize = 60\n", sea, surf },
