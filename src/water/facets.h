@@ -1,5 +1,6 @@
-/* Rough water, over lanes (Cox and Munk 1954): slopes too small to be seen are normally distributed about the mean slope
- * with the covariance of wave_lanes.h. In: a point of the surface. Out: what such facets mirror of the scene and of the sun. */
+/* Rough water, over lanes (Cox and Munk 1954): slopes too small to be seen are normally distributed about the mean
+ * slope with the covariance of wave_lanes.h. In: a point of the surface. Out: what such facets mirror of the scene and
+ * of the sun. */
 #ifndef LOM_WATER_FACETS_H
 #define LOM_WATER_FACETS_H
 
@@ -99,8 +100,8 @@ LOM_INLINE lom_float lom_second_share(const struct lom_surface_uniforms *u, lom_
 }
 
 /* A light in the facets, over its colour: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the
- * light to the eye (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour. False:
- * there is none. */
+ * light to the eye (Ross, Dion, Potvin 2005; Bruneton, Neyret, Holzschuch 2010), E = pi times the light's colour.
+ * False: there is none. */
 LOM_INLINE bool lom_facets_mirror(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
                                   lom_float3 to_light, lom_float *radiance)
 {

@@ -1,5 +1,5 @@
-/* Foam on the surface of water, over lanes: what broke (wave_lanes.h), and a band along the shore by the depth of the water.
- * In: a point of the surface, what lies behind it. Out: how much of it foam covers, and the light of that. */
+/* Foam on the surface of water, over lanes: what broke (wave_lanes.h), and a band along the shore by the depth of the
+ * water. In: a point of the surface, what lies behind it. Out: how much of it foam covers, and the light of that. */
 #ifndef LOM_WATER_FOAM_COVER_H
 #define LOM_WATER_FOAM_COVER_H
 
@@ -17,8 +17,8 @@ struct lom_depths {
     lom_float middle, range;
 };
 
-/* The depth of a plane is linear in the window, so between texels it is that of the bed; where the four texels are not of one
- * piece, the nearest. */
+/* The depth of a plane is linear in the window, so between texels it is that of the bed; where the four texels are not
+ * of one piece, the nearest. */
 LOM_INLINE struct lom_depths lom_water_depths(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
                                               const struct lom_footprint *f)
 {

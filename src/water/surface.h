@@ -1,5 +1,5 @@
-/* The surface of water with waves: what its shaders and draws need. Three geometries share one light (surface_radiance.h):
- * two triangles, a mesh whose density follows the screen, and a ray for each pixel. */
+/* The surface of water with waves: what its shaders and draws need. Three geometries share one light
+ * (surface_radiance.h): two triangles, a mesh whose density follows the screen, and a ray for each pixel. */
 #ifndef LOM_WATER_SURFACE_H
 #define LOM_WATER_SURFACE_H
 
@@ -107,8 +107,8 @@ struct lom_polar_mesh {
 
 /* Fills a mesh (zeros at first); memory is kept from frame to frame. */
 bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc, lom_error *error);
-/* No triangle between rings before this one can be seen, wherever within their bounds waves move it: those below and behind
- * the view, which are many where it looks far. The frustum is that of places less the eye. */
+/* No triangle between rings before this one can be seen, wherever within their bounds waves move it: those below and
+ * behind the view, which are many where it looks far. The frustum is that of places less the eye. */
 int lom_first_seen_ring(const struct lom_polar_mesh *mesh, const struct lom_polar_mesh_desc *desc,
                         const lom_frustum *frustum);
 void lom_free_polar_mesh(struct lom_polar_mesh *mesh);

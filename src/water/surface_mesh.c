@@ -5,8 +5,9 @@
  * ring. Between rings they are as far, times 1 + (d / flat)^2: at the distance `flat` waves are a pixel high, and
  * beyond it only their shading shows.
  *
- * The quad is covered exactly: a column is the part of its ray that lies in the quad, whose rings beyond its ends are at
- * them, and one column goes through each corner, so an edge of the quad is one of the mesh, however far apart rings are. */
+ * The quad is covered exactly: a column is the part of its ray that lies in the quad, whose rings beyond its ends are
+ * at them, and one column goes through each corner, so an edge of the quad is one of the mesh, however far apart rings
+ * are. */
 #include "base/numbers.h"
 #include "water/surface.h"
 
@@ -285,8 +286,8 @@ bool lom_fill_polar_mesh(struct lom_polar_mesh *mesh, const struct lom_polar_mes
     return true;
 }
 
-/* The points of a disc about the apex, moved by waves as far as they can, lie on the outer side of a plane where the farthest
- * of them does, by more than floats round (lom_box_visibility). */
+/* The points of a disc about the apex, moved by waves as far as they can, lie on the outer side of a plane where the
+ * farthest of them does, by more than floats round (lom_box_visibility). */
 static bool is_outside(const lom_frustum *frustum, int plane, const struct lom_polar_mesh *mesh,
                        const struct lom_polar_mesh_desc *desc, double radius)
 {

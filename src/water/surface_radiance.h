@@ -38,9 +38,9 @@ struct lom_blur {
     lom_mask alone; /* one texel, unfiltered */
 };
 
-/* Facets whose slopes vary by s turn what they mirror by 2 s up and down, and less sideways where the eye looks along the
- * surface: a blur that is wider than the levels go is drawn out upright. Of parallel rays it is as much of the mirrored
- * ray's length. */
+/* Facets whose slopes vary by s turn what they mirror by 2 s up and down, and less sideways where the eye looks along
+ * the surface: a blur that is wider than the levels go is drawn out upright. Of parallel rays it is as much of the
+ * mirrored ray's length. */
 LOM_INLINE struct lom_blur lom_blur_of(const struct lom_surface_uniforms *u, lom_float variance, lom_float length)
 {
     const float widest = (float)(1 << LOM_BLUR_LEVELS);
@@ -145,8 +145,8 @@ LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const st
     return hidden;
 }
 
-/* The blur at a place in a picture. It does not reach beyond the place that a level surface mirrors, on whose other side
- * may be the shore's edge, which no facet shows; and there is as little of it as keeps out what is nearer than the
+/* The blur at a place in a picture. It does not reach beyond the place that a level surface mirrors, on whose other
+ * side may be the shore's edge, which no facet shows; and there is as little of it as keeps out what is nearer than the
  * surface, which would bleed into what is mirrored beyond. */
 LOM_INLINE struct lom_blur lom_clear_blur(const struct lom_surface_uniforms *u,
                                           const struct lom_picture_uniform *picture, const struct lom_surface_point *p,
@@ -186,8 +186,8 @@ LOM_INLINE lom_float4 lom_blurred(const struct lom_surface_uniforms *u, const st
     return sum;
 }
 
-/* What lies beyond the edge of a picture is not known. Under water, where the bed or the shore's rim is everywhere, what is
- * as far within stands for it; above, what is at the edge, mostly sky: no boat is seen twice. */
+/* What lies beyond the edge of a picture is not known. Under water, where the bed or the shore's rim is everywhere,
+ * what is as far within stands for it; above, what is at the edge, mostly sky: no boat is seen twice. */
 LOM_INLINE lom_float lom_onto_picture(const struct lom_surface_uniforms *u, lom_float s)
 {
     return u->side < 0 ? 1.0f - lom_abs(1.0f - lom_abs(s)) : s;

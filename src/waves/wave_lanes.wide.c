@@ -18,8 +18,8 @@ static lom_float phase_change(const struct lom_trochoid_uniform *t, const struct
     return lom_max(lom_abs(t->kx * f->ax + t->kz * f->az), lom_abs(t->kx * f->bx + t->kz * f->bz));
 }
 
-/* A trochoid at a rest position: what a footprint leaves of it, and the sine and cosine of its angle times that; they are
- * found where anything is left. */
+/* A trochoid at a rest position: what a footprint leaves of it, and the sine and cosine of its angle times that; they
+ * are found where anything is left. */
 struct trochoid {
     lom_float weight, sine, cosine;
     bool is_seen;
@@ -158,8 +158,8 @@ struct moments {
     lom_float xx[LOM_FOAM_MOMENTS], zz[LOM_FOAM_MOMENTS], xz[LOM_FOAM_MOMENTS];
 };
 
-/* cos(angle + turn) = cos angle cos turn - sin angle sin turn, and the turns are the same everywhere: no cosine of its own is
- * found for a moment. The four roundings leave it within 2^-22 of the exact one. */
+/* cos(angle + turn) = cos angle cos turn - sin angle sin turn, and the turns are the same everywhere: no cosine of its
+ * own is found for a moment. The four roundings leave it within 2^-22 of the exact one. */
 static void add_trochoid_moments(const struct lom_trochoid_uniform *t, const struct trochoid *found,
                                  struct moments *past)
 {

@@ -1,5 +1,6 @@
 /* Proves the foam of a shore at every width: where a pixel holds one depth it is that of the depth, where it holds more
- * the mean over them; of a shore that is narrower than a pixel it is the shore's share, wherever in the pixel that lies. */
+ * the mean over them; of a shore that is narrower than a pixel it is the shore's share, wherever in the pixel that
+ * lies. */
 #include "check.h"
 
 #include "water/foam_cover.h"

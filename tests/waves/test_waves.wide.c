@@ -1,5 +1,6 @@
 /* Proves of the surface of trochoids at every width: slopes are the derivatives of the displacement, crests never loop,
- * both are the same found together or apart, what a filter takes from the slopes it adds to their variance, phases stay exact after years, and bounds hold. */
+ * both are the same found together or apart, what a filter takes from the slopes it adds to their variance, phases stay
+ * exact after years, and bounds hold. */
 #include "check.h"
 
 #include "water/surface.h"
@@ -260,8 +261,8 @@ static void find_end(const struct lom_polar_mesh *mesh, int column, float radius
     out[1] = mesh->apex[1] + (double)radius * mesh->sine[column];
 }
 
-/* Rings of calm water are kilometres apart. The outermost one is the edge of the quad all the same, corners and all: also
- * halfway between two columns. So is the innermost one where the eye is outside of the quad. */
+/* Rings of calm water are kilometres apart. The outermost one is the edge of the quad all the same, corners and all:
+ * also halfway between two columns. So is the innermost one where the eye is outside of the quad. */
 static void the_outline_is_that_of_the_quad(void)
 {
     static const double quads[][4] = {
@@ -299,8 +300,8 @@ static void the_outline_is_that_of_the_quad(void)
     lom_free_polar_mesh(&mesh);
 }
 
-/* Rings that are not submitted: no point of theirs, at any height and shift of the waves, is in the view; many are left out
- * of a view of the horizon, none of one that sees what is below the eye. */
+/* Rings that are not submitted: no point of theirs, at any height and shift of the waves, is in the view; many are left
+ * out of a view of the horizon, none of one that sees what is below the eye. */
 static void rings_that_are_left_out_are_not_seen(void)
 {
     static const double pitches[] = { 0.1, 0, -0.2, -0.6, -1.5 };

@@ -1,6 +1,6 @@
-/* The picture of the ground from above: the base, all layers and the detail map composed, a few texels a quad of the height
- * map. In: the ground and its maps. Out: a texture with its levels of detail, from which distant ground is shaded by one
- * lookup. Invariant: it follows from the scene alone, not from a frame's camera. */
+/* The picture of the ground from above: the base, all layers and the detail map composed, a few texels a quad of the
+ * height map. In: the ground and its maps. Out: a texture with its levels of detail, from which distant ground is
+ * shaded by one lookup. Invariant: it follows from the scene alone, not from a frame's camera. */
 #include "base/numbers.h"
 #include "pipeline/check_device.h"
 #include "render/frame.h"

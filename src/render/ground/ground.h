@@ -91,11 +91,11 @@ void lom_free_ground_maps(lom_renderer *renderer);
 /* The shadow is cast, the layers are composed anew by the next frame. */
 void lom_drop_ground_shadow(lom_renderer *renderer);
 void lom_drop_composed_ground(lom_renderer *renderer);
-/* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels are chosen after. */
+/* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels come after. */
 bool lom_compose_ground(struct frame *f, lom_error *error);
 
-/* The triangles of the i-th block from near to far: their attribute 0 and indices, the block's number; NULL where it is out
- * of view (culler NULL: nothing is). */
+/* The triangles of the i-th block from near to far: their attribute 0 and indices, the block's number; NULL where it is
+ * out of view (culler NULL: nothing is). */
 const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
                                                       const struct lom_culler *culler, lom_draw_desc *draw,
                                                       uint32_t *number);
@@ -105,7 +105,7 @@ bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *
 void lom_set_ground_light(struct lom_light_uniform *light, const lom_renderer *renderer, lom_vec3 eye);
 
 /* The terrain of a map whose vertices have these heights over the base, with the dials ambient_occlusion and mipmaps;
- * `vertex_texture` belongs to the device, heights to the caller. False on failure; freed with lom_free_ground_blocks. */
+ * `vertex_texture` belongs to the device, heights to the caller. False on failure; freed by lom_free_ground_blocks. */
 bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *terrain, const lom_image *map,
                             const float *heights, const lom_quality *quality, lom_device *device, lom_error *error);
 /* Texture coordinates of the textures with a texel a vertex are (x, z) scale + shift for places less the eye. */

@@ -1,5 +1,5 @@
-/* Terrain for drawing. In: the world's height map and the scene's pictures. Out: its blocks, and the textures that its shaders
- * look up. */
+/* Terrain for drawing. In: the world's height map and the scene's pictures. Out: its blocks, and the textures that its
+ * shaders look up. */
 #include "render/renderer.h"
 
 /* The mean over the coarsest level of a texture of colours; no texture is white. */

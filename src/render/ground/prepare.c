@@ -1,6 +1,6 @@
 /* Terrain before anything of a frame is drawn. In: the frame's camera and sun. Out: every block's level of detail, the
- * same for all passes, the picture of all layers, and the shadow that the terrain throws. Invariant: they follow from the
- * whole frame. */
+ * same for all passes, the picture of all layers, and the shadow that the terrain throws. Invariant: they follow from
+ * the whole frame. */
 #include "base/numbers.h"
 #include "render/frame.h"
 

@@ -1,6 +1,6 @@
 /* The shaders of terrain: a base texture and layers painted over it by height and slope, with Phong's reflection at
- * three shading frequencies. Of a packet no layer is sampled that none of its fragments shows, and nothing below a layer
- * that covers all of them. */
+ * three shading frequencies. Of a packet no layer is sampled that none of its fragments shows, and nothing below a
+ * layer that covers all of them. */
 #include "render/ground/shaders.h"
 #include "shading/phong.h"
 
@@ -125,7 +125,8 @@ LOM_INLINE lom_float ragged(const struct lom_layer_uniform *layer, lom_float wei
     return lom_saturate(weight + 4.0f * weight * (1.0f - weight) * gain);
 }
 
-/* How much of each fragment a layer covers. Heights are looked at first: most layers of a packet are out of their range. */
+/* How much of each fragment a layer covers. Heights are looked at first: most layers of a packet are out of their
+ * range. */
 static lom_float layer_weight(const struct lom_layer_uniform *layer, lom_float height, lom_float slope)
 {
     lom_float weight = range_weight(height, layer->from_height, layer->to_height, layer->blend);
