@@ -355,16 +355,23 @@ typedef enum lom_clip_range {
     LOM_CLIP_MINUS_W_TO_W   /* -w <= z <= w, depth = (z / w + 1) / 2 (OpenGL) */
 } lom_clip_range;
 
+/* What of a texture a pass draws into: a level of a 2D texture, of a layer of an array, or of a face of a cube (+x,
+ * -x, +y, -y, +z, -z). */
+typedef struct lom_slice {
+    int level, layer;
+} lom_slice;
+
 typedef struct lom_pass_desc {
-    lom_texture
-        *color[LOM_MAX_COLORS];    /* 2D textures of one size, made without pixels; NULL from the first unused one on */
-    lom_texture *depth;            /* depth format, same size; NULL: no depth test */
-    int samples;                   /* of a pixel, lom_sample_position; 0: 1 */
-    bool per_sample;               /* of all its draws */
-    int frame_width, frame_height; /* the whole frame; 0: the attachments' size */
-    int origin_x, origin_y;        /* the frame's pixel that the attachments' pixel (0, 0) is */
-    lom_rect viewport;             /* of the frame; empty: the whole frame; at most 32768 x 32768 */
-    lom_rect scissor;              /* of the frame: pixels outside keep their clear value (or their content) */
+    lom_texture *color
+        [LOM_MAX_COLORS]; /* 2D textures, arrays or cubes, made without pixels; NULL from the first unused one on */
+    lom_texture *depth;   /* depth format; NULL: no depth test */
+    lom_slice color_slice[LOM_MAX_COLORS], depth_slice; /* all of one size; zero: level 0 of the first layer */
+    int samples;                                        /* of a pixel, lom_sample_position; 0: 1 */
+    bool per_sample;                                    /* of all its draws */
+    int frame_width, frame_height;                      /* the whole frame; 0: the attachments' size */
+    int origin_x, origin_y;                             /* the frame's pixel that the attachments' pixel (0, 0) is */
+    lom_rect viewport; /* of the frame; empty: the whole frame; at most 32768 x 32768 */
+    lom_rect scissor;  /* of the frame: pixels outside keep their clear value (or their content) */
     lom_clip_range clip_range;
     float min_depth, max_depth; /* both 0: 0 and 1 */
     lom_load_action color_load[LOM_MAX_COLORS], depth_load, stencil_load;
@@ -377,8 +384,9 @@ typedef struct lom_pass_desc {
 
 /* Begins a pass, ended by lom_end_pass; one at a time a device. A texture of another device is no attachment of it. */
 void lom_begin_pass(lom_device *device, const lom_pass_desc *desc);
-/* Runs the pass: when it returns the attachments are complete and their mip levels built. False when the device holds
- * an error; attachments are then unspecified. */
+/* Runs the pass: when it returns the attachments are complete, and of those drawn into at level 0 the other levels
+ * of the same layer are built (LOM_MIPS_ALL); a pass into another level changes that level alone. False when the
+ * device holds an error; attachments are then unspecified. */
 bool lom_end_pass(lom_device *device);
 
 /* ---- draws ---- */

@@ -61,6 +61,8 @@ bool lom_find_runs(lom_device *device, struct lom_draw *draw);
 lom_rect lom_intersect_rects(lom_rect a, lom_rect b);
 /* lom_finish_texture of an attachment, by all workers. */
 void lom_finish_attachment(lom_device *device, lom_texture *texture);
+/* The same where a pass has drawn into a slice of it alone. */
+void lom_finish_slice(lom_device *device, lom_texture *texture, lom_slice slice);
 /* Runs every recorded draw into tile memory and resolves it. */
 bool lom_run_pass(lom_device *device);
 

@@ -46,3 +46,27 @@ void lom_finish_attachment(lom_device *device, lom_texture *texture)
         lom_fill_rows(texture, i, 0);
     }
 }
+
+/* A level of a layer, and the levels that are made of it: in a cube their aprons are those of all faces. */
+void lom_finish_slice(lom_device *device, lom_texture *texture, lom_slice slice)
+{
+    if (texture->kind == LOM_TEXTURE_2D && slice.level == 0) {
+        lom_finish_attachment(device, texture);
+        return;
+    }
+    if (texture->decoded != NULL) {
+        lom_finish_texture(texture);
+        return;
+    }
+    const bool builds = slice.level == 0 && texture->builds_mips;
+    for (int i = slice.level; i < (builds ? texture->level_count : slice.level + 1); i++) {
+        if (i > slice.level)
+            lom_shrink_rows(texture, i, slice.layer, 0, texture->level[i].height);
+        if (texture->kind == LOM_TEXTURE_CUBE) {
+            lom_fill_apron(texture, i);
+            continue;
+        }
+        lom_fill_columns(texture, i, slice.layer, 0, texture->level[i].height);
+        lom_fill_rows(texture, i, slice.layer);
+    }
+}

@@ -22,22 +22,45 @@ lom_rect lom_intersect_rects(lom_rect a, lom_rect b)
     return (lom_rect){ (int)x0, (int)y0, x1 > x0 ? (int)(x1 - x0) : 0, y1 > y0 ? (int)(y1 - y0) : 0 };
 }
 
-static bool check_attachment(lom_device *device, const lom_texture *texture, bool depth)
+/* Whether a pass can draw there: a texture of the kind has it, and no samples are kept beside another level. */
+static bool check_slice(lom_device *device, const lom_texture *texture, lom_slice slice)
+{
+    if (slice.level < 0 || slice.level >= texture->level_count || slice.layer < 0 || slice.layer >= texture->layers)
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "A pass's attachment is level %d of layer %d of a texture that has %d levels and %d layers.",
+                        slice.level, slice.layer, texture->level_count, texture->layers);
+    return slice.level == 0 || (texture->samples <= 1 && texture->stencil == NULL) ||
+           lom_fail(&device->error, LOM_ERROR_USAGE,
+                    "A texture that keeps samples, or has a stencil, is drawn into at level 0 alone, not at %d.",
+                    slice.level);
+}
+
+static bool is_target_kind(const lom_texture *texture)
+{
+    return texture->kind == LOM_TEXTURE_2D || texture->kind == LOM_TEXTURE_2D_ARRAY ||
+           texture->kind == LOM_TEXTURE_CUBE;
+}
+
+static bool check_attachment(lom_device *device, const lom_texture *texture, lom_slice slice, bool depth)
 {
     struct lom_pass *pass = &device->pass;
     if (texture->owner != NULL && texture->owner != device)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's %s attachment is a texture of another device.",
                         depth ? "depth" : "colour");
-    if (texture->kind != LOM_TEXTURE_2D || lom_describe_format(texture->format)->is_depth != depth)
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's %s attachment is not a 2D texture of a %s format.",
+    if (!is_target_kind(texture) || lom_describe_format(texture->format)->is_depth != depth)
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "A pass's %s attachment is not a 2D texture, an array or a cube of a %s format.",
                         depth ? "depth" : "colour", depth ? "depth" : "colour");
+    if (!check_slice(device, texture, slice))
+        return false;
+    const lom_level *level = &texture->level[slice.level];
     if (pass->width == 0) {
-        pass->width = texture->level[0].width;
-        pass->height = texture->level[0].height;
+        pass->width = level->width;
+        pass->height = level->height;
     }
-    if (pass->width != texture->level[0].width || pass->height != texture->level[0].height)
+    if (pass->width != level->width || pass->height != level->height)
         return lom_fail(&device->error, LOM_ERROR_USAGE, "A pass's attachments have different sizes: %dx%d and %dx%d.",
-                        pass->width, pass->height, texture->level[0].width, texture->level[0].height);
+                        pass->width, pass->height, level->width, level->height);
     return true;
 }
 
@@ -68,9 +91,10 @@ static bool add_color(lom_device *device, int i)
     struct lom_pass *pass = &device->pass;
     lom_texture *texture = pass->desc.color[i];
     struct lom_color_target *target = &pass->color[i];
-    if (!check_attachment(device, texture, false))
+    if (!check_attachment(device, texture, pass->desc.color_slice[i], false))
         return false;
     *target = (struct lom_color_target){ .texture = texture,
+                                         .slice = pass->desc.color_slice[i],
                                          .format = texture->format,
                                          .keep = pass->desc.color_load[i] == LOM_LOAD_KEEP };
     target->kind = texture->storage != LOM_STORAGE_RGBA8 ? COLOR_FLOAT : texture->srgb ? COLOR_SRGB8 : COLOR_UNORM8;
@@ -86,6 +110,7 @@ static void add_depth(struct lom_pass *pass)
     static const double scales[] = { [LOM_FORMAT_DEPTH16] = 65535, [LOM_FORMAT_DEPTH24] = 16777215 };
     pass->depth = pass->desc.depth;
     pass->has_stencil = pass->depth->stencil != NULL;
+    pass->depth_slice = pass->desc.depth_slice;
     lom_format format = pass->depth->format;
     pass->depth_scale = format == LOM_FORMAT_DEPTH32F ? 0 : scales[format];
     float clear = pass->desc.clear_depth > 0 ? pass->desc.clear_depth < 1 ? pass->desc.clear_depth : 1 : 0;
@@ -185,7 +210,7 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
         if (!add_color(device, i))
             return false;
     if (desc->depth != NULL) {
-        if (!check_attachment(device, desc->depth, true))
+        if (!check_attachment(device, desc->depth, desc->depth_slice, true))
             return false;
         add_depth(pass);
     }

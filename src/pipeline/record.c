@@ -198,12 +198,12 @@ static bool note_attachment(struct lom_recorder *r, const lom_texture *texture)
 static bool find_attachment(const struct lom_pass *pass, const struct record_watch *watch, int *attachment)
 {
     for (int i = 0; i < pass->colors; i++)
-        if (pass->color[i].texture == watch->desc.target) {
+        if (pass->color[i].texture == watch->desc.target && lom_is_first_slice(pass->color[i].slice)) {
             *attachment = i;
             return true;
         }
     *attachment = -1;
-    return pass->depth == watch->desc.target;
+    return pass->depth == watch->desc.target && lom_is_first_slice(pass->depth_slice);
 }
 
 static void begin_pixel(const struct lom_pass *pass, struct record_watch *watch, struct record_pixel *pixel)

@@ -53,21 +53,22 @@ static const struct lom_stages *stages_of(const struct lom_pass *pass)
 }
 
 /* Pixel (p->x0, y) of the tile in an attachment. */
-static void *row_of(lom_texture *texture, const struct part *p, int y)
+static void *row_of(lom_texture *texture, lom_slice slice, const struct part *p, int y)
 {
-    return lom_texel(texture, 0, p->x + p->x0, p->y + y, 0);
+    return lom_texel(texture, slice.level, p->x + p->x0, p->y + y, slice.layer);
 }
 
 /* The rectangle of an attachment that a part is, with words as they are. */
-static struct lom_rectangle rectangle_of(const struct lom_pass *pass, lom_texture *texture, const struct part *p)
+static struct lom_rectangle rectangle_of(const struct lom_pass *pass, lom_texture *texture, lom_slice slice,
+                                         const struct part *p)
 {
     struct lom_rectangle r = { .edge = pass->tile,
                                .x = p->x0,
                                .y = p->y0,
                                .width = p->x1 - p->x0,
                                .height = p->y1 - p->y0,
-                               .texels = row_of(texture, p, p->y0),
-                               .pitch = texture->level[0].pitch,
+                               .texels = row_of(texture, slice, p, p->y0),
+                               .pitch = texture->level[slice.level].pitch,
                                .keep = -1 };
     r.streams = pass->streams && ((uintptr_t)r.texels | r.pitch * sizeof *r.texels) % 64 == 0;
     return r;
@@ -75,7 +76,7 @@ static struct lom_rectangle rectangle_of(const struct lom_pass *pass, lom_textur
 
 static struct lom_rectangle depth_rectangle(const struct lom_pass *pass, const struct part *p)
 {
-    struct lom_rectangle r = rectangle_of(pass, pass->depth, p);
+    struct lom_rectangle r = rectangle_of(pass, pass->depth, pass->depth_slice, p);
     r.divisor = (float)pass->depth_scale;
     return r;
 }
@@ -83,7 +84,7 @@ static struct lom_rectangle depth_rectangle(const struct lom_pass *pass, const s
 /* Channels that the format lacks read as 0, a missing alpha as 1. */
 static struct lom_rectangle byte_rectangle(const struct lom_pass *pass, int i, const struct part *p)
 {
-    struct lom_rectangle r = rectangle_of(pass, pass->color[i].texture, p);
+    struct lom_rectangle r = rectangle_of(pass, pass->color[i].texture, pass->color[i].slice, p);
     int channels = lom_describe_format(pass->color[i].format)->channels;
     if (channels < 4) {
         r.keep = (1 << 8 * channels) - 1;
@@ -105,17 +106,18 @@ static bool begins_blocks(const struct part *p, int y)
     return ((p->x0 | y) & 1) == 0 && y + 1 < p->y1;
 }
 
-static void load_words(const struct lom_pass *pass, lom_texture *texture, const struct part *p, uint32_t *memory)
+static void load_words(const struct lom_pass *pass, lom_texture *texture, lom_slice slice, const struct part *p,
+                       uint32_t *memory)
 {
     for (int y = p->y0; y < p->y1; y++) {
         uint32_t *to = memory + memory_index(pass->tile, 0, y);
-        const uint32_t *row = row_of(texture, p, y);
+        const uint32_t *row = row_of(texture, slice, p, y);
         if (!begins_blocks(p, y)) {
             fill_row(to, row, p->x0, p->x1);
             continue;
         }
         size_t blocks = (size_t)(p->x1 - p->x0) / 2, words = blocks * 2;
-        const uint32_t *lower = row_of(texture, p, ++y);
+        const uint32_t *lower = row_of(texture, slice, p, ++y);
         stages_of(pass)->join_rows(row, lower, blocks, to + p->x0 * 2);
         fill_row(to, row + words, p->x0 + (int)words, p->x1);
         fill_row(to + 2, lower + words, p->x0 + (int)words, p->x1);
@@ -123,11 +125,12 @@ static void load_words(const struct lom_pass *pass, lom_texture *texture, const 
 }
 
 /* Float planes of a tile from texels of one or four channels. */
-static void load_floats(const struct lom_pass *pass, lom_texture *texture, const struct part *p, float *memory)
+static void load_floats(const struct lom_pass *pass, const struct lom_color_target *target, const struct part *p,
+                        float *memory)
 {
-    size_t channels = texture->storage == LOM_STORAGE_R32F ? 1 : 4;
+    size_t channels = target->texture->storage == LOM_STORAGE_R32F ? 1 : 4;
     for (int y = p->y0; y < p->y1; y++) {
-        const float *texel = row_of(texture, p, y);
+        const float *texel = row_of(target->texture, target->slice, p, y);
         for (int x = p->x0; x < p->x1; x++, texel += channels) {
             float *planes = memory + memory_index(pass->tile, x, y);
             for (size_t c = 0; c < 4; c++)
@@ -150,7 +153,7 @@ static void clear_color(const struct lom_pass *pass, int i, void *memory)
 
 static void load_depth_texels(const struct lom_pass *pass, const struct part *p, float *memory)
 {
-    load_words(pass, pass->depth, p, (uint32_t *)(void *)memory);
+    load_words(pass, pass->depth, pass->depth_slice, p, (uint32_t *)(void *)memory);
     for (int y = p->y0; pass->depth_scale != 0 && y < p->y1; y++)
         for (int x = p->x0; x < p->x1; x++) {
             float *z = memory + memory_index(pass->tile, x, y);
@@ -171,9 +174,9 @@ void lom_load_color(const struct lom_pass *pass, int i, int number, void *memory
     struct part p = part_of(pass, number);
     clear_color(pass, i, memory);
     if (pass->color[i].keep && pass->color[i].kind == COLOR_FLOAT)
-        load_floats(pass, pass->color[i].texture, &p, memory);
+        load_floats(pass, &pass->color[i], &p, memory);
     else if (pass->color[i].keep)
-        load_words(pass, pass->color[i].texture, &p, memory);
+        load_words(pass, pass->color[i].texture, pass->color[i].slice, &p, memory);
 }
 
 void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
@@ -198,7 +201,7 @@ static void resolve_floats(const struct lom_pass *pass, int i, const struct part
     bool single = texture->storage == LOM_STORAGE_R32F;
     int channels = lom_describe_format(pass->color[i].format)->channels;
     for (int y = p->y0; y < p->y1; y++) {
-        float *texel = row_of(texture, p, y);
+        float *texel = row_of(texture, pass->color[i].slice, p, y);
         for (int x = p->x0; x < p->x1; x++, texel += single ? 1 : 4) {
             const float *planes = memory + memory_index(pass->tile, x, y);
             texel[0] = planes[0];

@@ -329,9 +329,9 @@ bool lom_run_pass(lom_device *device)
     count_work(device);
     lom_end_counting(device);
     for (int i = 0; i < pass->colors; i++)
-        lom_finish_attachment(device, pass->color[i].texture);
+        lom_finish_slice(device, pass->color[i].texture, pass->color[i].slice);
     if (pass->depth != NULL)
-        lom_finish_attachment(device, pass->depth);
+        lom_finish_slice(device, pass->depth, pass->depth_slice);
     if (pass->tallier != NULL && !lom_tally_end(device))
         return false;
     return pass->recorder == NULL || lom_record_end(device);

@@ -185,12 +185,19 @@ typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_c
 
 struct lom_color_target {
     lom_texture *texture;
+    lom_slice slice;
     lom_format format;
     lom_color_kind kind;
     float clear[4];
     uint32_t clear_bytes;
     bool keep;
 };
+
+/* What is watched or tallied of a texture. */
+static inline bool lom_is_first_slice(lom_slice slice)
+{
+    return slice.level == 0 && slice.layer == 0;
+}
 
 /* A sample's place from its pixel's centre, in 1/16 of a pixel. */
 struct lom_sample_offset {
@@ -207,6 +214,7 @@ struct lom_pass {
     int colors;
     struct lom_color_target color[LOM_MAX_COLORS];
     lom_texture *depth;
+    lom_slice depth_slice;
     double depth_scale; /* 65535, 16777215, or 0 for float depth */
     float clear_depth;  /* in tile units */
     int samples;        /* of a pixel */

@@ -75,7 +75,7 @@ void lom_tally_begin(lom_device *device)
     struct lom_tallier *t = device->tallier;
     struct lom_pass *pass = &device->pass;
     for (int i = 0; i < pass->colors; i++) {
-        if (pass->color[i].texture != t->desc.target)
+        if (pass->color[i].texture != t->desc.target || !lom_is_first_slice(pass->color[i].slice))
             continue;
         pass->tallier = t;
         pass->is_recorded |= !t->desc.clock;
