@@ -2,7 +2,7 @@
  * directions and triangles. A function of the whole frame alone, never of a crop.
  *
  * With h the eye's height and d the distance to a ring, vertices a cell apart on the screen are cell d apart on the
- * ring. Between rings they are as far, times 1 + (d / flat)^2: at the distance `flat` waves are a pixel high, and
+ * ring. Between rings they are as far, times 1 + (d / flattened)^2: at that distance waves are a pixel high, and
  * beyond it only their shading shows.
  *
  * The quad is covered exactly: a column is the part of its ray that lies in the quad, whose rings beyond its ends are
@@ -85,7 +85,7 @@ static void find_footprint(const struct lom_polar_mesh_desc *desc, const lom_vie
 }
 
 struct spacing {
-    double cell, height, flat, back, far;
+    double cell, height, flattened, back, far;
     double round; /* radius at which columns are a cell apart */
 };
 
@@ -93,7 +93,7 @@ static double step_at(const struct spacing *s, double radius)
 {
     double beyond = radius > s->back ? radius - s->back : 0;
     double d = lom_double_sqrt(beyond * beyond + s->height * s->height);
-    double share = d / s->flat;
+    double share = d / s->flattened;
     return s->cell * d * (1 + share * share);
 }
 
@@ -178,7 +178,7 @@ static bool surround_footprint(struct lom_polar_mesh *mesh, const struct lom_pol
     mesh->apex[0] = (low[0] + high[0]) / 2;
     mesh->apex[1] = (low[1] + high[1]) / 2;
     const double x = lom_larger(high[0] - low[0], 0) / 2, z = lom_larger(high[1] - low[1], 0) / 2;
-    *space = (struct spacing){ .cell = desc->cell * desc->pixel_angle, .height = 1, .flat = 1e300, .back = 1e300 };
+    *space = (struct spacing){ .cell = desc->cell * desc->pixel_angle, .height = 1, .flattened = 1e300, .back = 1e300 };
     space->round = space->far = lom_larger(lom_double_sqrt(x * x + z * z) + desc->reach, 2 * space->cell);
     return true;
 }
@@ -190,7 +190,7 @@ static void surround_eye(struct lom_polar_mesh *mesh, const struct lom_polar_mes
     double wave = lom_larger(desc->highest, -desc->lowest), height = -desc->level, near = desc->near_plane;
     *space = (struct spacing){ .cell = desc->cell * desc->pixel_angle,
                                .height = lom_larger(lom_larger(height < 0 ? -height : height, 0.3 * wave), 2 * near),
-                               .flat = lom_larger(wave, 0.01 * near) / desc->pixel_angle,
+                               .flattened = lom_larger(wave, 0.01 * near) / desc->pixel_angle,
                                .round = 1 };
     space->back = s->whole ? 0 : (desc->reach + wave + 5 * near) / lom_double_sin(s->half);
     mesh->apex[0] = -space->back * s->forward[0];
