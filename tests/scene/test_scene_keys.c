@@ -45,7 +45,7 @@ static void check_key(const lom_key_table *table, int index)
 
 static void check_table(const lom_key_table *table)
 {
-    CHECK(table->key_count <= 31 && table->text != NULL && table->text[strlen(table->text) - 1] == '.');
+    CHECK(table->key_count >= 1 && table->text != NULL && table->text[strlen(table->text) - 1] == '.');
     for (int i = 0; i < table->key_count; i++) {
         check_key(table, i);
         if (table->keys[i].table != NULL)

@@ -40,6 +40,13 @@ static struct lom_view_uniform view_from_above(const double size[2])
     return view;
 }
 
+void lom_drop_composed_ground(lom_renderer *renderer)
+{
+    if (renderer->ground.composed != NULL)
+        lom_release_texture(renderer->device, renderer->ground.composed);
+    renderer->ground.composed = NULL;
+}
+
 static bool compose(struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
@@ -55,7 +62,8 @@ static bool compose(struct frame *f, lom_error *error)
     struct lom_terrain_uniforms uniforms = lom_terrain_uniforms_of(r, &view, middle);
     uniforms.composed.map = NULL;
     lom_draw_ground_blocks(r, NULL, &(lom_draw_desc){ .shader = &lom_terrain_albedo, .uniforms = &uniforms });
-    lom_end_pass(r->device);
+    if (!lom_end_pass(r->device)) /* or abandoned: it is not composed */
+        lom_drop_composed_ground(r);
     return lom_check_device(r->device, error);
 }
 
@@ -73,11 +81,4 @@ bool lom_compose_ground(struct frame *f, lom_error *error)
         return true;
     }
     return compose(f, error);
-}
-
-void lom_drop_composed_ground(lom_renderer *renderer)
-{
-    if (renderer->ground.composed != NULL)
-        lom_release_texture(renderer->device, renderer->ground.composed);
-    renderer->ground.composed = NULL;
 }
