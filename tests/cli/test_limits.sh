@@ -32,7 +32,7 @@ END
 }
 
 small_program() {
-    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 5242880
+    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 6291456
 }
 
 lake_in_memory() {
