@@ -12,7 +12,7 @@ for run in '4 1' '4 5' '8 2' '8 3'; do
     [ "$other" = "$whole" ] || why="$run lanes, threads give $other, not $whole"
 done
 [ -n "$whole" ] || why='no hash'
-verdict lines_are_one_picture "$why"
+verdict lines_are_one_hash "$why"
 crops lines_of_crops
 
 # Black before white, 33x17 pixels: x and y of the world are pixels from the middle of pixel 16, 8 at the distance 17 / 2 / tan 30.

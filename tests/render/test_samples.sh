@@ -6,17 +6,7 @@
 . "$(dirname "$0")/render.sh"
 scene=assets/scenes/features/samples.toml
 draw() { "$lom" render $scene --size 160x90 --quiet "$@"; }
-one_picture() { # name: as one_hash, at the widths that are always built
-    whole=$(hash)
-    why=
-    for run in '4 1' '4 5' '8 2' '8 3'; do
-        other=$(hash --lanes "${run% *}" --threads "${run#* }")
-        [ "$other" = "$whole" ] || why="$run lanes, threads give $other, not $whole"
-    done
-    [ -n "$whole" ] || why='no hash'
-    verdict "$1" "$why"
-}
-one_picture samples_are_one_picture
+one_hash samples_are_one_picture
 crops samples_of_crops
 
 printf 'v 0 -9 0\nv 0 9 0\nv -9 9 0\nv -9 -9 0\nf 1 2 3 4\n' >"$folder/half.obj"
@@ -62,7 +52,7 @@ scene=assets/scenes/falls.toml
 draw() { "$lom" render $scene --size 160x90 --quiet --set output.samples=4 "$@"; }
 crops samples_of_crops_beneath_spray
 scene=assets/scenes/cove.toml
-one_picture samples_of_waves_are_one_picture
+one_hash samples_of_waves_are_one_picture
 
 why=
 for samples in 0 3 5 17 -4 2.5 many; do

@@ -6,19 +6,9 @@
 # with 2 and a sentence, before a file is written.
 . "$(dirname "$0")/render.sh"
 draw() { "$lom" render $scene --size 160x90 --quiet "$@"; }
-one_picture() { # name: as one_hash, at the widths that are always built
-    whole=$(hash)
-    why=
-    for run in '4 1' '4 5' '8 2' '8 3'; do
-        other=$(hash --lanes "${run% *}" --threads "${run#* }")
-        [ "$other" = "$whole" ] || why="$run lanes, threads give $other, not $whole"
-    done
-    [ -n "$whole" ] || why='no hash'
-    verdict "$1" "$why"
-}
 for name in tessellation normals bounce; do
     scene=assets/scenes/features/$name.toml
-    one_picture "${name}_is_one_picture"
+    one_hash "${name}_is_one_picture"
     crops "crops_of_$name"
 done
 scene=assets/scenes/features/bounce.toml

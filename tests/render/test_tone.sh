@@ -6,20 +6,10 @@
 . "$(dirname "$0")/render.sh"
 scene=assets/scenes/features/exposure.toml
 draw() { "$lom" render $scene --size 160x90 --quiet "$@"; }
-one_picture() { # name: as one_hash, at the widths that are always built
-    whole=$(hash)
-    why=
-    for run in '4 1' '4 5' '8 2' '8 3'; do
-        other=$(hash --lanes "${run% *}" --threads "${run#* }")
-        [ "$other" = "$whole" ] || why="$run lanes, threads give $other, not $whole"
-    done
-    [ -n "$whole" ] || why='no hash'
-    verdict "$1" "$why"
-}
 floats() { # the numbers of the PFM file, one a line, exactly enough to tell floats apart
     tail -n +4 "$1" | od -An -v -tf4 -w4
 }
-one_picture toned_pictures_are_one_picture
+one_hash toned_pictures_are_one_picture
 crops toned_crops
 
 why=
