@@ -34,4 +34,11 @@ static inline __attribute__((unused)) int lom_magnitude_int(int x)
     return x < 0 ? -x : x;
 }
 
+/* To floats, as uniforms hold colours and coefficients. */
+static inline __attribute__((unused)) void lom_round_three(float out[3], const double in[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)in[i];
+}
+
 #endif

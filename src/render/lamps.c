@@ -11,12 +11,6 @@
 /* As far as a float can be squared; nothing of a scene is. */
 static const double endless = 0x1p60;
 
-static void round3(float out[3], const double in[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = (float)in[i];
-}
-
 static struct lom_lamp_uniform lamp_uniform(const struct lom_placed_lamp *from, lom_vec3 eye)
 {
     const lom_lamp *lamp = from->lamp;
@@ -29,10 +23,10 @@ static struct lom_lamp_uniform lamp_uniform(const struct lom_placed_lamp *from, 
         u.direction[i] = (float)direction[i];
         u.place[i] = u.infinite ? -u.direction[i] : (float)place[i];
     }
-    round3(u.ambient, from->ambient);
-    round3(u.diffuse, from->diffuse);
-    round3(u.specular, from->specular);
-    round3(u.attenuation, lamp->attenuation);
+    lom_round_three(u.ambient, from->ambient);
+    lom_round_three(u.diffuse, from->diffuse);
+    lom_round_three(u.specular, from->specular);
+    lom_round_three(u.attenuation, lamp->attenuation);
     u.reach = (float)(from->reach < endless ? from->reach : endless);
     u.square_reach = u.reach * u.reach;
     u.inverse_fade = 4 / u.reach;

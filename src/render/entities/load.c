@@ -1,11 +1,7 @@
 /* Entities for drawing. In: the world's. Out: their materials, with textures. */
 #include "render/renderer.h"
 
-static void round3(float out[3], const double in[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = (float)in[i];
-}
+#include "base/numbers.h"
 
 static bool load_map(lom_renderer *renderer, const char *path, bool color, const lom_texture **out, lom_error *error)
 {
@@ -16,10 +12,10 @@ static bool load_map(lom_renderer *renderer, const char *path, bool color, const
 static bool load_material(lom_renderer *renderer, const struct lom_world_material *from,
                           struct lom_material_uniform *out, lom_error *error)
 {
-    round3(out->ambient, from->ambient);
-    round3(out->diffuse, from->diffuse);
-    round3(out->specular, from->specular);
-    round3(out->emissive, from->emissive);
+    lom_round_three(out->ambient, from->ambient);
+    lom_round_three(out->diffuse, from->diffuse);
+    lom_round_three(out->specular, from->specular);
+    lom_round_three(out->emissive, from->emissive);
     out->shininess = (float)from->shininess;
     out->opacity = (float)from->opacity;
     out->opacity_is_in_alpha = from->opacity_is_in_alpha;
