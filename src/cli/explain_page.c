@@ -4,6 +4,8 @@
 #include "explain_output.h"
 #include "page.h"
 
+#include "image/data_uri.h"
+
 static const char *const head_lines[] = {
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">",
     "<title>lom explain</title><style>",
@@ -93,24 +95,11 @@ static const char *const script_lines[] = {
     "picture.src=id('picture').textContent;",
 };
 
-static void print_base64(FILE *out, lom_bytes bytes)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < bytes.size; i += 3) {
-        uint32_t bits = 0;
-        size_t count = bytes.size - i < 3 ? bytes.size - i : 3;
-        for (size_t k = 0; k < 3; k++)
-            bits = bits << 8 | (k < count ? bytes.data[i + k] : 0);
-        for (size_t k = 0; k < 4; k++)
-            fputc(k <= count ? digits[bits >> (18 - 6 * k) & 63] : '=', out);
-    }
-}
-
 static void print_page(FILE *out, lom_bytes explanation, lom_bytes png)
 {
     lom_print_lines(out, head_lines, sizeof head_lines / sizeof head_lines[0]);
-    fputs("<script type=\"text/plain\" id=\"picture\">data:image/png;base64,", out);
-    print_base64(out, png);
+    fputs("<script type=\"text/plain\" id=\"picture\">", out);
+    lom_print_data_uri(out, png);
     fputs("</script>\n<script type=\"application/json\" id=\"data\">", out);
     lom_print_embedded(out, explanation);
     fputs("</script>\n<script>\n", out);
@@ -127,20 +116,9 @@ static lom_bytes print_explanation(const struct lom_explain_head *head, lom_erro
     return lom_end_page(&json, error);
 }
 
-/* Browsers show 8 and 16 bits. */
-static lom_bytes encode_picture(const lom_image *picture, lom_error *error)
-{
-    if (!lom_describe_format(picture->format)->is_float)
-        return lom_encode_image("png", picture, error);
-    lom_image *shown = lom_convert_image(picture, LOM_FORMAT_RGB8_SRGB, error);
-    lom_bytes png = shown != NULL ? lom_encode_image("png", shown, error) : (lom_bytes){ NULL, 0 };
-    lom_free_image(shown);
-    return png;
-}
-
 lom_bytes lom_explanation_page(const struct lom_explain_head *head, const lom_image *picture, lom_error *error)
 {
-    lom_bytes page = { NULL, 0 }, png = encode_picture(picture, error);
+    lom_bytes page = { NULL, 0 }, png = lom_encode_shown_image(picture, error);
     lom_bytes explanation = png.data != NULL ? print_explanation(head, error) : page;
     if (explanation.data != NULL) {
         struct lom_page html;
