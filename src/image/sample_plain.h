@@ -41,7 +41,7 @@ LOM_INLINE bool sample_plain(const lom_texture *texture, lom_storage storage, bo
             lom_clamp(*lod + texture->sampler.lod_bias, lom_splat(texture->lod_min), lom_splat(texture->lod_max));
         chosen = lom_min(lom_max(chosen, (lom_float){ 0 }), lom_splat((float)last));
         lom_int level = lom_bounded_to_int(chosen);
-        first = level[0];
+        first = sample_foreseen_level(level[0]);
         if (!lom_all(level == first))
             return false;
         fraction = chosen - lom_to_float(level);
