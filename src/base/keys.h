@@ -26,6 +26,25 @@ enum {
     LOM_KEY_ABOVE = 4     /* minimum itself is outside the range */
 };
 
+/* What a setting is measured against (docs/dials.md). */
+typedef enum lom_dial_reference {
+    LOM_DIAL_TRACED, /* the picture of the reference tracer, or of random paths */
+    LOM_DIAL_FINEST, /* the dial's own last setting: the tracer does not have what it approximates */
+    LOM_DIAL_EQUAL   /* every other setting: none may change a byte */
+} lom_dial_reference;
+
+/* That a key trades accuracy for time, and how. Of a key inside [quality] it may say that it does not. */
+typedef struct lom_key_dial {
+    const char *approximates; /* what the settings stand for: half a sentence */
+    const char *settings;     /* TOML values without spaces (words without quotes), the cheapest first, the most exact
+                                 last */
+    const char *needs;        /* where it acts: conditions separated by spaces, all of which hold. "A|B": one of these
+                                 tables or keys is there and not 0 or false; "KEY=a|b": its value is one of these; NULL:
+                                 always */
+    lom_dial_reference reference;
+    const char *none; /* why the key is no dial; NULL: it is one */
+} lom_key_dial;
+
 typedef struct lom_key {
     const char *name;
     lom_key_type type;
@@ -40,6 +59,10 @@ typedef struct lom_key {
     const struct lom_key_table *table; /* of LOM_KEY_TABLE and LOM_KEY_TABLES */
     size_t length_offset;              /* of LOM_KEY_TABLES */
     const char *initial_text;          /* what the documentation says of the default when no number can say it */
+    const lom_key_dial *dial;          /* of an approximation; every key inside [quality] has one */
+    const char *untraced; /* the TOML value with which a picture has nothing that the reference does not: what is drawn
+                             to be compared with it has this value; NULL: the reference knows the key, or it has no
+                             such effect */
 } lom_key;
 
 /* What the check of a table asks and says: whether a key stands in the file (in none when the table is not there), and

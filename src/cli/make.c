@@ -4,7 +4,9 @@
 #include "base/numbers.h"
 #include "commands.h"
 #include "image/level_chart.h"
+#include "measure/dials.h"
 #include "options.h"
+#include "page.h"
 #include "paths.h"
 #include "picture_kinds.h"
 #include "sky/face_mark.h"
@@ -250,8 +252,8 @@ static const lom_command_line line = {
         "options a\n"
         "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
         "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.\n"
-        "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file, format-docs that of the\n"
-        "kinds of picture files.",
+        "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file, dial-docs that of\n"
+        "what trades accuracy for time, format-docs that of the kinds of picture files.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
@@ -339,6 +341,31 @@ static bool make_scene_docs(const char *path, lom_error *error)
     return write_bytes(path, lom_write_scene_documentation(error), error);
 }
 
+static bool make_dial_docs(const char *path, lom_error *error)
+{
+    struct lom_page page;
+    lom_begin_page(&page);
+    if (page.out != NULL)
+        lom_print_dial_documentation(page.out);
+    return write_bytes(path, lom_end_page(&page, error), error);
+}
+
+/* The pages that are made from tables. */
+static const struct documentation {
+    const char *kind;
+    bool (*make)(const char *path, lom_error *error);
+} pages[] = { { "scene-docs", make_scene_docs },
+              { "dial-docs", make_dial_docs },
+              { "format-docs", lom_write_format_documentation } };
+
+static const struct documentation *find_page(const char *kind)
+{
+    for (size_t i = 0; i < sizeof pages / sizeof pages[0]; i++)
+        if (strcmp(pages[i].kind, kind) == 0)
+            return &pages[i];
+    return NULL;
+}
+
 int lom_command_make(int argc, char **argv)
 {
     struct values v = { 0 };
@@ -355,10 +382,9 @@ int lom_command_make(int argc, char **argv)
         return lom_complain("make: -o OUT says where to.");
     if (strcmp(arguments.items[0], "all") == 0 && arguments.count == 1)
         return make_all(&v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
-    if (strcmp(arguments.items[0], "scene-docs") == 0 && arguments.count == 1)
-        return make_scene_docs(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
-    if (strcmp(arguments.items[0], "format-docs") == 0 && arguments.count == 1)
-        return lom_write_format_documentation(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
+    const struct documentation *page = arguments.count == 1 ? find_page(arguments.items[0]) : NULL;
+    if (page != NULL)
+        return page->make(v.output, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     if (strcmp(arguments.items[0], "cloud") == 0 && arguments.count == 2)
         return make_cloud(arguments.items[1], &v, &error) ? LOM_EXIT_DONE : lom_complain_error(&error);
     const recipe *found = find_recipe(&arguments);

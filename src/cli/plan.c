@@ -2,6 +2,8 @@
 #include "commands.h"
 #include "scene_options.h"
 
+#include "measure/dials.h"
+
 struct values {
     struct lom_scene_options scene;
     lom_option_integers frame;
@@ -16,7 +18,9 @@ static const lom_command_line line = {
     .name = "plan",
     .arguments = "SCENE",
     .summary = "say which passes a scene needs, why, and what was left out",
-    .details = "The frame is drawn to find out what is in view; nothing is written.",
+    .details = "The frame is drawn to find out what is in view; nothing is written. Below the passes stand the dials: "
+               "those that\n"
+               "act in this scene with their settings, and why the others do nothing (docs/dials.md).",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum_arguments = 1,
@@ -65,8 +69,10 @@ int lom_command_plan(int argc, char **argv)
     bool drawable = scene != NULL && lom_check_frame(scene, &desc, &error);
     lom_renderer *renderer = drawable ? lom_create_renderer(scene, &device, &error) : NULL;
     bool done = renderer != NULL && lom_render_frame(renderer, &desc, &frame, &error);
-    if (done)
+    if (done) {
         print_plan(scene, &frame);
+        lom_print_scene_dials(stdout, scene);
+    }
     lom_free_image(frame.image);
     lom_free_renderer(renderer);
     lom_free_scene(scene);

@@ -59,7 +59,10 @@ static const lom_key waves[] = {
           "Flow: mean speed of the river. It enters the terrain where `direction` comes from; how it runs between its "
           "shores follows from the terrain below the level. Its ripples are those of `water.normal_map`." },
     { "cell", LOM_KEY_NUMBER, AT(cell), .minimum = 1, .maximum = 256, .initial = { 5 }, .unit = "pixels",
-      .text = "Displaced: distance between the vertices of the mesh on the screen." },
+      .text = "Displaced: distance between the vertices of the mesh on the screen.",
+      .dial = &(const lom_key_dial){ .approximates = "the surface of the water at each pixel",
+                                     .settings = "16 10 5 2.5 1.25",
+                                     .needs = "water water.enabled quality.water=displaced" } },
     { "patch", LOM_KEY_NUMBER, AT(patch), .maximum = 1e6, .unit = "m", .initial_text = "six of the longest waves",
       .text = "Sea: side of the largest patch." },
 };
@@ -109,13 +112,13 @@ const lom_key_table lom_water_surf_keys = {
 #undef AT
 #define AT(member) offsetof(lom_water_foam, member)
 static const lom_key foam[] = {
-    { "amount", LOM_KEY_NUMBER, AT(amount), .maximum = 4, .text = "0 is none; 1 covers what breaks." },
+    { "amount", LOM_KEY_NUMBER, AT(amount), .maximum = 4, .text = "0 is none; 1 covers what breaks.", .untraced = "0" },
     { "threshold", LOM_KEY_NUMBER, AT(threshold), .maximum = 2, .initial = { 0.6 },
       .text = "A wave breaks where the Jacobian of its displacement, 1 at rest, is below this." },
     { "window", LOM_KEY_NUMBER, AT(window), .flags = LOM_KEY_ABOVE, .maximum = 60, .initial = { 3 }, .unit = "s",
       .text = "How long foam lasts." },
     { "shore_depth", LOM_KEY_NUMBER, AT(shore_depth), .maximum = 100, .unit = "m",
-      .text = "Depth of water that the shore's foam reaches to; 0 is none." },
+      .text = "Depth of water that the shore's foam reaches to; 0 is none.", .untraced = "0" },
     { "tile", LOM_KEY_NUMBER, AT(tile), .flags = LOM_KEY_ABOVE, .maximum = 1e4, .initial = { 6 }, .unit = "m",
       .text = "Length that one repetition of its pattern covers." },
 };

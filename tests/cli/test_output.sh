@@ -64,6 +64,7 @@ cat >outputs <<LINES
 0|png|make flow-map --size 128 -o OUT
 0|nrrd|make cloud puffs --voxels 8x8x8 -o OUT
 0|md|make scene-docs -o OUT
+0|md|make dial-docs -o OUT
 1|png|compare --quiet old.png other.png --diff OUT
 0|png|bench fill --size 32x18 --frames 1 --warm-up 0 -o OUT
 LINES
