@@ -3,6 +3,7 @@
 #ifndef LOM_CLI_COMMANDS_H
 #define LOM_CLI_COMMANDS_H
 
+int lom_command_approve(int argc, char **argv);
 int lom_command_bench(int argc, char **argv);
 int lom_command_compare(int argc, char **argv);
 int lom_command_convert(int argc, char **argv);

@@ -31,6 +31,7 @@ static const command commands[] = {
       lom_command_grade },
     { "selftest", "draw built-in content: one hash, the same on every machine", lom_command_selftest },
     { "verify", "draw golden pictures of a project, compare them with their hashes, approve them", lom_command_verify },
+    { "approve", "write the hashes of approved pictures into the manifest of lom verify", lom_command_approve },
     { "version", "say which lom this is and what the machine offers", lom_command_version },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

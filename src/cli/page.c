@@ -23,7 +23,16 @@ lom_bytes lom_end_page(struct lom_page *page, lom_error *error)
         lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for the page.");
     }
     free(page->text);
+    *page = (struct lom_page){ .out = NULL };
     return bytes;
+}
+
+void lom_drop_page(struct lom_page *page)
+{
+    if (page->out != NULL)
+        fclose(page->out);
+    free(page->text);
+    *page = (struct lom_page){ .out = NULL };
 }
 
 void lom_print_lines(FILE *out, const char *const *lines, size_t count)

@@ -16,6 +16,8 @@ struct lom_page {
 void lom_begin_page(struct lom_page *page);
 /* What was written; data NULL on failure. */
 lom_bytes lom_end_page(struct lom_page *page, lom_error *error);
+/* Gives it up, whether it was begun or not. */
+void lom_drop_page(struct lom_page *page);
 
 void lom_print_lines(FILE *out, const char *const *lines, size_t count);
 /* JSON whose strings hold no "<": it cannot end its element. */

@@ -21,7 +21,7 @@ typedef struct lom_ending {
 
 /* What a process may do. */
 typedef struct lom_bounds {
-    int descriptor;     /* what it writes there is taken, the rest is lost: 2 or 3 */
+    int descriptor;     /* what it writes there is taken, the rest is lost: 1, 2 or 3 */
     int seconds;        /* of the clock */
     int processor_time; /* seconds; 0: unbounded, else it writes no file, either, and has 1 GiB of memory */
     size_t bytes;       /* that it writes at most; it is ended behind them */

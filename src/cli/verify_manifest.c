@@ -129,21 +129,26 @@ static bool read_option(struct reader *r, const char *word, struct lom_golden *g
     return refuse_option(r, word);
 }
 
+bool lom_read_golden_hash(const char *word, uint64_t *hash)
+{
+    static const char digits[] = "0123456789abcdef";
+    *hash = 0;
+    for (size_t i = 0; i < 16; i++) {
+        const char *digit = word[i] != '\0' ? strchr(digits, word[i]) : NULL;
+        if (digit == NULL)
+            return false;
+        *hash = *hash << 4 | (uint64_t)(digit - digits);
+    }
+    return word[16] == '\0';
+}
+
 static bool read_hash(const struct reader *r, const char *word, struct lom_golden *golden)
 {
     golden->hash_at = r->word;
     golden->hash_size = r->at - r->word;
-    if (golden->hash_size == 1 && word[0] == '-')
-        return true;
-    golden->is_approved = true;
-    for (size_t i = 0; i < 16; i++) {
-        static const char digits[] = "0123456789abcdef";
-        const char *digit = word[i] != '\0' ? strchr(digits, word[i]) : NULL;
-        if (digit == NULL || golden->hash_size != 16)
-            return refuse(r, "a line begins with a hash of 16 digits 0-9a-f, or - for none yet, not \"%s\".", word);
-        golden->expected = golden->expected << 4 | (uint64_t)(digit - digits);
-    }
-    return true;
+    golden->is_approved = strcmp(word, "-") != 0 || golden->hash_size != 1;
+    return !golden->is_approved || (golden->hash_size == 16 && lom_read_golden_hash(word, &golden->expected)) ||
+           refuse(r, "a line begins with a hash of 16 digits 0-9a-f, or - for none yet, not \"%s\".", word);
 }
 
 static bool read_golden(struct reader *r, const char *word, struct lom_golden *golden)
@@ -169,10 +174,46 @@ static bool read_golden(struct reader *r, const char *word, struct lom_golden *g
     return true;
 }
 
-/* "lom VERSION picture N", of which the first word has been read. */
-static bool read_header(struct reader *r, int *picture)
+/* What the header says. */
+struct header {
+    int picture;
+    char *pinned; /* a program: of the name that is found on PATH, or of a path */
+};
+
+/* The program that drew what is expected: a name without a slash is found on PATH, any other one from the manifest's
+ * folder; where none is named it is lom-VERSION. */
+static char *name_pinned(const struct lom_manifest *manifest, const char *version, const char *program,
+                         lom_error *error)
 {
-    const char *version = NULL, *word = NULL, *number = NULL, *more = NULL;
+    if (program == NULL)
+        return lom_path_print(error, "lom-%s", version);
+    if (strchr(program, '/') == NULL || program[0] == '/')
+        return lom_path_print(error, "%s", program);
+    return lom_path_print(error, "%s%.*s%s", manifest->folder == 0 ? "./" : "", manifest->folder, manifest->path,
+                          program);
+}
+
+/* "by PROGRAM" or nothing, to the end of the header. */
+static bool read_program(struct reader *r, const char **program)
+{
+    const char *by = NULL, *more = NULL;
+    if (!take_word(r, &by))
+        return false;
+    if (by == NULL)
+        return true;
+    if (strcmp(by, "by") != 0)
+        return refuse(r, "behind its number a header has nothing, or by PROGRAM.");
+    if (!take_word(r, program))
+        return false;
+    if (*program == NULL || (*program)[0] == '\0')
+        return refuse(r, "behind by stands the program that drew what is expected.");
+    return take_word(r, &more) && (more == NULL || refuse(r, "the header ends behind its program."));
+}
+
+/* "lom VERSION picture N by PROGRAM", of which the first word has been read; header: NULL when it is known already. */
+static bool read_header(struct reader *r, struct header *header)
+{
+    const char *version = NULL, *word = NULL, *number = NULL, *program = NULL;
     int64_t value[4];
     size_t begin = r->word;
     if (!take_word(r, &version) || !take_word(r, &word) || !take_word(r, &number))
@@ -183,23 +224,29 @@ static bool read_header(struct reader *r, int *picture)
         return refuse(r, "the header is \"lom VERSION picture N\", as in \"lom %s picture %d\".", LOM_VERSION,
                       LOM_PICTURE_VERSION);
     }
-    *picture = (int)value[0];
-    return take_word(r, &more) && (more == NULL || refuse(r, "the header ends behind its number."));
+    if (!read_program(r, &program))
+        return false;
+    if (header == NULL)
+        return true;
+    header->picture = (int)value[0];
+    header->pinned = name_pinned(r->manifest, version, program, r->error);
+    return header->pinned != NULL;
 }
 
 /* ---- the file ---- */
 
-bool lom_next_golden(const struct lom_manifest *manifest, struct lom_manifest_place *place, struct lom_golden *golden,
-                     lom_error *error)
+/* The next line that names a picture; false at the end, and (with the error) where a line is wrong. */
+static bool read_next(const struct lom_manifest *manifest, struct lom_manifest_place *place, struct lom_golden *golden,
+                      struct header *header, lom_error *error)
 {
     const char *text = (const char *)manifest->file.data;
     while (place->at < manifest->file.size) {
-        struct reader r = { manifest, place->at, place->at, place->at, ++place->number, manifest->words, error };
+        struct reader r = { manifest, place->at, place->at, place->at, ++place->number, place->words, error };
         const char *word;
         if (!take_word(&r, &word))
             return false;
         bool is_header = word != NULL && !place->begun && strcmp(word, "lom") == 0;
-        if (is_header && !read_header(&r, &place->picture))
+        if (is_header && !read_header(&r, header))
             return false;
         if (word != NULL && !is_header && !read_golden(&r, word, golden))
             return false;
@@ -212,32 +259,74 @@ bool lom_next_golden(const struct lom_manifest *manifest, struct lom_manifest_pl
     return false;
 }
 
-bool lom_open_manifest(const char *path, struct lom_manifest *manifest, lom_error *error)
+bool lom_begin_goldens(const struct lom_manifest *manifest, struct lom_manifest_place *place, lom_error *error)
+{
+    *place = (struct lom_manifest_place){ .words = lom_allocate(2 * manifest->file.size + 2, 1, error) };
+    return place->words != NULL;
+}
+
+bool lom_next_golden(const struct lom_manifest *manifest, struct lom_manifest_place *place, struct lom_golden *golden)
+{
+    return read_next(manifest, place, golden, NULL, NULL);
+}
+
+/* Every line is read once, and counted. */
+static bool read_all(struct lom_manifest *manifest, lom_error *error)
 {
     struct lom_golden golden;
-    struct lom_manifest_place place = { .at = 0 };
+    struct lom_manifest_place place;
+    struct header header = { .picture = 0 };
+    lom_error found = { .code = LOM_OK };
+    if (!lom_begin_goldens(manifest, &place, error))
+        return false;
+    while (read_next(manifest, &place, &golden, &header, &found))
+        manifest->count++;
+    lom_release(place.words);
+    manifest->pinned = header.pinned;
+    if (found.code != LOM_OK)
+        return lom_fail(error, found.code, "%s", found.text);
+    if (header.picture != 0 && header.picture != LOM_PICTURE_VERSION)
+        fprintf(stderr, "lom: warning: %s is of picture version %d, this lom draws version %d: pictures may differ.\n",
+                manifest->path, header.picture, LOM_PICTURE_VERSION);
+    return true;
+}
+
+bool lom_open_manifest(const char *path, struct lom_manifest *manifest, lom_error *error)
+{
     *manifest = (struct lom_manifest){ .path = path, .folder = (int)(lom_path_file(path) - path) };
     manifest->file = lom_read_file(path, MOST_BYTES, error);
     if (manifest->file.data == NULL)
         return false;
     if (strlen((const char *)manifest->file.data) != manifest->file.size)
         return lom_fail(error, LOM_ERROR_INPUT, "%s: a manifest is text, and this holds a zero byte.", path);
-    manifest->words = lom_allocate(2 * manifest->file.size + 2, 1, error);
-    if (manifest->words == NULL)
-        return false;
-    lom_error found = { .code = LOM_OK };
-    while (lom_next_golden(manifest, &place, &golden, &found))
-        manifest->count++;
-    if (found.code != LOM_OK)
-        return lom_fail(error, found.code, "%s", found.text);
-    if (place.picture != 0 && place.picture != LOM_PICTURE_VERSION)
-        fprintf(stderr, "lom: warning: %s is of picture version %d, this lom draws version %d: pictures may differ.\n",
-                path, place.picture, LOM_PICTURE_VERSION);
-    return manifest->count > 0 || lom_fail(error, LOM_ERROR_INPUT, "%s: it names no picture.", path);
+    return read_all(manifest, error) &&
+           (manifest->count > 0 || lom_fail(error, LOM_ERROR_INPUT, "%s: it names no picture.", path));
 }
 
 void lom_close_manifest(struct lom_manifest *manifest)
 {
-    lom_release(manifest->words);
+    lom_release(manifest->pinned);
     lom_release(manifest->file.data);
+}
+
+/* ---- other hashes ---- */
+
+static void copy_manifest(struct lom_approval *approval, const struct lom_manifest *manifest, size_t end)
+{
+    fwrite(manifest->file.data + approval->copied, 1, end - approval->copied, approval->report.out);
+    approval->copied = end;
+}
+
+void lom_approve_golden(struct lom_approval *approval, const struct lom_manifest *manifest,
+                        const struct lom_golden *golden, uint64_t hash)
+{
+    copy_manifest(approval, manifest, golden->hash_at);
+    fprintf(approval->report.out, "%016llx", (unsigned long long)hash);
+    approval->copied += golden->hash_size;
+}
+
+bool lom_write_approval(struct lom_approval *approval, const struct lom_manifest *manifest)
+{
+    copy_manifest(approval, manifest, manifest->file.size);
+    return lom_write_report(&approval->report);
 }

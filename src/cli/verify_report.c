@@ -2,8 +2,6 @@
  * and failures come from one table; nothing is drawn or decided here. */
 #include "verify.h"
 
-#include "report.h"
-
 static const struct {
     const char *total; /* "3 pictures: 2 ..." */
     bool fails;
@@ -17,34 +15,46 @@ static const struct {
     [LOM_VERIFIED_ERROR] = { "not drawn", false },
 };
 
-enum { MOST_LETTERS = 640 };
+const char *lom_verified_name(lom_verified how)
+{
+    return kinds[how].total;
+}
 
-static void describe(const struct lom_outcome *o, char text[MOST_LETTERS])
+void lom_drop_outcome(struct lom_outcome *outcome)
+{
+    for (int i = 0; i < LOM_SHOWN_COUNT; i++)
+        lom_release(outcome->shown[i].data);
+    lom_release(outcome->warnings);
+    lom_release(outcome->picture);
+    *outcome = (struct lom_outcome){ .picture = NULL };
+}
+
+void lom_describe_outcome(const struct lom_outcome *o, char text[LOM_OUTCOME_LETTERS])
 {
     unsigned long long expected = o->expected, got = o->got, again = o->again;
     switch (o->how) {
     case LOM_VERIFIED_OK:
-        snprintf(text, MOST_LETTERS, "ok");
+        snprintf(text, LOM_OUTCOME_LETTERS, "ok");
         break;
     case LOM_VERIFIED_APPROVED:
-        snprintf(text, MOST_LETTERS, "approved: %016llx", got);
+        snprintf(text, LOM_OUTCOME_LETTERS, "approved: %016llx", got);
         break;
     case LOM_VERIFIED_NEW:
-        snprintf(text, MOST_LETTERS, "not yet approved: got %016llx", got);
+        snprintf(text, LOM_OUTCOME_LETTERS, "not yet approved: got %016llx", got);
         break;
     case LOM_VERIFIED_DIFFERS:
-        snprintf(text, MOST_LETTERS, "differs: expected %016llx, got %016llx", expected, got);
+        snprintf(text, LOM_OUTCOME_LETTERS, "differs: expected %016llx, got %016llx", expected, got);
         break;
     case LOM_VERIFIED_FLAT:
-        snprintf(text, MOST_LETTERS, "one colour, and the line does not say flat: got %016llx", got);
+        snprintf(text, LOM_OUTCOME_LETTERS, "one colour, and the line does not say flat: got %016llx", got);
         break;
     case LOM_VERIFIED_UNSTEADY:
-        snprintf(text, MOST_LETTERS, "not deterministic: got %016llx and, by other threads and lanes, %016llx", got,
-                 again);
+        snprintf(text, LOM_OUTCOME_LETTERS, "not deterministic: got %016llx and, by other threads and lanes, %016llx",
+                 got, again);
         break;
     case LOM_VERIFIED_ERROR:
     case LOM_VERIFIED_COUNT:
-        snprintf(text, MOST_LETTERS, "error: %s", o->error.text);
+        snprintf(text, LOM_OUTCOME_LETTERS, "error: %s", o->error.text);
         break;
     }
 }
@@ -52,17 +62,17 @@ static void describe(const struct lom_outcome *o, char text[MOST_LETTERS])
 void lom_report_golden(FILE *out, const struct lom_manifest *manifest, const struct lom_golden *golden,
                        const struct lom_outcome *outcome)
 {
-    char text[MOST_LETTERS];
-    describe(outcome, text);
+    char text[LOM_OUTCOME_LETTERS];
+    lom_describe_outcome(outcome, text);
     fprintf(out, "%s:%d: %s: %s\n", manifest->path, golden->number, golden->text, text);
 }
 
 void lom_report_golden_junit(FILE *out, const struct lom_manifest *manifest, const struct lom_golden *golden,
                              const struct lom_outcome *outcome)
 {
-    char text[MOST_LETTERS];
+    char text[LOM_OUTCOME_LETTERS];
     bool fails = kinds[outcome->how].fails, is_error = outcome->how == LOM_VERIFIED_ERROR;
-    describe(outcome, text);
+    lom_describe_outcome(outcome, text);
     fputs("    <testcase classname=\"", out);
     lom_put_escaped(out, manifest->path);
     fputs("\" name=\"", out);
