@@ -1,90 +1,80 @@
 /* `lom compare`. In: two pictures and what may differ. Out: how much they differ, and the exit status that says whether
  * that was accepted. Invariant: without limits a single differing sample is refused; with limits, all of them must
  * hold, and a measure that is no number holds none. Only measures that are printed or limited are computed. */
-#include "base/threads.h"
+#include "compare.h"
 
 #include "commands.h"
 #include "compare_ignore.h"
-#include "json.h"
-#include "options.h"
 
-#include <lom/image.h>
+#include "base/threads.h"
 
 #include <stdatomic.h>
 #include <string.h>
 
-struct values {
-    lom_option_integers max_diff_pixels;
-    lom_option_number max_delta, min_psnr, min_ssim, max_flip;
-    const char *diff, *mask;
-    lom_option_list ignore;
-    bool metrics, any, json, quiet;
-};
-
 static const lom_option options[] = {
     { .name = "max-diff-pixels",
       .kind = LOM_OPTION_INTEGER,
-      .field = offsetof(struct values, max_diff_pixels),
+      .field = offsetof(struct lom_compare_values, max_diff_pixels),
       .value = "N",
       .maximum = 1e12,
       .help = "accept at most N pixels that differ (by more than D)" },
     { .name = "max-delta",
       .kind = LOM_OPTION_NUMBER,
-      .field = offsetof(struct values, max_delta),
+      .field = offsetof(struct lom_compare_values, max_delta),
       .value = "D",
       .maximum = 1e38,
       .help = "accept pixels that differ by at most D" },
     { .name = "min-psnr",
       .kind = LOM_OPTION_NUMBER,
-      .field = offsetof(struct values, min_psnr),
+      .field = offsetof(struct lom_compare_values, min_psnr),
       .value = "DB",
       .minimum = -1000,
       .maximum = 1000,
       .help = "accept a PSNR of at least DB decibels" },
     { .name = "min-ssim",
       .kind = LOM_OPTION_NUMBER,
-      .field = offsetof(struct values, min_ssim),
+      .field = offsetof(struct lom_compare_values, min_ssim),
       .value = "S",
       .minimum = -1,
       .maximum = 1,
       .help = "accept a mean SSIM of at least S" },
     { .name = "max-flip",
       .kind = LOM_OPTION_NUMBER,
-      .field = offsetof(struct values, max_flip),
+      .field = offsetof(struct lom_compare_values, max_flip),
       .value = "F",
       .maximum = 1,
       .help = "accept a mean FLIP of at most F" },
     { .name = "metrics",
       .kind = LOM_OPTION_FLAG,
-      .field = offsetof(struct values, metrics),
+      .field = offsetof(struct lom_compare_values, metrics),
       .help = "find SSIM and FLIP as well, which takes longer" },
     { .name = "ignore",
       .kind = LOM_OPTION_LIST,
-      .field = offsetof(struct values, ignore),
+      .field = offsetof(struct lom_compare_values, ignore),
       .value = "X,Y,W,H",
       .help = "leave out the pixels of a rectangle" },
     { .name = "mask",
       .kind = LOM_OPTION_TEXT,
-      .field = offsetof(struct values, mask),
+      .field = offsetof(struct lom_compare_values, mask),
       .value = "PICTURE",
       .help = "leave out the pixels where that picture is black" },
     { .name = "any",
       .kind = LOM_OPTION_FLAG,
-      .field = offsetof(struct values, any),
+      .field = offsetof(struct lom_compare_values, any),
       .help = "A is compared with each of the others, and one of them is enough" },
     { .name = "diff",
       .kind = LOM_OPTION_TEXT,
-      .field = offsetof(struct values, diff),
+      .field = offsetof(struct lom_compare_values, diff),
       .value = "OUT.png",
-      .help = "write a picture of the differences" },
+      .help = "write a picture of the differences; of folders: a folder of them" },
     { .name = "json",
       .kind = LOM_OPTION_FLAG,
-      .field = offsetof(struct values, json),
+      .field = offsetof(struct lom_compare_values, json),
       .help = "print one JSON object" },
     { .name = "quiet",
       .letter = 'q',
       .kind = LOM_OPTION_FLAG,
-      .field = offsetof(struct values, quiet),
+      .field = offsetof(struct lom_compare_values, quiet),
       .help = "print nothing; only the exit status answers" },
 };
 
@@ -110,6 +100,9 @@ static const lom_command_line line = {
         "Pixels that are left out are white and opaque in both pictures, so they are equal for every measure. With "
         "--any\n"
         "the first picture that is accepted is told of, or else the one with the fewest differing pixels.\n\n"
+        "Two folders: pictures of the same name are compared, in folders within them, too; each is a line, or an "
+        "object\n"
+        "of JSON. A picture that only one of them has is refused. --diff is then a folder, of those that are.\n\n"
         "--diff shows a channel as 0 where equal, else 64 + 191 sqrt(difference / range); alpha in all channels. For\n"
         "pictures of different sizes it is as large as both, and 32 in all channels where only one has a pixel.",
     .options = options,
@@ -118,16 +111,7 @@ static const lom_command_line line = {
     .maximum_arguments = -1,
 };
 
-/* Everything that is printed and judged. A measure that nobody asked for is NaN. */
-struct measures {
-    lom_comparison exact;
-    size_t above; /* pixels that differ by more than --max-delta, or at all without it */
-    double ssim, flip;
-    char *paths[2];
-    lom_image *pictures[2];
-};
-
-static void free_pictures(struct measures *measures)
+void lom_drop_measures(struct lom_measures *measures)
 {
     for (int i = 0; i < 2; i++)
         lom_free_image(measures->pictures[i]);
@@ -167,7 +151,7 @@ static bool read_pictures(lom_image *pictures[2], char **paths, lom_error *error
     return true;
 }
 
-static bool measure(struct measures *measures, const struct values *values, lom_error *error)
+bool lom_measure_pictures(struct lom_measures *measures, const struct lom_compare_values *values, lom_error *error)
 {
     if (!read_pictures(measures->pictures, measures->paths, error) ||
         !lom_ignore_pixels(measures->pictures, &values->ignore, values->mask, error))
@@ -192,7 +176,7 @@ static bool measure(struct measures *measures, const struct values *values, lom_
            ((!metrics && !values->max_flip.given) || lom_compare_flip(a, b, &measures->flip, error));
 }
 
-static bool accepted(const struct measures *measures, const struct values *values)
+bool lom_accepts(const struct lom_measures *measures, const struct lom_compare_values *values)
 {
     const lom_comparison *exact = &measures->exact;
     if (!exact->same_size)
@@ -214,21 +198,21 @@ static bool nearer(const lom_comparison *a, const lom_comparison *best)
 }
 
 /* A with each of the others until one is accepted: best is that, or the nearest. */
-static bool measure_any(struct measures *best, const lom_arguments *arguments, const struct values *values,
-                        lom_error *error)
+static bool measure_any(struct lom_measures *best, const lom_arguments *arguments,
+                        const struct lom_compare_values *values, lom_error *error)
 {
     for (int i = 1; i < arguments->count; i++) {
-        struct measures measures = { .paths = { arguments->items[0], arguments->items[i] } };
-        if (!measure(&measures, values, error)) {
-            free_pictures(&measures);
+        struct lom_measures measures = { .paths = { arguments->items[0], arguments->items[i] } };
+        if (!lom_measure_pictures(&measures, values, error)) {
+            lom_drop_measures(&measures);
             return false;
         }
-        bool accept = accepted(&measures, values);
+        bool accept = lom_accepts(&measures, values);
         if (i == 1 || accept || nearer(&measures.exact, &best->exact)) {
-            free_pictures(best);
+            lom_drop_measures(best);
             *best = measures;
         } else {
-            free_pictures(&measures);
+            lom_drop_measures(&measures);
         }
         if (accept)
             break;
@@ -236,141 +220,74 @@ static bool measure_any(struct measures *best, const lom_arguments *arguments, c
     return true;
 }
 
-/* ---- telling ---- */
+/* ---- the command ---- */
 
-static void print_size(lom_json *json, const char *key, const lom_image *image)
+static int report(const struct lom_measures *measures, const struct lom_compare_values *values)
 {
-    const int64_t size[3] = { image->width, image->height, image->depth };
-    lom_json_integers(json, key, size, 3);
-}
-
-static void print_json(const struct measures *measures, bool accept)
-{
-    const lom_comparison *exact = &measures->exact;
-    bool same = exact->same_size;
-    lom_json json = lom_json_begin(stdout);
-    lom_json_text(&json, "a", measures->paths[0]);
-    lom_json_text(&json, "b", measures->paths[1]);
-    lom_json_bool(&json, "identical", exact->identical);
-    lom_json_bool(&json, "accepted", accept);
-    lom_json_bool(&json, "same_size", same);
-    lom_json_integer(&json, "width", measures->pictures[0]->width);
-    lom_json_integer(&json, "height", measures->pictures[0]->height);
-    print_size(&json, "size_a", measures->pictures[0]);
-    print_size(&json, "size_b", measures->pictures[1]);
-    const double unknown = __builtin_nan("");
-    lom_json_number(&json, "pixels", same ? (double)exact->pixels : unknown);
-    lom_json_number(&json, "pixels_above", same ? (double)measures->above : unknown);
-    lom_json_number(&json, "max_delta", same ? exact->max_delta : unknown);
-    lom_json_number(&json, "rmse", same ? exact->rmse : unknown);
-    lom_json_number(&json, "psnr", same ? exact->psnr : unknown);
-    lom_json_number(&json, "ssim", measures->ssim);
-    lom_json_number(&json, "flip", measures->flip);
-    if (same && !exact->identical) {
-        const int64_t box[4] = { exact->box[0], exact->box[1], exact->box[2], exact->box[3] };
-        const int64_t at[3] = { exact->max_at[0], exact->max_at[1], exact->max_channel };
-        lom_json_integers(&json, "bbox", box, 4);
-        lom_json_integers(&json, "max_at", at, 3);
-    } else {
-        lom_json_null(&json, "bbox");
-        lom_json_null(&json, "max_at");
-    }
-    lom_json_integer(&json, "bits", exact->bits);
-    lom_json_end(&json);
-}
-
-static const char *channel_name(const lom_comparison *exact)
-{
-    static const char *const names[5][4] = {
-        { "" }, { "gray" }, { "gray", "alpha" }, { "red", "green", "blue" }, { "red", "green", "blue", "alpha" },
-    };
-    return names[exact->channels][exact->max_channel];
-}
-
-static void print_table(const struct measures *measures, const struct values *values)
-{
-    const lom_comparison *exact = &measures->exact;
-    const lom_image *a = measures->pictures[0];
-    if (values->any)
-        printf("compared with    %s\n", measures->paths[1]);
-    double total = (double)a->width * a->height * a->depth;
-    if (exact->identical) {
-        printf("identical        %d x %d\n", a->width, a->height);
-        return;
-    }
-    printf("differing pixels %zu of %.0f (%.3g %%)\n", exact->pixels, total, 100 * (double)exact->pixels / total);
-    if (values->max_delta.given)
-        printf("above %-10.4g %zu\n", values->max_delta.value, measures->above);
-    printf("bounding box     %d,%d,%d,%d\n", exact->box[0], exact->box[1], exact->box[2], exact->box[3]);
-    double peak = exact->is_float ? 1 : (double)((UINT64_C(1) << exact->bits) - 1);
-    printf("largest delta    %.6g of %.8g at %d,%d (%s)\n", exact->max_delta, peak, exact->max_at[0], exact->max_at[1],
-           channel_name(exact));
-    printf("RMSE             %.6g\n", exact->rmse);
-    printf("PSNR             %.3f dB\n", exact->psnr);
-    if (!__builtin_isnan(measures->ssim))
-        printf("SSIM             %.6f\n", measures->ssim);
-    if (!__builtin_isnan(measures->flip))
-        printf("FLIP             %.6f\n", measures->flip);
-}
-
-static bool write_picture(const char *path, const struct measures *measures, lom_error *error)
-{
-    lom_image *picture = lom_compare_picture(measures->pictures[0], measures->pictures[1], error);
-    const char *kind = strcmp(path, "-") == 0 ? "png" : NULL;
-    bool done = picture != NULL && lom_write_image(path, kind, picture, error);
-    lom_free_image(picture);
-    return done;
-}
-
-static void complain_of_sizes(const struct measures *measures)
-{
-    char *const *paths = measures->paths;
-    const lom_image *a = measures->pictures[0], *b = measures->pictures[1];
-    if (a->depth == 1 && b->depth == 1)
-        lom_complain("%s is %d x %d and %s is %d x %d: pictures of different sizes always differ.", paths[0], a->width,
-                     a->height, paths[1], b->width, b->height);
-    else
-        lom_complain("%s is %d x %d x %d and %s is %d x %d x %d: pictures of different sizes always differ.", paths[0],
-                     a->width, a->height, a->depth, paths[1], b->width, b->height, b->depth);
-}
-
-static int report(const struct measures *measures, const struct values *values)
-{
-    bool accept = accepted(measures, values);
+    bool accept = lom_accepts(measures, values);
     if (!values->quiet && values->json)
-        print_json(measures, accept);
+        lom_print_compare_json(measures, accept);
     if (!values->quiet && !measures->exact.same_size)
-        complain_of_sizes(measures);
+        lom_complain_of_sizes(measures);
     else if (!values->quiet && !values->json)
-        print_table(measures, values);
+        lom_print_compare_table(measures, values);
     lom_error error = { .code = LOM_OK };
-    if (values->diff != NULL && !write_picture(values->diff, measures, &error))
+    if (values->diff != NULL && !lom_write_difference(values->diff, measures, &error))
         return lom_complain_error(&error);
     return accept ? LOM_EXIT_DONE : LOM_EXIT_DIFFERS;
 }
 
+static int streams_of(const lom_arguments *arguments)
+{
+    int streams = 0;
+    for (int i = 0; i < arguments->count; i++)
+        streams += strcmp(arguments->items[i], "-") == 0;
+    return streams;
+}
+
+/* Two folders, or pictures alone; false, having said why. */
+static bool check_folders(const lom_arguments *arguments, const struct lom_compare_values *values, bool *are_folders)
+{
+    int folders = 0;
+    for (int i = 0; i < arguments->count; i++)
+        folders += lom_is_folder(arguments->items[i]);
+    *are_folders = folders == 2 && arguments->count == 2 && !values->any;
+    if (folders > 0 && !*are_folders)
+        return lom_complain("compare: a folder is compared with one other folder, and without --any") == LOM_EXIT_DONE;
+    return true;
+}
+
+static bool check_arguments(const lom_arguments *arguments, const struct lom_compare_values *values)
+{
+    int streams = streams_of(arguments);
+    bool is_first = strcmp(arguments->items[0], "-") == 0;
+    if (values->diff != NULL && strcmp(values->diff, "-") == 0 && !values->quiet)
+        return lom_complain("compare: --diff - writes to standard output, so it needs --quiet") == LOM_EXIT_DONE;
+    if (arguments->count > 2 && !values->any)
+        return lom_complain("compare: %d pictures are compared by --any alone", arguments->count) == LOM_EXIT_DONE;
+    if (streams > (arguments->count > 2 && is_first ? 0 : 1))
+        return lom_complain("compare: standard input can be one of the pictures, and be read once") == LOM_EXIT_DONE;
+    return true;
+}
+
 int lom_command_compare(int argc, char **argv)
 {
-    struct values values = { .diff = NULL };
+    struct lom_compare_values values = { .diff = NULL };
     lom_arguments arguments;
+    bool are_folders;
     int status;
     if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
         return status;
-    if (values.diff != NULL && strcmp(values.diff, "-") == 0 && !values.quiet)
-        return lom_complain("compare: --diff - writes to standard output, so it needs --quiet");
-    if (arguments.count > 2 && !values.any)
-        return lom_complain("compare: %d pictures are compared by --any alone", arguments.count);
-    int streams = 0;
-    for (int i = 0; i < arguments.count; i++)
-        streams += strcmp(arguments.items[i], "-") == 0;
-    if (streams > (arguments.count > 2 && strcmp(arguments.items[0], "-") == 0 ? 0 : 1))
-        return lom_complain("compare: standard input can be one of the pictures, and be read once");
-    struct measures measures = { .pictures = { NULL, NULL } };
+    if (!check_arguments(&arguments, &values) || !check_folders(&arguments, &values, &are_folders))
+        return LOM_EXIT_FAILED;
+    if (are_folders)
+        return lom_compare_folders((const char *const[]){ arguments.items[0], arguments.items[1] }, &values);
+    struct lom_measures measures = { .pictures = { NULL, NULL } };
     lom_error error = { .code = LOM_OK };
     if (measure_any(&measures, &arguments, &values, &error))
         status = report(&measures, &values);
     else
         status = lom_complain_error(&error);
-    free_pictures(&measures);
+    lom_drop_measures(&measures);
     return status;
 }

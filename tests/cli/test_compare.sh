@@ -168,7 +168,33 @@ any_of_them() {
         exits 2 "$lom" compare a.ppm missing.ppm a.ppm --any
 }
 
+# Pairs by name, in the order of names; what one folder has alone is refused, what cannot be read is told, and all else is
+# compared all the same.
+folders() {
+    mkdir -p one/in two/in && cp a.ppm one/1.ppm && cp a.ppm two/1.ppm && cp a.ppm one/in/2.ppm && cp b.ppm two/in/2.ppm || return 1
+    echo text >one/notes.txt && echo P6 >one/.hidden.ppm
+    exits 1 "$lom" compare one two && cat >expected <<'END' && cmp out expected || return 1
+1.ppm: identical
+in/2.ppm: differs: 1 of 8 pixels, largest delta 3, PSNR 52.390 dB
+2 pictures: 1 identical, 1 different
+END
+    exits 0 "$lom" compare one/ two --max-delta 3 && says 'in/2.ppm: accepted: 1 of 8' && says '1 identical, 1 accepted' &&
+        exits 0 "$lom" compare one two --ignore 2,0,1,1 && exits 1 "$lom" compare -q one two && [ ! -s out ] &&
+        exits 1 "$lom" compare one two --diff d && [ "$(find d -type f)" = d/in/2.ppm.png ] &&
+        exits 1 "$lom" compare a.ppm b.ppm --diff one.png && cmp one.png d/in/2.ppm.png &&
+        exits 1 "$lom" compare one two --json && [ "$(grep -c '"accepted": false' out)" -eq 1 ] && [ "$(wc -l <out)" -eq 2 ] || return 1
+    cp c.ppm two/3.ppm && cp c.ppm one/4.ppm && cp a.ppm one/5.ppm && cp c.ppm two/5.ppm &&
+        exits 1 "$lom" compare one two --max-delta 3 --metrics && says '3.ppm: only in two' && says '4.ppm: only in one' &&
+        says '5.ppm: differs: 4 x 2 and 2 x 4' && says '5 pictures: 1 identical, 1 accepted, 1 different, 1 only in one, 1 only in two' &&
+        says 'SSIM' && exits 1 "$lom" compare one two --json && says '"b": null' && says '"a": null' || return 1
+    echo P6 >one/6.ppm && cp a.ppm two/6.ppm && exits 2 "$lom" compare one two && complains 'one/6.ppm' && says '1 not compared' &&
+        says '2.ppm: differs' && exits 2 "$lom" compare one a.ppm && complains 'a folder is compared with' &&
+        exits 2 "$lom" compare one two one --any && mkdir empty nothing && exits 2 "$lom" compare empty nothing &&
+        complains 'neither empty nor nothing holds a picture' && exits 1 "$lom" compare two empty
+}
+
 check compare_exit_statuses statuses
+check compare_folders_by_names folders
 check compare_leaves_out_rectangles_and_masks left_out
 check compare_refuses_what_leaves_out_nothing left_out_wrongly
 check compare_with_any_of_several any_of_them
