@@ -12,6 +12,11 @@ static void follow(const void *context, size_t followed, double time, double pla
     *heading = -lom_pi / 2 - at.rotation.y;
 }
 
+bool lom_is_still(const lom_scene *scene)
+{
+    return scene->water.waves.kind == LOM_WAVES_NONE && !(scene->surf.height > 0) && !scene->shallow.present;
+}
+
 struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, const struct lom_bed *bed)
 {
     const lom_water_params *water = &scene->water;
@@ -24,6 +29,8 @@ struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, const struct lo
                                    .size = { water->size[0], water->size[1] },
                                    .tile = water->tile,
                                    .ripple_up = water->normal_up,
+                                   .is_rippled = water->normals && lom_is_still(scene),
+                                   .ripple_speed = water->flow_speed,
                                    .bed = *bed,
                                    .follow = follow,
                                    .scene = scene };

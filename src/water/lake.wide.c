@@ -46,8 +46,8 @@ static lom_float water_depth(const struct lom_lake_uniforms *lake, const lom_var
     return lom_select(stored > 0.0f, depth, lom_splat(endless));
 }
 
-/* Steps 4 and 5: the flow map, read where it has drifted to, displaces the maps' coordinates and the lookups; the
- * normal map has y and z swapped because the surface faces up, and its up component is scaled (3 in the reference). */
+/* Steps 4 and 5: the flow map, read where it has drifted to, displaces the maps' coordinates and the lookups, by
+ * 2 c - a, where black texels, whose alpha is 0, add nothing; the normal map has y and z swapped because the surface faces up, and its up component is scaled (3 in the reference). */
 static void perturb(const struct lom_lake_uniforms *lake, const lom_varyings *in, struct surface *w)
 {
     lom_float u = in->varying[X] * lake->tile + lake->shift[0], v = in->varying[Z] * lake->tile + lake->shift[1];
@@ -60,8 +60,8 @@ static void perturb(const struct lom_lake_uniforms *lake, const lom_varyings *in
         u = u + drift.x * 0.1f;
         v = v + (drift.y * 0.1f + lake->move);
         lom_float4 flow = lom_sample(lake->flow_map, u, v, lod);
-        w->offset_s = (flow.x * 2.0f - 1.0f) * lake->flow_strength;
-        w->offset_t = (flow.y * 2.0f - 1.0f) * lake->flow_strength;
+        w->offset_s = (flow.x * 2.0f - flow.w) * lake->flow_strength;
+        w->offset_t = (flow.y * 2.0f - flow.w) * lake->flow_strength;
     }
     w->normal = lom_splat3(0, 1, 0);
     if (lake->has_normals) {

@@ -51,9 +51,8 @@ static const lom_key keys[] = {
       .text = "Picture of normals (RGB = 2n - 1, blue up); repeats without a seam. Without it the water is flat and "
               "nothing flows." },
     { "flow_map", LOM_KEY_FILE, AT(flow_map), .initial_text = "made from `normal_map`",
-      .text =
-          "Picture whose red and green displace the lookups. Without it: smoothstep(0.2, 0.8, 1 - n) of each channel "
-          "of the normal map." },
+      .text = "Picture whose red and green displace the lookups; black moves nothing. Without it: smoothstep(0.2, 0.8, "
+              "1 - n) of each channel of the normal map." },
     { "tile", LOM_KEY_NUMBER, AT(tile), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 20 }, .unit = "m",
       .text = "Length that one repetition of the two maps covers: the size of the waves." },
     { "flow_strength", LOM_KEY_NUMBER, AT(flow_strength), .maximum = 1, .initial = { 0.02 },
@@ -98,6 +97,7 @@ const lom_key_table lom_water_keys = {
         "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water. "
         "Richer "
         "models (`quality.water`) read the tables inside this one, and of these keys `enabled`, `level`, `position`, "
-        "`size` "
-        "and `tint_color`."
+        "`size` and `tint_color`; those of the normal and the flow map, too, where the water has no waves, whose "
+        "ripples "
+        "they then are."
 };

@@ -2,8 +2,8 @@
  * order of the table, so sums of their bounds and heights have one order. A new kind is one row. */
 #include "waves/wave_field.h"
 
-static const struct lom_wave_kind *const kinds[] = { &lom_trochoid_waves, &lom_river_waves, &lom_surf_waves,
-                                                     &lom_shallow_waves, &lom_sea_waves };
+static const struct lom_wave_kind *const kinds[] = { &lom_trochoid_waves, &lom_river_waves,   &lom_ripple_waves,
+                                                     &lom_surf_waves,     &lom_shallow_waves, &lom_sea_waves };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
 struct lom_wave_field {

@@ -15,7 +15,8 @@ enum lom_waves_known { LOM_WAVES_BOUNDED, LOM_WAVES_PLACED, LOM_WAVES_FILLED };
 /* What a kind of waves is to be made from. */
 struct lom_wave_source {
     const struct lom_wave_site *site;
-    const lom_texture *ripples; /* the water's normal map, which a flow carries; or NULL */
+    const lom_texture *ripples; /* the water's normal map, which a flow carries or still water shows; or NULL */
+    const lom_texture *flow;    /* its flow map, or NULL */
     lom_device *device;
 };
 
@@ -53,7 +54,8 @@ struct lom_wave_kind {
     enum lom_wave_stage stage;
     void (*report)(const void *state, const struct lom_wave_moment *moment, struct lom_wave_report *report);
 };
-extern const struct lom_wave_kind lom_trochoid_waves, lom_river_waves, lom_surf_waves, lom_shallow_waves, lom_sea_waves;
+extern const struct lom_wave_kind lom_trochoid_waves, lom_river_waves, lom_ripple_waves, lom_surf_waves,
+    lom_shallow_waves, lom_sea_waves;
 
 struct lom_wave_field;
 

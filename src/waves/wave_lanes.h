@@ -42,6 +42,13 @@ struct lom_river_uniform {
     float drift[2], weight[2], jump[2][2]; /* metres at speed 1; shares; offsets in repetitions */
 };
 
+/* Ripples of a normal map on water that has no waves of its own: the map drifts, and the flow map moves its lookups. */
+struct lom_ripple_uniform {
+    const lom_texture *normals; /* NULL: no ripples */
+    const lom_texture *flow;    /* or NULL: they stand still */
+    float inverse_tile, shift[2], move, steepness;
+};
+
 /* A region whose surface is computed (waves/shallow_surface.h): a texel a cell. */
 struct lom_shallow_uniform {
     const lom_texture *surface, *moments; /* NULL: there is none */
@@ -62,6 +69,7 @@ struct lom_surf_uniform {
 struct lom_waves_uniform {
     double origin[3]; /* the place in the world that places are counted from */
     struct lom_river_uniform river;
+    struct lom_ripple_uniform ripples;
     struct lom_shallow_uniform shallow;
     struct lom_surf_uniform surf;
     int trochoid_count, cascade_count;

@@ -229,8 +229,14 @@ static void add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, 
     w->foam = w->foam + surf_foam(&waves->surf, &wave, waves->foam_window);
 }
 
+/* What the map's levels average away shortens its normals to l: (1 - l) / l is its variance (Toksvig 2005). */
+static lom_float normal_length(lom_float3 n)
+{
+    return lom_clamp(lom_sqrt(lom_dot3(n, n)), lom_splat(0.1f), lom_splat(1.0f));
+}
+
 /* Two waves of independent phase: their variances add up as w0^2 + w1^2, which is divided out, so that the ripples
- * never pulse. What the map's levels average away shortens the normals: (1 - l) / l is its variance (Toksvig 2005). */
+ * never pulse. */
 static void add_river_slopes(const struct lom_river_uniform *river, lom_float x, lom_float z,
                              const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
@@ -243,7 +249,7 @@ static void add_river_slopes(const struct lom_river_uniform *river, lom_float x,
         lom_float r = (z - v.y * river->drift[i]) * river->inverse_tile + river->jump[i][1];
         lom_float4 texel = lom_sample(river->ripples, u, r, lod);
         lom_float3 n = { texel.x * 2.0f - 1.0f, texel.z * 2.0f - 1.0f, texel.y * 2.0f - 1.0f };
-        lom_float length = lom_clamp(lom_sqrt(lom_dot3(n, n)), lom_splat(0.1f), lom_splat(1.0f));
+        lom_float length = normal_length(n);
         lom_float scale = river->weight[i] * river->steepness / lom_max(n.y, lom_splat(0.1f));
         sx = sx - n.x * scale;
         sz = sz - n.z * scale;
@@ -252,6 +258,28 @@ static void add_river_slopes(const struct lom_river_uniform *river, lom_float x,
     lom_float hidden = 0.5f * river->steepness * river->steepness * lost;
     w->sx = w->sx + sx;
     w->sz = w->sz + sz;
+    w->vxx = w->vxx + hidden;
+    w->vzz = w->vzz + hidden;
+}
+
+/* The normal that the planar lake has (water/lake.wide.c): (2 r - 1, b / steepness, 2 g - 1), looked up where the flow map
+ * has moved it. */
+static void add_ripple_slopes(const struct lom_ripple_uniform *ripples, lom_float x, lom_float z,
+                              const struct lom_footprint *f, struct lom_wave_slopes *w)
+{
+    lom_float u = x * ripples->inverse_tile + ripples->shift[0], v = z * ripples->inverse_tile + ripples->shift[1];
+    if (ripples->flow != NULL) {
+        lom_float lod = lom_wave_lod(ripples->flow, f, ripples->inverse_tile);
+        lom_float4 drift = lom_sample(ripples->flow, u + ripples->move, v, lod);
+        u = u + drift.x * 0.1f;
+        v = v + (drift.y * 0.1f + ripples->move);
+    }
+    lom_float4 texel = lom_sample(ripples->normals, u, v, lom_wave_lod(ripples->normals, f, ripples->inverse_tile));
+    lom_float3 n = { texel.x * 2.0f - 1.0f, texel.z * 2.0f - 1.0f, texel.y * 2.0f - 1.0f };
+    lom_float scale = ripples->steepness / lom_max(texel.z, lom_splat(0.1f)), length = normal_length(n);
+    lom_float hidden = 0.5f * scale * scale * (1.0f - length) / length;
+    w->sx = w->sx - n.x * scale;
+    w->sz = w->sz - n.z * scale;
     w->vxx = w->vxx + hidden;
     w->vzz = w->vzz + hidden;
 }
@@ -268,6 +296,8 @@ static void add_other_slopes(const struct lom_waves_uniform *waves, lom_float x,
         add_shallow_slopes(&waves->shallow, x, z, f, w);
     if (waves->river.field != NULL)
         add_river_slopes(&waves->river, x, z, f, w);
+    if (waves->ripples.normals != NULL)
+        add_ripple_slopes(&waves->ripples, x, z, f, w);
 }
 
 /* Both, the one, or the other: what is NULL is not asked for. */

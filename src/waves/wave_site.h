@@ -24,6 +24,8 @@ struct lom_wave_site {
     double middle[2];       /* of the water, x and z in metres: trochoids, seas and ripples are counted from there */
     double size[2];         /* of the water, metres */
     double tile, ripple_up; /* metres of one repetition of its ripples; the factor on their up component */
+    bool is_rippled;        /* its normal map shows where it has no waves, */
+    double ripple_speed;    /* and drifts by so many repetitions a second */
     struct lom_bed bed;
     /* Where entity number followed - 1 is at a time (x, z), and where its -z points, radians from +x towards +z. */
     void (*follow)(const void *scene, size_t followed, double time, double place[2], double *heading);

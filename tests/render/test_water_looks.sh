@@ -1,7 +1,8 @@
 #!/bin/sh
 # Proves of water with waves what the eye saw wrong once, by numbers of pictures: a still surface is the same on the mesh
 # as on two triangles, at the horizon and at its corners; no pixel of it is much darker than all that are beside it; what
-# it mirrors has no teeth; the foam of a far shore is one line; outside of Snell's window nothing is drawn out in streaks.
+# it mirrors has no teeth; the foam of a far shore is one line; outside of Snell's window nothing is drawn out in streaks;
+# the ripples of still water show in every model; black of a flow map moves nothing; a boat stays in its picture.
 . "$(dirname "$0")/render.sh"
 scenes=assets/scenes
 flat() { # SCENE and options: largest difference of the mesh and the two triangles, in levels
@@ -53,3 +54,37 @@ few crests_far_away_are_no_single_pixels 8 teeth 4 surf.toml --frame 60 --size 9
 few the_mirror_has_no_teeth 20 teeth 12 cove.toml --frame 30 --size 1280x720 --crop 850,370,300,100
 few a_far_shore_is_no_dashes 35 dashes 40 surf.toml --frame 60 --size 960x540 --crop 205,225,60,40
 few outside_of_the_window_nothing_is_drawn_out 200 streaks 1 reef.toml --size 640x360 --crop 578,0,50,24
+
+# The lake's ripples: near the eye a picture with them is nearer to the reference than one without.
+near_reference() { # MODEL NORMALS: dB
+    "$lom" render $scenes/lake.toml --size 1280x720 --crop 300,600,200,100 --set "quality.water=$1" -q \
+        --set "water.normals=$2" -o "$folder/ripples.ppm"
+    "$lom" compare "$folder/traced.ppm" "$folder/ripples.ppm" --json | sed 's/.*"psnr": \([0-9]*\)\.\([0-9]\).*/\1\2/'
+}
+"$lom" render $scenes/lake.toml --size 1280x720 --crop 300,600,200,100 --set quality.water=reference \
+    --set quality.reference.samples=4 -q -o "$folder/traced.ppm"
+why=
+for model in normal_map displaced marched; do
+    with=$(near_reference $model true) without=$(near_reference $model false)
+    [ "${with:-0}" -ge $((${without:-999} + 10)) ] || why="$why $model: $with tenths of a decibel, $without without;"
+done
+verdict still_water_has_the_ripples_of_its_normal_map "$why"
+
+printf 'P6 2 2 255 \000\000\000\000\000\000\000\000\000\000\000\000' >"$folder/black.ppm"
+flow() { "$lom" render $scenes/lake.toml --size 160x90 --hash --set "water.flow_map=$folder/black.ppm" "$@"; }
+[ "$(flow)" = "$(flow --set water.flow_strength=0)" ] && why= || why='lookups are moved'
+verdict black_of_a_flow_map_moves_nothing "$why"
+
+red() { # FRAME: pixels of the wake's boat
+    "$lom" render $scenes/wake.toml --size 160x90 --frame "$1" -q -o "$folder/wake.ppm" && python3 - "$folder/wake.ppm" <<'CODE'
+import sys
+data = open(sys.argv[1], "rb").read()[-160 * 90 * 3:]
+print(sum(data[i] > 90 and data[i] > 2 * data[i + 1] and data[i] > 2 * data[i + 2] for i in range(0, len(data), 3)))
+CODE
+}
+why=
+for frame in 0 60 120 239; do
+    found=$(red $frame)
+    [ "${found:-0}" -ge 4 ] || why="$why $found pixels in frame $frame;"
+done
+verdict the_boat_stays_in_the_picture_of_its_wake "$why"

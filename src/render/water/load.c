@@ -6,24 +6,69 @@
 #include "water/lake.h"
 #include "water/water_models.h"
 
+#include <string.h>
+
+/* A black texel of a flow map names no direction: its alpha is 0, so that it has no share in what is looked up. */
+static void leave_out_black(lom_image *map)
+{
+    const size_t channel = map->format == LOM_FORMAT_RGBA16 ? 2 : 1, pixel = 4 * channel;
+    static const uint8_t black[6];
+    for (size_t i = 0, size = lom_image_size(map); i < size; i += pixel)
+        if (memcmp(map->pixels + i, black, 3 * channel) == 0)
+            memset(map->pixels + i + 3 * channel, 0, channel);
+}
+
+static lom_texture *make_flow_map(lom_renderer *renderer, const lom_image *source, lom_mips mips,
+                                  lom_sampler_desc sampler, lom_error *error)
+{
+    const lom_format format = source->format == LOM_FORMAT_RGBA16 ? source->format : LOM_FORMAT_RGBA8;
+    lom_image *map = lom_convert_image(source, format, error);
+    if (map == NULL)
+        return NULL;
+    leave_out_black(map);
+    lom_texture *texture = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = map->width,
+                                                                                   .height = map->height,
+                                                                                   .format = format,
+                                                                                   .pixels = map->pixels,
+                                                                                   .label = "flow map",
+                                                                                   .mips = mips,
+                                                                                   .sampler = sampler });
+    lom_free_image(map);
+    return lom_check_device(renderer->device, error) ? texture : NULL;
+}
+
+/* The flow map that is named, or made from the normal map where the water flows; true without one. */
+static bool load_flow_map(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    const lom_water_params *w = &scene->water;
+    if (w->flow_map == NULL && !w->flow)
+        return true;
+    if (w->flow_map == NULL) {
+        const lom_image *made = lom_world_made_flow(renderer->world, error);
+        if (made != NULL)
+            renderer->water.flow_map =
+                make_flow_map(renderer, made, LOM_MIPS_ALL, (lom_sampler_desc){ .anisotropy = 0 }, error);
+    } else {
+        const lom_image *file = lom_world_picture(renderer->world, w->flow_map, error);
+        if (file != NULL)
+            renderer->water.flow_map =
+                make_flow_map(renderer, file, scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
+                              lom_scene_sampler(&scene->quality), error);
+        lom_release_world_picture(renderer->world, w->flow_map);
+    }
+    return renderer->water.flow_map != NULL;
+}
+
 bool lom_load_water_maps(lom_renderer *renderer, lom_error *error)
 {
     const lom_water_params *w = &renderer->scene->water;
     if (!w->present || w->normal_map == NULL)
         return true;
-    const bool is_made = w->flow && w->flow_map == NULL;
-    const lom_image *flow = is_made ? lom_world_made_flow(renderer->world, error) : NULL;
-    if (flow != NULL)
-        renderer->water.flow_map = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = flow->width,
-                                                                                           .height = flow->height,
-                                                                                           .pixels = flow->pixels,
-                                                                                           .label = "flow map",
-                                                                                           .mips = LOM_MIPS_ALL });
-    if (w->flow_map != NULL)
-        renderer->water.flow_map = lom_load_texture(renderer, w->flow_map, false, error);
+    if (!load_flow_map(renderer, error))
+        return false;
     renderer->water.normal_map = lom_load_texture(renderer, w->normal_map, false, error);
-    return renderer->water.normal_map != NULL &&
-           (renderer->water.flow_map != NULL || (w->flow_map == NULL && !is_made));
+    return renderer->water.normal_map != NULL;
 }
 
 bool lom_shows_waves(const lom_scene *scene)
@@ -59,7 +104,8 @@ bool lom_load_waves(lom_renderer *renderer, lom_error *error)
     if (!lom_shows_waves(renderer->scene))
         return true;
     renderer->water.site = lom_world_wave_site(renderer->world);
-    const struct lom_wave_source source = { &renderer->water.site, renderer->water.normal_map, renderer->device };
+    const struct lom_wave_source source = { &renderer->water.site, renderer->water.normal_map, renderer->water.flow_map,
+                                            renderer->device };
     renderer->water.waves = lom_load_wave_field(&source, error);
     return renderer->water.waves != NULL;
 }
@@ -90,8 +136,7 @@ bool lom_load_bed(lom_renderer *renderer, lom_error *error)
 void lom_free_water_maps(lom_renderer *renderer)
 {
     lom_drop_texture(renderer, renderer->water.normal_map);
-    if (!lom_drop_texture(renderer, renderer->water.flow_map))
-        lom_release_texture(renderer->device, renderer->water.flow_map); /* which was made */
+    lom_release_texture(renderer->device, renderer->water.flow_map);
 }
 
 void lom_free_foam(lom_renderer *renderer)
