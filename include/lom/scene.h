@@ -170,6 +170,8 @@ typedef struct lom_lamp {
     double softness;       /* radians inside the edge over which light begins; at most cutoff */
     double exponent;
     bool on;
+    bool shadow;        /* opaque entities and terrain keep its light off what is behind them */
+    double shadow_from; /* metres from it, along the axis of a map's face, nearer than which nothing does */
     lom_interpolation interpolation; /* between the keys */
     lom_lamp_key *keys;
     size_t key_count;   /* 0: it does not change */
@@ -321,6 +323,8 @@ typedef struct lom_quality {
     bool tessellation;      /* terrain is cut by tessellation, each edge by its own error, instead of block by block */
     bool terrain_shadows;   /* terrain keeps the sun off what lies behind it */
     int entity_shadows;     /* texels a side of the maps of what entities keep the sun off; 0: they do not */
+    int lamp_shadows;       /* texels a side of the maps of lamps with a shadow; 0: they throw none */
+    int lamp_shadow_maps;   /* of a frame, at most; lamps that come later throw no shadow */
     double normals;         /* metres of the lines that show the normals of entities' vertices; 0: none */
     bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
     lom_wireframe wireframe;

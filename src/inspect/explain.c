@@ -103,6 +103,7 @@ void lom_forget_frames(lom_renderer *r)
 {
     for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
         r->entities.shadows[i].made_for = 0;
+    lom_forget_lamp_shadows(&r->lamps.shadows);
     r->clouds.ground_shadow.made_for = 0;
     r->clouds.impostors.width = r->clouds.impostors.height = 0;
 }

@@ -111,6 +111,11 @@ lom_vec3 lom_reflect_light(const lom_reference *reference, const struct lom_inci
 lom_vec3 lom_transmitted(const double absorption[3], double path);
 /* What of a lamp's colours comes to a place (lamps.c), the unit vector to it and how far it is (1e300: at infinity). */
 double lom_lamp_share_at(const struct lom_placed_lamp *lamp, lom_vec3 place, lom_vec3 *to_lamp, double *distance);
+/* Whether a lamp's shadow leaves a place its light, which comes along a unit vector from so far (shadow.c). */
+bool lom_lamp_is_open(const lom_reference *reference, const struct lom_placed_lamp *lamp, lom_vec3 place,
+                      lom_vec3 to_lamp, double distance);
+/* Whether the sun's beam comes to a place under `depth` metres of water: along its bent way to the surface, then straight. */
+bool lom_sun_is_open(const lom_reference *reference, lom_vec3 place, double depth, lom_vec3 to_light);
 /* What lies behind everything. */
 lom_vec3 lom_sky_light(const lom_reference *reference, lom_vec3 direction);
 

@@ -57,7 +57,7 @@ static lom_vec3 add_lamp(const lom_reference *reference, const struct lom_placed
     const lom_quality *quality = &reference->scene->quality;
     lom_vec3 to_lamp;
     double distance, share = lom_lamp_share_at(lamp, at->place, &to_lamp, &distance);
-    if (!(share > 0))
+    if (!(share > 0) || !lom_lamp_is_open(reference, lamp, at->place, to_lamp, distance))
         return light;
     const lom_vec3 come = scaled(through_water(reference, at, to_lamp, distance), share);
     const lom_vec3 textured =

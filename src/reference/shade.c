@@ -71,46 +71,6 @@ static struct lom_incident find_light(const lom_reference *reference, double dep
     return in;
 }
 
-/* Whether a triangle that throws shadows in this scene is hit from this side at low < t < high. */
-static bool is_blocked(const lom_reference *reference, const struct lom_ray *ray, bool inside_out, double low,
-                       double high)
-{
-    const lom_quality *quality = &reference->scene->quality;
-    struct lom_ray_triangles set = reference->opaque;
-    struct lom_ray_hit hit = { .t = high };
-    set.inside_out = inside_out;
-    while (lom_hit_triangles(&set, ray, low, &hit)) {
-        bool is_ground = set.triangles[hit.triangle].material == LOM_TERRAIN_MATERIAL;
-        if (is_ground ? quality->terrain_shadows : quality->entity_shadows > 0)
-            return true;
-        low = hit.t;
-        hit.t = high;
-    }
-    return false;
-}
-
-static bool is_open(const lom_reference *reference, const struct lom_ray *ray, double high)
-{
-    double low = 1e-6 * (1 + lom_double_sqrt(dot(ray->origin, ray->origin)));
-    return !is_blocked(reference, ray, false, low, high) && !is_blocked(reference, ray, true, low, high);
-}
-
-/* Whether the sun's beam comes to a place: along its bent way to the surface of the water, then straight. */
-static bool is_lit(const lom_reference *reference, lom_vec3 place, double depth, lom_vec3 to_light)
-{
-    const lom_quality *quality = &reference->scene->quality;
-    struct lom_ray ray = { place, to_light };
-    if (!quality->terrain_shadows && quality->entity_shadows == 0)
-        return true;
-    if (depth > 0) {
-        double length = depth / to_light.y;
-        if (!is_open(reference, &ray, length))
-            return false;
-        ray = (struct lom_ray){ along(place, to_light, length), reference->to_light };
-    }
-    return is_open(reference, &ray, 1e300);
-}
-
 /* ---- terrain ---- */
 
 static lom_vec3 sample_layer(const lom_reference *reference, const struct lom_ray_layer *layer, lom_vec3 place)
@@ -230,7 +190,7 @@ static struct lom_incident find_incident(const lom_reference *reference, lom_vec
 {
     *depth = lom_water_above(reference, place, time);
     struct lom_incident in = find_light(reference, *depth);
-    if (dot(in.light, in.light) > 0 && !is_lit(reference, place, *depth, in.to_light))
+    if (dot(in.light, in.light) > 0 && !lom_sun_is_open(reference, place, *depth, in.to_light))
         in.light = (lom_vec3){ 0, 0, 0 };
     if (reference->cloud_count > 0)
         in.light = scaled(in.light, lom_cloud_shadow(reference, place, time));

@@ -54,6 +54,14 @@ static lom_vec3 sun_disc(const lom_reference *reference, lom_vec3 direction)
     return scaled(reference->light, reference->scene->water.optics.glitter / (sine * sine));
 }
 
+/* What is nearer to a lamp than its shadow begins does not hide its disc. */
+static bool comes_within(const lom_reference *reference, const struct lom_placed_lamp *lamp, lom_vec3 to_lamp,
+                         double distance, double far)
+{
+    const bool clears = lamp->lamp->shadow && reference->scene->quality.lamp_shadows > 0;
+    return distance - (clears ? lom_lamp_clearance(lamp, scaled(to_lamp, -1)) : 0) <= far;
+}
+
 /* The lamps that a ray from the water sees as such discs, nearer than `far`. */
 static lom_vec3 lamp_discs(const lom_reference *reference, const struct lom_ray *ray, double far)
 {
@@ -64,7 +72,7 @@ static lom_vec3 lamp_discs(const lom_reference *reference, const struct lom_ray 
         const struct lom_placed_lamp *lamp = &reference->moment.lamps[i];
         lom_vec3 to_lamp;
         double distance, share = lom_lamp_share_at(lamp, ray->origin, &to_lamp, &distance);
-        if (dot(ray->direction, to_lamp) >= edge && distance <= far)
+        if (dot(ray->direction, to_lamp) >= edge && comes_within(reference, lamp, to_lamp, distance, far))
             light = along(light, vector(lamp->specular), bright * share);
     }
     return light;

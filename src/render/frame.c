@@ -19,6 +19,7 @@ static const struct stage {
     { lom_prepare_lamps, "lamps" },    /* where each of them reaches */
     { lom_prepare_ground, "terrain" }, /* its levels of detail and its shadow */
     { lom_prepare_entities, "entity_shadow" },
+    { lom_prepare_lamp_shadows, "lamp_shadow" },
     { lom_prepare_clouds, "cloud_light" },   /* their light */
     { lom_prepare_water, "waves" },          /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },                /* terrain, entities and sky */

@@ -86,11 +86,13 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
     { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
+    { LOM_PART_LAMP_SHADOWS, "quality.lamp_shadows" },
     { LOM_PART_GROUND, "quality.ambient_occlusion quality.tessellation" },
     { LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_TARGETS, "quality.wireframe" },
     { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
                   "quality.impostor.* quality.shading quality.reflection quality.toon_thresholds "
-                  "quality.toon_tones quality.lamp_tiles quality.normals quality.scissor quality.reference.* "
+                  "quality.toon_tones quality.lamp_tiles quality.lamp_shadow_maps quality.normals quality.scissor "
+                  "quality.reference.* "
                   "quality.terrain_error quality.wireframe_color quality.terrain_composite" },
 };
 const size_t lom_key_row_count = sizeof lom_key_rows / sizeof *lom_key_rows;
@@ -150,7 +152,8 @@ static unsigned add_made_from(unsigned parts)
         { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES },
         { LOM_PART_TEXTURES, LOM_PART_SKY | LOM_PART_GROUND_MAPS | LOM_PART_ENTITIES | LOM_PART_WATER_MAPS },
         { LOM_PART_GROUND_MAPS, LOM_PART_GROUND_LAYERS },
-        { LOM_PART_ENTITIES, LOM_PART_FOLLOWED },
+        { LOM_PART_GROUND, LOM_PART_LAMP_SHADOWS },
+        { LOM_PART_ENTITIES, LOM_PART_FOLLOWED | LOM_PART_LAMP_SHADOWS },
         { LOM_PART_WATER_MAPS, LOM_PART_WAVES },
     };
     for (size_t i = 0; i < sizeof chain / sizeof *chain; i++)

@@ -2,6 +2,7 @@
 #ifndef LOM_RENDER_LAMPS_H
 #define LOM_RENDER_LAMPS_H
 
+#include "render/lamp_shadows.h"
 #include "render/lamp_tiles.h"
 
 #include <lom/render.h>
@@ -15,6 +16,7 @@ struct lom_drawn_lamps {
     lom_vec3 eye; /* of the frame: what their places are less */
     struct lom_lamp_tiles tiles;
     struct lom_lamps_uniform uniform;
+    struct lom_lamp_shadows shadows;
 };
 
 /* Makes them for a frame, and a step that says how many reach the view. */

@@ -28,7 +28,8 @@ enum {
     LOM_PART_CLOUD_LIGHT = 1 << 17,
     LOM_PART_TARGETS = 1 << 18,
     LOM_PART_GROUND_LAYERS = 1 << 19, /* composed */
-    LOM_PARTS_ALL = (1 << 20) - 1
+    LOM_PART_LAMP_SHADOWS = 1 << 20,
+    LOM_PARTS_ALL = (1 << 21) - 1
 };
 
 /* A part that is loaded: the members of a renderer that are its own, from which load makes it when they are zeros. */

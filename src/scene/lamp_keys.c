@@ -53,6 +53,8 @@ static bool check_infinite(lom_lamp *lamp, const lom_key_check *check)
             return check->fail(check, near[i],
                                "a lamp with a direction alone shines from infinity: it has neither a cone nor a "
                                "distance.");
+    if (lamp->shadow)
+        return check->fail(check, "shadow", "a lamp at infinity throws no shadow; the sun of [light] does.");
     lamp->kind = LOM_LAMP_INFINITE;
     lamp->attenuation[0] = 1;
     lamp->attenuation[1] = lamp->attenuation[2] = 0;
@@ -165,6 +167,13 @@ static const lom_key lamp[] = {
     { "exponent", LOM_KEY_NUMBER, AT(lom_lamp, exponent), .maximum = 10000,
       .text = "On the cosine to the middle of the cone; larger is narrower." },
     { "on", LOM_KEY_BOOL, AT(lom_lamp, on), .initial = { 1 }, .text = "Whether it shines." },
+    { "shadow", LOM_KEY_BOOL, AT(lom_lamp, shadow),
+      .text = "Opaque entities and terrain in its reach keep its light off what is behind them (docs/lighting.md). Not "
+              "of a lamp at infinity." },
+    { "shadow_from", LOM_KEY_NUMBER, AT(lom_lamp, shadow_from), .minimum = 0.001, .maximum = 1e6, .initial = { 0.1 },
+      .unit = "m",
+      .text = "What is nearer to it throws no shadow: its bulb, its glass. Measured along the middle of a spot's cone, "
+              "or along the nearest of the world's axes." },
     { "follow", LOM_KEY_STRING, AT(lom_lamp, follow),
       .text = "Name of an entity: `position`, `direction` and the keys are then in its coordinates, turned as it is. "
               "With one that is not visible the lamp is off." },

@@ -187,6 +187,18 @@ static const lom_key quality[] = {
       .dial = &(const lom_key_dial){ .approximates = "the edge of a shadow that an entity throws",
                                      .settings = "256 512 1024 2048 4096 8192",
                                      .needs = "entity quality.entity_shadows" } },
+    { "lamp_shadows", LOM_KEY_INTEGER, AT(lom_quality, lamp_shadows), .minimum = 0, .maximum = 4096, .initial = { 512 },
+      .unit = "texels",
+      .text =
+          "A side of each map of lamps with `shadow`: one a spot up to 60 degrees wide, up to six of any other; less "
+          "than 16 counts as 16. 0: no lamp throws a shadow.",
+      .dial = &(const lom_key_dial){ .approximates = "the edge of a lamp's shadow",
+                                     .settings = "128 256 512 1024 2048 4096",
+                                     .needs = "lamp quality.lamp_shadows" } },
+    { "lamp_shadow_maps", LOM_KEY_INTEGER, AT(lom_quality, lamp_shadow_maps), .minimum = 1, .maximum = 4096,
+      .initial = { 64 },
+      .text = "So many of these maps a frame has at most; lamps further down the file then throw no shadow.",
+      .dial = &(const lom_key_dial){ .none = "a bound on memory" } },
     { "normals", LOM_KEY_NUMBER, AT(lom_quality, normals), .maximum = 1000, .unit = "metres",
       .text = "Length of lines that show the normals of entities' vertices. 0: none are drawn.",
       .dial = &(const lom_key_dial){ .none = "lines for people to look at" }, .untraced = "0" },

@@ -7,6 +7,7 @@
 #ifndef LOM_SHADING_LAMP_H
 #define LOM_SHADING_LAMP_H
 
+#include "shading/lamp_shadow.h"
 #include "shading/light.h"
 
 struct lom_lamp_uniform {
@@ -19,7 +20,8 @@ struct lom_lamp_uniform {
     float cosine_cutoff, inverse_softness; /* of the cone's edge; 1 / the cosines over which light begins */
     float exponent;
     bool infinite, spot;
-    const char *name; /* of its term, in records: the scene's, or its number */
+    const struct lom_lamp_shadow_uniform *shadow; /* NULL: nothing keeps its light off */
+    const char *name;                             /* of its term, in records: the scene's, or its number */
     char number[16];
 };
 
@@ -38,16 +40,20 @@ struct lom_lamps_uniform {
 /* The lamps that may reach the places of a packet, one after the other, in those lanes whose tile has it. */
 struct lom_lamp_walk {
     const struct lom_lamps_uniform *all;
-    lom_float3 place; /* less the eye of the frame */
+    lom_float3 place;  /* less the eye of the frame */
+    lom_float3 normal; /* of the surface there; 0: it throws no shadow on itself */
     lom_int tile;
     lom_mask left, now; /* lanes whose lists come later; whose list this is */
     uint32_t next, end;
 };
 
-LOM_INLINE struct lom_lamp_walk lom_walk_lamps(const struct lom_light_uniform *light, lom_float3 offset)
+LOM_INLINE struct lom_lamp_walk lom_walk_lamps(const struct lom_light_uniform *light, lom_float3 offset,
+                                               lom_float3 normal)
 {
     const struct lom_lamps_uniform *all = light->lamps;
-    struct lom_lamp_walk walk = { .all = all, .place = lom_add3(offset, lom_uniform3(light->lamp_shift)) };
+    struct lom_lamp_walk walk = { .all = all,
+                                  .normal = normal,
+                                  .place = lom_add3(offset, lom_uniform3(light->lamp_shift)) };
     const float columns = (float)all->columns, rows = (float)all->rows;
     lom_float column = lom_floor((walk.place.x - all->corner[0]) * all->inverse_side);
     lom_float row = lom_floor((walk.place.z - all->corner[1]) * all->inverse_side);
@@ -100,10 +106,10 @@ LOM_INLINE lom_float lom_lamp_cone(const struct lom_lamp_uniform *lamp, lom_floa
     return lom_select(inside, edge, (lom_float){ 0 });
 }
 
-/* The share of a lamp's colours that comes to the places of the walk, in its lanes, and the unit vector there from where.
- * What keeps light off on the way there (a shadow) is a factor of this share. False: nothing comes. */
-LOM_INLINE bool lom_lamp_share(const struct lom_lamp_walk *walk, const struct lom_lamp_uniform *lamp,
-                               lom_float3 *to_lamp, lom_float *share)
+/* The share of a lamp's colours that would come to the places of the walk if nothing stood between, in its lanes, and the
+ * unit vector there from where. False: nothing comes. */
+LOM_INLINE bool lom_open_lamp_share(const struct lom_lamp_walk *walk, const struct lom_lamp_uniform *lamp,
+                                    lom_float3 *to_lamp, lom_float *share)
 {
     *share = lom_select(walk->now, lom_splat(1.0f), (lom_float){ 0 });
     *to_lamp = lom_uniform3(lamp->place);
@@ -120,6 +126,18 @@ LOM_INLINE bool lom_lamp_share(const struct lom_lamp_walk *walk, const struct lo
     *share = *share * lom_lamp_fade(lamp, distance) / divisor;
     if (lamp->spot)
         *share = *share * lom_lamp_cone(lamp, *to_lamp);
+    return lom_any(*share > 0.0f);
+}
+
+/* The same with the lamp's shadow. */
+LOM_INLINE bool lom_lamp_share(const struct lom_lamp_walk *walk, const struct lom_lamp_uniform *lamp,
+                               lom_float3 *to_lamp, lom_float *share)
+{
+    if (!lom_open_lamp_share(walk, lamp, to_lamp, share))
+        return false;
+    if (lamp->shadow == NULL)
+        return true;
+    LOM_WIDE(lom_shade_lamp)(lamp->shadow, &walk->place, &walk->normal, share);
     return lom_any(*share > 0.0f);
 }
 

@@ -57,7 +57,7 @@ static lom_float3 product(const float light[3], const float material[3], lom_flo
 /* Adds what lamps give, in their order. */
 static void add_lamps(const struct lom_light_uniform *light, const struct facet *f, struct lom_lit *lit)
 {
-    struct lom_lamp_walk walk = lom_walk_lamps(light, f->offset);
+    struct lom_lamp_walk walk = lom_walk_lamps(light, f->offset, f->normal);
     lom_float lamps = lom_listed_lamps(&walk);
     LOM_NAME_VALUE(lamps);
     for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {

@@ -1,9 +1,35 @@
-/* Shadows of entities. In: maps of the depth that the sun sees, places of surfaces. Out: the share of the sunlight that
- * comes to a place. */
+/* Shadows of entities and of what stands before lamps. In: maps of the depth that a light sees, places of surfaces. Out:
+ * the share of the light that comes to a place. */
+#include "shading/lamp.h"
 #include "shading/phong.h"
 
-/* The share of a map's texels around a place that have nothing nearer to the sun: 3 x 3 of them, weighted by the
- * quadratic B-spline (Reeves, Salesin, Cook 1987, with a smooth kernel), so that edges move by less than a texel. */
+/* What share of a map's texels around a place has something nearer to the light than it, and what share has not. */
+struct kernel {
+    lom_float dark, open;
+};
+
+/* 3 x 3 texels, weighted by the quadratic B-spline (Reeves, Salesin, Cook 1987, with a smooth kernel), so that edges move
+ * by less than a texel. */
+LOM_INLINE struct kernel compare_texels(const lom_texture *map, float size, float texel, lom_float s, lom_float t,
+                                        lom_float depth)
+{
+    lom_float x = s * size, y = t * size, column = lom_floor(x), row = lom_floor(y);
+    lom_float dx = x - column - 0.5f, dy = y - row - 0.5f;
+    lom_float across[3] = { 0.5f * (0.5f - dx) * (0.5f - dx), 0.75f - dx * dx, 0.5f * (0.5f + dx) * (0.5f + dx) };
+    lom_float down[3] = { 0.5f * (0.5f - dy) * (0.5f - dy), 0.75f - dy * dy, 0.5f * (0.5f + dy) * (0.5f + dy) };
+    struct kernel sum = { { 0 }, { 0 } };
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++) {
+            lom_float at_s = (column + ((float)i - 0.5f)) * texel;
+            lom_float at_t = (row + ((float)j - 0.5f)) * texel;
+            lom_float nearest = lom_sample_depth(map, at_s, at_t), weight = across[i] * down[j];
+            lom_mask dark = (nearest > depth) & (nearest > 0.0f);
+            sum.dark = sum.dark + lom_select(dark, weight, (lom_float){ 0 });
+            sum.open = sum.open + lom_select(dark, (lom_float){ 0 }, weight);
+        }
+    return sum;
+}
+
 static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_float3 place)
 {
     lom_float one = lom_splat(1.0f);
@@ -11,19 +37,7 @@ static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_floa
     lom_float depth = lom_transform_row(shadow->depth, place);
     if (!lom_any((s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f)))
         return one;
-    lom_float x = s * shadow->size, y = t * shadow->size, column = lom_floor(x), row = lom_floor(y);
-    lom_float dx = x - column - 0.5f, dy = y - row - 0.5f, shade = { 0 };
-    lom_float across[3] = { 0.5f * (0.5f - dx) * (0.5f - dx), 0.75f - dx * dx, 0.5f * (0.5f + dx) * (0.5f + dx) };
-    lom_float down[3] = { 0.5f * (0.5f - dy) * (0.5f - dy), 0.75f - dy * dy, 0.5f * (0.5f + dy) * (0.5f + dy) };
-    for (int j = 0; j < 3; j++)
-        for (int i = 0; i < 3; i++) {
-            lom_float at_s = (column + ((float)i - 0.5f)) * shadow->texel;
-            lom_float at_t = (row + ((float)j - 0.5f)) * shadow->texel;
-            lom_float nearest = lom_sample_depth(shadow->map, at_s, at_t);
-            lom_mask dark = (nearest > depth) & (nearest > 0.0f);
-            shade = shade + lom_select(dark, across[i] * down[j], (lom_float){ 0 });
-        }
-    return one - shade;
+    return one - compare_texels(shadow->map, shadow->size, shadow->texel, s, t, depth).dark;
 }
 
 void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
@@ -34,5 +48,60 @@ void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_f
         const struct lom_shadow_map_uniform *shadow = &view->entity_shadow[i];
         if (shadow->map != NULL)
             *share = *share * map_light(shadow, lom_add3(*offset, lom_scale3(*normal, lom_splat(shadow->offset))));
+    }
+}
+
+static lom_float largest(lom_float3 v)
+{
+    return lom_max(lom_max(lom_abs(v.x), lom_abs(v.y)), lom_abs(v.z));
+}
+
+/* The depth of a place less the lamp: its own along the one face, or along the nearest axis of the world. */
+static lom_float depth_before(const struct lom_lamp_shadow_uniform *shadow, lom_float3 way)
+{
+    return shadow->count == 1 ? lom_dot3(way, lom_uniform3(shadow->face[0].forward)) : largest(way);
+}
+
+/* |n . right| + |n . up| of the face that sees a place of this depth; the largest one of those that may after it is moved:
+ * by at most depth (lift + sqrt(2) lean), which is as much off the depth as it is more along another axis. */
+static lom_float lean_of(const struct lom_lamp_shadow_uniform *shadow, lom_float3 way, lom_float depth, lom_float3 n)
+{
+    if (shadow->count == 1)
+        return lom_abs(lom_dot3(n, lom_uniform3(shadow->face[0].right))) +
+               lom_abs(lom_dot3(n, lom_uniform3(shadow->face[0].up)));
+    lom_float3 size = { lom_abs(n.x), lom_abs(n.y), lom_abs(n.z) };
+    lom_float least = depth * (1.0f - 2.0f * shadow->lift - 3.0f * shadow->lean);
+    lom_float along = lom_select(lom_abs(way.x) >= least, size.x, lom_splat(1.0f));
+    along = lom_min(along, lom_select(lom_abs(way.y) >= least, size.y, lom_splat(1.0f)));
+    along = lom_min(along, lom_select(lom_abs(way.z) >= least, size.z, lom_splat(1.0f)));
+    return size.x + size.y + size.z - along;
+}
+
+/* A place behind the lamp has nothing before it. */
+static lom_float face_light(const struct lom_lamp_shadow_uniform *shadow, const struct lom_lamp_face_uniform *face,
+                            lom_float3 way, lom_float depth, lom_mask mine)
+{
+    lom_float inverse = lom_select(mine, 1.0f / depth, (lom_float){ 0 });
+    lom_float s = 0.5f + shadow->scale * lom_dot3(way, lom_uniform3(face->right)) * inverse;
+    lom_float t = 0.5f - shadow->scale * lom_dot3(way, lom_uniform3(face->up)) * inverse;
+    struct kernel k = compare_texels(face->map, shadow->size, shadow->texel, s, t, shadow->from * inverse);
+    return lom_select(mine & (k.dark > 0.0f), k.open, lom_splat(1.0f));
+}
+
+void LOM_WIDE(lom_shade_lamp)(const struct lom_lamp_shadow_uniform *shadow, const lom_float3 *place,
+                              const lom_float3 *normal, lom_float *share)
+{
+    lom_float3 way = lom_sub3(*place, lom_uniform3(shadow->place));
+    lom_float depth = depth_before(shadow, way);
+    lom_float moved = depth * (shadow->lift + shadow->lean * lean_of(shadow, way, depth, *normal));
+    way = lom_add3(way, lom_scale3(*normal, moved));
+    depth = depth_before(shadow, way);
+    lom_mask left = (*share > 0.0f) & (depth > 0.0f);
+    for (int i = 0; i < shadow->count && lom_any(left); i++) {
+        const struct lom_lamp_face_uniform *face = &shadow->face[i];
+        lom_mask mine = left & (lom_dot3(way, lom_uniform3(face->forward)) == depth);
+        left = left & ~mine;
+        if (face->map != NULL && lom_any(mine))
+            *share = *share * face_light(shadow, face, way, depth, mine);
     }
 }

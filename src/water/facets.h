@@ -144,7 +144,7 @@ LOM_INLINE lom_float3 lom_lamp_glitter(const struct lom_surface_uniforms *u, con
     lom_float share, radiance;
     if (u->side < 0 || !(u->glitter > 0))
         return light;
-    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset);
+    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset, lom_splat3(0, 0, 0));
     lom_float lamps = lom_listed_lamps(&walk);
     LOM_NAME_VALUE(lamps);
     for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {

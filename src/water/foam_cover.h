@@ -101,7 +101,7 @@ LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, co
 {
     lom_float3 light = { { 0 }, { 0 }, { 0 } }, to_lamp;
     lom_float share;
-    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset);
+    struct lom_lamp_walk walk = lom_walk_lamps(&u->light, p->offset, lom_splat3(0, 0, 0));
     for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {
         if (!lom_lamp_share(&walk, lamp, &to_lamp, &share))
             continue;

@@ -110,7 +110,7 @@ static lom_float3 lamp_highlights(const struct lom_lake_uniforms *lake, lom_floa
 {
     lom_float3 light = lom_splat3(0, 0, 0), to_lamp;
     lom_float share;
-    struct lom_lamp_walk walk = lom_walk_lamps(&lake->light, offset);
+    struct lom_lamp_walk walk = lom_walk_lamps(&lake->light, offset, lom_splat3(0, 0, 0));
     lom_float lamps = lom_listed_lamps(&walk);
     LOM_NAME_VALUE(lamps);
     for (const struct lom_lamp_uniform *lamp = lom_next_lamp(&walk); lamp != NULL; lamp = lom_next_lamp(&walk)) {

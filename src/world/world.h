@@ -143,6 +143,19 @@ void lom_free_moment(struct lom_moment *moment);
 bool lom_world_moves(const struct lom_world *world);
 /* Its lamps (lamps.c), once its entities are placed. False without memory. */
 bool lom_place_lamps(const struct lom_world *world, struct lom_moment *moment, lom_error *error);
+/* The pictures that tell what a lamp with a shadow sees: along which unit axes, and the tangent of half their field of view
+ * (the same both ways). One along the middle of a cone of up to 60 degrees; six along the world's axes (+x, -x, +y, -y,
+ * +z, -z) for wider ones and points. */
+enum { LOM_LAMP_FACES = 6 };
+struct lom_lamp_faces {
+    int count;
+    double tangent;
+    lom_vec3 axis[LOM_LAMP_FACES];
+};
+struct lom_lamp_faces lom_find_lamp_faces(const struct lom_placed_lamp *lamp);
+/* The metres that a lamp with a shadow leaves open before it, on the way that goes from it along a unit vector: what is
+ * nearer than lom_lamp.shadow_from along the axis of the face which sees it. */
+double lom_lamp_clearance(const struct lom_placed_lamp *lamp, lom_vec3 away);
 /* An entity at a place; false when its matrix is singular. */
 bool lom_place_entity(const struct lom_world_entity *entity, lom_vec3 position, lom_vec3 rotation,
                       struct lom_placement *placement, lom_error *error);

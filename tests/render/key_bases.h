@@ -44,7 +44,7 @@ static const struct base bases[] = {
       "lamp.0.name lamp.0.position lamp.0.direction lamp.0.ambient lamp.0.diffuse lamp.0.specular lamp.0.intensity "
       "lamp.0.attenuation "
       "lamp.0.reach lamp.0.cutoff lamp.0.softness lamp.0.exponent lamp.0.on lamp.0.follow lamp.0.interpolation "
-      "lamp.0.key "
+      "lamp.0.key lamp.0.shadow "
       "quality.lamp_tiles quality.reflection quality.toon_thresholds quality.toon_tones",
       VIEW TERRAIN
       "[terrain.material]\nspecular = 0.5\n[quality]\nreflection = \"toon\"\n"
@@ -53,6 +53,9 @@ static const struct base bases[] = {
       "exponent = 2\nattenuation = [1, 0.1, 0.05]\nreach = 30\n[[lamp.key]]\ntime = 0\n"
       "[[lamp.key]]\ntime = 1\nposition = [1, 4, 2]\n[[lamp]]\nname = \"b\"\nposition = [2, 3, 2]\n"
       "range = 7\n[[lamp]]\ndirection = [1, -1, 1]\ndiffuse = 0.1\n" },
+    { "lamp_shadows", "lamp.0.shadow lamp.0.shadow_from lamp.0.position quality.lamp_shadows quality.lamp_shadow_maps",
+      VIEW TERRAIN "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
+                   "[[lamp]]\nposition = [0, 4, 3]\nrange = 20\nshadow = true\n[quality]\nlamp_shadows = 32\n" },
     { "materials", "entity.0.material entity.0.two_sided entity.0.back light.elevation",
       VIEW
       "[[entity]]\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\nrotation = [200, 30, 0]\nscale = 2\n[entity.material]\n"

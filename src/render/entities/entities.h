@@ -51,6 +51,8 @@ struct lom_drawn_entities {
 };
 
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
+/* Whether any of it is opaque and drawn: what is transparent throws no shadow. */
+bool lom_throws_shadow(const struct lom_drawn_entity *entity);
 /* Makes the maps of their shadows. */
 bool lom_prepare_entities(struct frame *f, lom_error *error);
 /* Draws what is opaque of those that a pass sees. */

@@ -5,6 +5,7 @@
  * Invariant: the maps follow from the whole frame; their texels keep their places in the world while the eye moves, as
  * long as their size stays. */
 #include "render/frame.h"
+#include "render/seen.h"
 
 static const double margin = 4; /* texels around what casts, which stay clear */
 
@@ -62,44 +63,16 @@ static lom_box shadow_volume(lom_box box, lom_vec3 to_light, const lom_box *all)
     return join(box, (lom_box){ low, high });
 }
 
-/* From a point to the nearest one of a box. */
-static double distance_to(lom_vec3 p, lom_box box)
+bool lom_throws_shadow(const struct lom_drawn_entity *entity)
 {
-    double x = greater(greater(box.low.x - p.x, p.x - box.high.x), 0);
-    double y = greater(greater(box.low.y - p.y, p.y - box.high.y), 0);
-    double z = greater(greater(box.low.z - p.z, p.z - box.high.z), 0);
-    return lom_double_sqrt(x * x + y * y + z * z);
+    return !entity->source->is_hidden && entity->transparent.count < entity->source->mesh->index_count / 3;
 }
 
-/* The eye's view and, where planar water mirrors it, the mirrored one. */
-struct views {
-    int count;
-    lom_frustum frustum[2];
-};
-
-static struct views find_views(const struct frame *f)
-{
-    const lom_water_params *water = &f->scene->water;
-    lom_mat4 clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
-    struct views v = { 1, { lom_view_frustum(&clip_from_world, false) } };
-    if (water->present && water->enabled) {
-        lom_mat4 mirror = lom_mirror((lom_vec3){ 0, 1, 0 }, water->level);
-        clip_from_world = lom_multiply(&clip_from_world, &mirror);
-        v.frustum[v.count++] = lom_view_frustum(&clip_from_world, false);
-    }
-    return v;
-}
-
-/* Whether an entity's shadow may be seen. What is transparent throws none. */
-static bool casts(const struct lom_drawn_entity *entity, const struct views *views, lom_vec3 to_light,
+/* Whether an entity's shadow may be seen. */
+static bool casts(const struct lom_drawn_entity *entity, const struct lom_seen *seen, lom_vec3 to_light,
                   const lom_box *all)
 {
-    lom_box volume = shadow_volume(entity->at->bounds, to_light, all);
-    bool throws = !entity->source->is_hidden && entity->transparent.count < entity->source->mesh->index_count / 3;
-    for (int i = 0; i < views->count && throws; i++)
-        if (lom_box_visibility(&views->frustum[i], volume) != LOM_OUTSIDE)
-            return true;
-    return false;
+    return lom_throws_shadow(entity) && lom_may_show(seen, shadow_volume(entity->at->bounds, to_light, all));
 }
 
 /* The casters of a map and their extent as seen from the sun. */
@@ -116,7 +89,7 @@ static void add_extent(struct casters *c, lom_box box)
 /* Pixels of parallel rays are as large everywhere. */
 static double away_from(const struct frame *f, lom_box box)
 {
-    return f->parallel ? 1 : greater(distance_to(f->view.eye, box), f->camera.near_plane);
+    return f->parallel ? 1 : greater(lom_distance_to_box(f->view.eye, box), f->camera.near_plane);
 }
 
 /* Marks what casts with the number of its map: the nearer ones, up to the geometric middle of all distances, and the
@@ -124,12 +97,12 @@ static double away_from(const struct frame *f, lom_box box)
 static void sort_casters(struct frame *f, lom_vec3 to_light, const lom_mat4 *light, struct casters casters[2])
 {
     lom_renderer *r = f->renderer;
-    struct views views = find_views(f);
+    const struct lom_seen seen = lom_find_seen(f);
     lom_box all = find_receivers(r);
     double nearest = 1e300, farthest = 0;
     for (size_t i = 0; i < r->entities.count; i++) {
         struct lom_drawn_entity *e = &r->entities.items[i];
-        e->shadow_map = casts(e, &views, to_light, &all) ? 0 : -1;
+        e->shadow_map = casts(e, &seen, to_light, &all) ? 0 : -1;
         double distance = away_from(f, e->at->bounds);
         if (e->shadow_map == 0) {
             nearest = lesser(nearest, distance);

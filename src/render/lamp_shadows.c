@@ -1,0 +1,278 @@
+/* The shadows of lamps, before the scene is drawn. In: the lamps of the frame, where entities and terrain are. Out: a map
+ * for each face of a lamp before which something stands, and what shaders look up in it.
+ *
+ * Invariant: which lamps and faces have a map follows from the whole frame; a lamp without one gives what it gave. Terrain
+ * casts as it is drawn, with the frame's levels of detail, so that it does not shade itself. */
+#include "render/lamp_shadows.h"
+
+#include "base/numbers.h"
+#include "base/reserve.h"
+#include "render/entities/shaders.h"
+#include "render/frame.h"
+#include "render/seen.h"
+
+static const double margin = 4;   /* texels around what a face sees: a place is moved by less, and then filtered */
+static const int least_size = 16; /* texels a side */
+
+/* What a face of a lamp sees. */
+struct face_view {
+    lom_vec3 place;
+    double reach;
+    lom_mat4 clip_from_world;
+    struct lom_culler culler;
+};
+
+/* What a frame's step tells. */
+struct tally {
+    size_t lamps, maps, drawn, empty, unseen, over;
+};
+
+static int map_size(const struct frame *f)
+{
+    const int size = f->scene->quality.lamp_shadows;
+    return size < least_size ? least_size : size;
+}
+
+/* ---- what casts ---- */
+
+static const double everything[4] = { 0, 0, 0, 1 }; /* no clip plane */
+
+/* Clip z is the least distance, so depth is that over w. */
+static struct face_view view_of(const struct lom_placed_lamp *lamp, lom_vec3 axis, double tangent, double inside)
+{
+    const lom_vec3 p = lamp->position, target = lom_vec3_add(p, axis);
+    const lom_mat4 look = lom_look_at(p, target, (lom_vec3){ 0, 1, 0 });
+    const double k = inside / tangent;
+    const lom_mat4 project = {
+        { { k, 0, 0, 0 }, { 0, k, 0, 0 }, { 0, 0, 0, lamp->lamp->shadow_from }, { 0, 0, -1, 0 } }
+    };
+    struct face_view v = { p, lamp->reach, lom_multiply(&project, &look), { .plane = everything } };
+    v.culler.frustum = lom_view_frustum(&v.clip_from_world, false);
+    return v;
+}
+
+static bool is_in_range(const struct face_view *v, lom_box box)
+{
+    return lom_distance_to_box(v->place, box) < v->reach && lom_is_visible(&v->culler, &box);
+}
+
+static bool is_caster(const struct face_view *v, const struct lom_drawn_entity *entity)
+{
+    return lom_throws_shadow(entity) && is_in_range(v, entity->at->bounds);
+}
+
+/* The i-th block of terrain from near to far as a draw; NULL where it is out of range. */
+static const struct lom_ground_block *find_block(const struct lom_ground *ground, const struct face_view *v, int i,
+                                                 lom_draw_desc *draw)
+{
+    uint32_t number;
+    if (lom_find_ground_draw(ground, i, &v->culler, draw, &number) == NULL ||
+        !is_in_range(v, ground->blocks[number].bounds))
+        return NULL;
+    return &ground->blocks[number];
+}
+
+/* How many things cast, and the hash of all that decides what the map shows. */
+static size_t count_casters(const lom_renderer *r, const struct face_view *v, uint64_t *hash)
+{
+    size_t count = 0;
+    *hash = lom_hash_bytes(LOM_HASH_START, &v->clip_from_world, sizeof v->clip_from_world);
+    for (size_t i = 0; i < r->entities.count; i++)
+        if (is_caster(v, &r->entities.items[i])) {
+            *hash = lom_hash_bytes(lom_hash_bytes(*hash, &i, sizeof i), &r->entities.items[i].at->world_from_model,
+                                   sizeof(lom_mat4));
+            count++;
+        }
+    for (int i = 0; i < r->ground.across * r->ground.down; i++) {
+        lom_draw_desc draw;
+        if (find_block(&r->ground, v, i, &draw) == NULL)
+            continue;
+        *hash = lom_hash_bytes(*hash, &draw.attribute[0].data, sizeof draw.attribute[0].data);
+        *hash = lom_hash_bytes(*hash, &draw.indices, sizeof draw.indices);
+        count++;
+    }
+    return count;
+}
+
+static void draw_ground_casters(const lom_renderer *r, const struct face_view *v)
+{
+    lom_mat4 raised = lom_identity();
+    raised.m[1][3] = r->scene->terrain.base;
+    const lom_mat4 clip_from_ground = lom_multiply(&v->clip_from_world, &raised);
+    const struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_ground) };
+    lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .label = "terrain" };
+    for (int i = 0; i < r->ground.across * r->ground.down; i++)
+        if (find_block(&r->ground, v, i, &draw) != NULL)
+            lom_draw(r->device, &draw);
+}
+
+static bool draw_map(lom_renderer *r, const struct face_view *v, lom_texture *map)
+{
+    lom_begin_pass(r->device, &(lom_pass_desc){ .depth = map, .label = "lamp shadow" });
+    for (size_t i = 0; i < r->entities.count; i++)
+        if (is_caster(v, &r->entities.items[i]))
+            lom_draw_caster(r, &r->entities.items[i], &v->clip_from_world);
+    draw_ground_casters(r, v);
+    return lom_end_pass(r->device);
+}
+
+/* ---- maps ---- */
+
+/* The next map of the frame; NULL when the device holds an error. */
+static struct lom_lamp_map *find_map(struct frame *f, size_t number, lom_error *error)
+{
+    struct lom_lamp_shadows *s = &f->renderer->lamps.shadows;
+    const int size = map_size(f);
+    if (!lom_reserve(&s->maps, &s->capacity, number + 1, sizeof *s->maps, error))
+        return NULL;
+    if (number == s->count)
+        s->maps[s->count++] = (struct lom_lamp_map){ .texture = NULL };
+    struct lom_lamp_map *map = &s->maps[number];
+    if (map->texture == NULL)
+        map->texture =
+            lom_make_texture(f->renderer->device, &(lom_texture_desc){ .width = size,
+                                                                       .height = size,
+                                                                       .label = "lamp shadow",
+                                                                       .format = LOM_FORMAT_DEPTH32F,
+                                                                       .sampler = { .wrap_s = LOM_WRAP_BORDER,
+                                                                                    .wrap_t = LOM_WRAP_BORDER,
+                                                                                    .magnify = LOM_FILTER_NEAREST,
+                                                                                    .minify = LOM_FILTER_NEAREST } });
+    return map->texture != NULL ? map : NULL;
+}
+
+/* A face before which nothing stands keeps no map. */
+static bool make_face(struct frame *f, const struct face_view *v, struct lom_lamp_face_uniform *face,
+                      struct tally *tally, lom_error *error)
+{
+    uint64_t hash;
+    if (count_casters(f->renderer, v, &hash) == 0)
+        return true;
+    struct lom_lamp_map *map = find_map(f, tally->maps, error);
+    if (map == NULL)
+        return false;
+    tally->maps++;
+    face->map = map->texture;
+    if (map->made_for == hash)
+        return true;
+    tally->drawn++;
+    if (!draw_map(f->renderer, v, map->texture))
+        return false;
+    map->made_for = hash;
+    return true;
+}
+
+/* Rows of a rotation as a shader has them, divided by a tangent. */
+static void set_axes(struct lom_lamp_face_uniform *face, lom_vec3 axis, double tangent)
+{
+    const lom_mat4 look = lom_look_at((lom_vec3){ 0, 0, 0 }, axis, (lom_vec3){ 0, 1, 0 });
+    for (int i = 0; i < 3; i++) {
+        face->right[i] = (float)(look.m[0][i] / tangent);
+        face->up[i] = (float)(look.m[1][i] / tangent);
+        face->forward[i] = (float)-look.m[2][i];
+    }
+}
+
+static bool make_maps(struct frame *f, const struct lom_placed_lamp *lamp, struct lom_lamp_uniform *u,
+                      struct lom_lamp_shadow_uniform *shadow, struct tally *tally, lom_error *error)
+{
+    const struct lom_lamp_faces faces = lom_find_lamp_faces(lamp);
+    const int size = map_size(f);
+    const double inside = 1 - 2 * margin / size;
+    const size_t before = tally->maps;
+    const double texel = 2 * faces.tangent / (size * inside); /* metres a metre of depth */
+    *shadow = (struct lom_lamp_shadow_uniform){ .count = faces.count,
+                                                .size = (float)size,
+                                                .texel = 1 / (float)size,
+                                                .scale = (float)(inside / 2),
+                                                .from = (float)lamp->lamp->shadow_from,
+                                                .lift = (float)(LOM_SHADOW_LIFT * texel),
+                                                .lean = (float)(LOM_SHADOW_LEAN * texel * faces.tangent) };
+    for (int i = 0; i < 3; i++)
+        shadow->place[i] = u->place[i];
+    for (int i = 0; i < faces.count; i++) {
+        const struct face_view v = view_of(lamp, faces.axis[i], faces.tangent, inside);
+        set_axes(&shadow->face[i], faces.axis[i], faces.tangent);
+        if (!make_face(f, &v, &shadow->face[i], tally, error))
+            return false;
+    }
+    if (tally->maps > before)
+        u->shadow = shadow;
+    tally->empty += tally->maps == before;
+    return true;
+}
+
+/* ---- the stage ---- */
+
+static bool is_lamp_seen(const struct lom_seen *seen, const struct lom_placed_lamp *lamp)
+{
+    const double r = lamp->reach < 1e18 ? lamp->reach : 1e18;
+    const lom_vec3 p = lamp->position;
+    return lom_may_show(seen, (lom_box){ { p.x - r, p.y - r, p.z - r }, { p.x + r, p.y + r, p.z + r } });
+}
+
+static bool make_all(struct frame *f, struct tally *tally, lom_error *error)
+{
+    struct lom_drawn_lamps *lamps = &f->renderer->lamps;
+    const size_t most = (size_t)f->scene->quality.lamp_shadow_maps;
+    const struct lom_seen seen = lom_find_seen(f);
+    for (size_t i = 0; i < lamps->count; i++) {
+        const struct lom_placed_lamp *lamp = &f->renderer->moment.lamps[i];
+        if (!lamp->lamp->shadow)
+            continue;
+        tally->lamps++;
+        if (!is_lamp_seen(&seen, lamp))
+            tally->unseen++;
+        else if (tally->maps + (size_t)lom_find_lamp_faces(lamp).count > most)
+            tally->over++;
+        else if (!make_maps(f, lamp, &lamps->items[i], &lamps->shadows.items[i], tally, error))
+            return false;
+    }
+    return true;
+}
+
+static void add_step(struct frame *f, const struct tally *t)
+{
+    lom_step *step = lom_add_step(f, "lamp shadows", t->drawn > 0,
+                                  "%zu maps of %zu lamps: %zu drawn, the others show what they did; of %zu lamps "
+                                  "nothing is in reach, %zu are out of view, %zu beyond quality.lamp_shadow_maps",
+                                  t->maps, t->lamps, t->drawn, t->empty, t->unseen, t->over);
+    step->width = step->height = t->drawn > 0 ? map_size(f) : 0;
+}
+
+bool lom_prepare_lamp_shadows(struct frame *f, lom_error *error)
+{
+    struct lom_drawn_lamps *lamps = &f->renderer->lamps;
+    struct tally tally = { .lamps = 0 };
+    size_t wanted = 0;
+    for (size_t i = 0; i < lamps->count; i++)
+        wanted += f->renderer->moment.lamps[i].lamp->shadow;
+    if (wanted == 0)
+        return true;
+    if (f->scene->quality.lamp_shadows == 0) {
+        lom_add_step(f, "lamp shadows", false, "quality.lamp_shadows is 0");
+        return true;
+    }
+    if (!lom_reserve(&lamps->shadows.items, &lamps->shadows.item_capacity, lamps->count, sizeof *lamps->shadows.items,
+                     error) ||
+        !make_all(f, &tally, error))
+        return false;
+    add_step(f, &tally);
+    return true;
+}
+
+void lom_forget_lamp_shadows(struct lom_lamp_shadows *shadows)
+{
+    for (size_t i = 0; i < shadows->count; i++)
+        shadows->maps[i].made_for = 0;
+}
+
+void lom_drop_lamp_shadows(lom_renderer *renderer)
+{
+    struct lom_lamp_shadows *shadows = &renderer->lamps.shadows;
+    for (size_t i = 0; i < shadows->count; i++)
+        lom_release_texture(renderer->device, shadows->maps[i].texture);
+    lom_release(shadows->maps);
+    lom_release(shadows->items);
+    *shadows = (struct lom_lamp_shadows){ .maps = NULL };
+}
