@@ -48,10 +48,15 @@ LOM_INLINE lom_double lom_select_double(lom_long mask, lom_double a, lom_double 
     return (lom_double)((mask & (lom_long)a) | (~mask & (lom_long)b));
 }
 
+/* In two halves, each of which is a register: gcc spreads what is wider by way of memory where it leaves a loop. */
 LOM_INLINE lom_double lom_splat_double(double value)
 {
-    lom_double zero = { 0 };
-    return value - zero;
+    typedef double lom_half_double __attribute__((vector_size(LOM_LANES * 4)));
+    union {
+        lom_half_double half[2];
+        lom_double whole;
+    } both = { .half = { value - (lom_half_double){ 0 }, value - (lom_half_double){ 0 } } };
+    return both.whole;
 }
 
 /* The quiet NaN where x is NaN, otherwise y. */

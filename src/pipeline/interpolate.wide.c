@@ -17,12 +17,12 @@ enum { VALUE = 0, DELTA1, DELTA2, LOWEST, HIGHEST, VALUE_WORDS = LIST_VALUE };
 struct values {
     const float *words;
     lom_int which;
-    bool one;
+    const struct lom_facet *facet; /* NULL: slots */
 };
 
 LOM_INLINE lom_float load_value(const struct values *v, int word)
 {
-    return v->one ? lom_splat(v->words[word]) : lom_permute(lom_load(v->words + word * SLOT_PITCH), v->which);
+    return v->facet != NULL ? lom_splat(v->words[word]) : lom_permute(lom_load(v->words + word * SLOT_PITCH), v->which);
 }
 
 struct weights { /* of the three vertices, screen-space times 1/w; b1 and b2 perspective-correct */
@@ -52,6 +52,15 @@ LOM_INLINE void find_slope(lom_float step1, lom_float step2, const struct weight
     slope[1] = (b - w->b2 * sum) / w->sum;
 }
 
+/* The same where all but b and the sum of the weights is the triangle's. */
+LOM_INLINE void find_slope_of_facet(const struct lom_facet *facet, int axis, const struct weights *w,
+                                    lom_float slope[2])
+{
+    const float *k = facet->slope[axis];
+    slope[0] = facet->level ? k[0] / w->sum : (k[0] - w->b1 * k[2]) / w->sum;
+    slope[1] = facet->level ? k[1] / w->sum : (k[1] - w->b2 * k[2]) / w->sum;
+}
+
 LOM_INLINE void interpolate(const struct values *values, const lom_shader *shader, const struct weights *w,
                             lom_varyings *in)
 {
@@ -59,6 +68,8 @@ LOM_INLINE void interpolate(const struct values *values, const lom_shader *shade
     uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
     for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, word += VALUE_WORDS) {
         int v = __builtin_ctz(reads);
+        if (values->facet != NULL && !(values->facet->varies >> v & 1))
+            continue;
         lom_float f = load_value(values, word + VALUE);
         if (shader->flat >> v & 1) {
             in->varying[v] = f;
@@ -68,7 +79,7 @@ LOM_INLINE void interpolate(const struct values *values, const lom_shader *shade
         lom_float d1 = load_value(values, word + DELTA1), d2 = load_value(values, word + DELTA2);
         in->varying[v] = lom_clamp(f + w->b1 * d1 + w->b2 * d2, load_value(values, word + LOWEST),
                                    load_value(values, word + HIGHEST));
-        if (shader->differentiates >> v & 1) {
+        if (values->facet == NULL && shader->differentiates >> v & 1) {
             in->delta[0][v] = d1;
             in->delta[1][v] = d2;
         }
@@ -98,14 +109,18 @@ LOM_INLINE void find_varyings(const struct values *v, const lom_shader *shader, 
     interpolate(v, shader, &w, in);
     if (shader->screen_linear != 0)
         interpolate_linear(v, shader, packet->l, in);
-    if (shader->differentiates != 0) {
+    if (shader->differentiates != 0 && v->facet != NULL) {
+        find_slope_of_facet(v->facet, 0, &w, in->dx);
+        find_slope_of_facet(v->facet, 1, &w, in->dy);
+    } else if (shader->differentiates != 0) {
         find_slope(load_value(v, STEPS), load_value(v, STEPS + 2), &w, in->dx);
         find_slope(load_value(v, STEPS + 1), load_value(v, STEPS + 3), &w, in->dy);
     }
     if (shader->reads_position) {
         in->z = packet->depth;
         in->w = 1.0f / w.sum;
-        in->front = lom_as_int(load_value(v, FACING));
+        if (v->facet == NULL)
+            in->front = lom_as_int(load_value(v, FACING));
     }
 }
 
@@ -121,55 +136,126 @@ static float greater(float a, float b)
     return a > b ? a : b;
 }
 
-static void fill_facet(struct lom_tile *tile, const lom_primitive *p)
+static bool is_negative_zero(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits == UINT32_C(1) << 31;
+}
+
+/* What the slopes of the weights are made of. Where all 1/w are 1 the sums are 0, and k - b 0 is k: b is finite where a
+ * pixel is covered, and k is not -0. */
+static void fill_slopes(struct lom_facet *facet, const lom_triangle *t, const float one_over_w[3])
+{
+    const float step[2][2] = { { t->step_x1 * t->inverse_area, t->step_x2 * t->inverse_area },
+                               { t->step_y1 * t->inverse_area, t->step_y2 * t->inverse_area } };
+    facet->level = one_over_w[0] == 1 && one_over_w[1] == 1 && one_over_w[2] == 1;
+    for (int axis = 0; axis < 2; axis++) {
+        float *k = facet->slope[axis];
+        k[0] = step[axis][0] * one_over_w[1];
+        k[1] = step[axis][1] * one_over_w[2];
+        k[2] = k[0] + k[1] - (step[axis][0] + step[axis][1]) * one_over_w[0];
+        facet->level &= k[2] == 0 && !is_negative_zero(k[0]) && !is_negative_zero(k[1]);
+    }
+}
+
+/* A varying of the triangle: its words, and what of it is the same for all packets. Clamped to f..f a weighted sum is f,
+ * but for the sign of a zero. */
+static void fill_value(struct lom_facet *facet, int v, const float f[3], float *to, lom_varyings *in)
+{
+    to[VALUE] = f[0];
+    to[DELTA1] = f[1] - f[0];
+    to[DELTA2] = f[2] - f[0];
+    to[LOWEST] = lesser(f[0], lesser(f[1], f[2]));
+    to[HIGHEST] = greater(f[0], greater(f[1], f[2]));
+    in->varying[v] = lom_splat(f[0]);
+    in->delta[0][v] = lom_splat(to[DELTA1]);
+    in->delta[1][v] = lom_splat(to[DELTA2]);
+    bool same = f[0] == f[1] && f[0] == f[2];
+    for (int k = 0; k < 3; k++)
+        same &= !is_negative_zero(f[k]);
+    facet->varies |= (uint32_t)!same << v;
+}
+
+_Static_assert(sizeof(lom_varyings) <= LARGEST_VARYINGS, "a facet holds a packet's varyings");
+
+LOM_INLINE lom_varyings *varyings_of(struct lom_facet *facet)
+{
+    return (lom_varyings *)(void *)facet->varyings;
+}
+
+static __attribute__((noinline)) void fill_facet(struct lom_tile *tile, const lom_primitive *p)
 {
     const lom_shader *shader = tile->draw->desc.shader;
-    float *to = tile->facet.value;
+    struct lom_facet *facet = &tile->facet;
+    lom_varyings *in = varyings_of(facet);
+    float *to = facet->value;
     const float *row[3], *provoking;
-    int32_t front = -(int32_t)(p->state >> TRIANGLE_FRONT & 1);
     lom_triangle t;
     lom_find_triangle(tile->pass, tile->chunk, p, &t);
-    tile->facet.primitive = p;
+    facet->primitive = p;
+    facet->varies = 0;
     for (int k = 0; k < 3; k++) {
         row[k] = tile->chunk->rows + p->row[k] + ROW_HEADER;
         to[ONE_OVER_W + k] = row[k][-1];
     }
     provoking = row[p->state >> TRIANGLE_PROVOKING & 3];
-    memcpy(&to[FACING], &front, sizeof front);
-    to[STEPS] = t.step_x1 * t.inverse_area;
-    to[STEPS + 1] = t.step_y1 * t.inverse_area;
-    to[STEPS + 2] = t.step_x2 * t.inverse_area;
-    to[STEPS + 3] = t.step_y2 * t.inverse_area;
+    in->front = lom_splat_int(-(int32_t)(p->state >> TRIANGLE_FRONT & 1));
+    fill_slopes(facet, &t, to + ONE_OVER_W);
     to += VALUES;
     uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
     for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, to += VALUE_WORDS) {
         int v = __builtin_ctz(reads);
-        float f[3] = { row[0][v], row[1][v], row[2][v] };
+        const float f[3] = { row[0][v], row[1][v], row[2][v] };
         if (shader->flat >> v & 1) {
-            memcpy(&to[VALUE], &provoking[v], sizeof provoking[v]);
-            continue;
-        }
-        to[VALUE] = f[0];
-        to[DELTA1] = f[1] - f[0];
-        to[DELTA2] = f[2] - f[0];
-        to[LOWEST] = lesser(f[0], lesser(f[1], f[2]));
-        to[HIGHEST] = greater(f[0], greater(f[1], f[2]));
+            in->varying[v] = lom_splat(provoking[v]);
+            in->delta[0][v] = in->delta[1][v] = (lom_float){ 0 };
+        } else
+            fill_value(facet, v, f, to, in);
     }
+}
+
+/* A packet of the facet's triangle; l is its weights. */
+LOM_INLINE void shade_with_facet(struct lom_tile *tile, const struct lom_packet *packet)
+{
+    const lom_shader *shader = tile->draw->desc.shader;
+    const struct values values = { tile->facet.value, { 0 }, &tile->facet };
+    lom_varyings *in = varyings_of(&tile->facet);
+    if (shader->reads != 0 || shader->reads_position)
+        find_varyings(&values, shader, packet, shader->quads, in);
+    if (shader->reads_position)
+        lom_find_position(tile, &packet->places, in);
+    lom_run_shader(tile, packet, in);
+}
+
+LOM_INLINE void turn_facet(struct lom_tile *tile, int32_t number)
+{
+    const lom_primitive *p = &tile->chunk->primitives[number];
+    if (tile->facet.primitive != p)
+        fill_facet(tile, p);
 }
 
 void LOM_WIDE(lom_shade_facet)(struct lom_tile *tile, const struct lom_packet *packet)
 {
-    const lom_primitive *p = &tile->chunk->primitives[packet->triangle[0]];
-    const lom_shader *shader = tile->draw->desc.shader;
-    lom_varyings in;
-    if (tile->facet.primitive != p)
-        fill_facet(tile, p);
-    struct values values = { tile->facet.value, { 0 }, true };
-    if (shader->reads != 0 || shader->reads_position)
-        find_varyings(&values, shader, packet, shader->quads, &in);
-    if (shader->reads_position)
-        lom_find_position(tile, &packet->places, &in);
-    lom_run_shader(tile, packet, &in);
+    turn_facet(tile, packet->triangle[0]);
+    shade_with_facet(tile, packet);
+}
+
+void LOM_WIDE(lom_shade_window)(struct lom_tile *tile, int32_t number, int base, const lom_float l[PARTS][3])
+{
+    struct lom_packet packet;
+    turn_facet(tile, number);
+    packet.triangle[0] = number;
+    packet.triangles = 1;
+    packet.covered = lom_splat_int(-1);
+    packet.depth = (lom_float){ 0 };
+    packet.places.block = true;
+    for (int part = 0; part < PARTS; part++) {
+        for (int k = 0; k < 3; k++)
+            packet.l[k] = l[part][k];
+        lom_store_int(packet.places.pixel, lom_load_int(tile->offset + part * LOM_LANES) + base);
+        shade_with_facet(tile, &packet);
+    }
 }
 
 /* ---- slots ---- */
@@ -261,7 +347,7 @@ void LOM_WIDE(lom_fill_values)(struct lom_tile *tile)
 void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet)
 {
     const lom_shader *shader = tile->draw->desc.shader;
-    const struct values values = { tile->list.value + p->first, p->which, false };
+    const struct values values = { tile->list.value + p->first, p->which, NULL };
     lom_varyings in;
     find_varyings(&values, shader, packet, false, &in);
     if (shader->reads_position) {

@@ -6,6 +6,8 @@
 #include "pipeline/edges.h"
 #include "pipeline/window.h"
 
+#include <lom/lanes_mathematics.h>
+
 /* An edge of a large triangle over one tile in units of 256: (E + bias) >> 8 steps by exact integers, since E steps by
  * multiples of 256, and has the sign of E + bias. */
 struct tile_edge {
@@ -86,13 +88,14 @@ LOM_INLINE lom_mask cover_large(const struct tile_edge k[3], int x, int y, int p
 
 /* Edge functions 1 and 2 at a window's first pixel, and the area. */
 struct window_edges {
-    double start1, start2, area;
+    lom_double start1, start2, area;
 };
 
 LOM_INLINE struct window_edges edges_of_window(const struct lom_edges *e, int x, int y)
 {
-    return (struct window_edges){ (double)(e->start[1] + e->dx[1] * x + e->dy[1] * y),
-                                  (double)(e->start[2] + e->dx[2] * x + e->dy[2] * y), (double)e->area };
+    return (struct window_edges){ lom_splat_double((double)(e->start[1] + e->dx[1] * x + e->dy[1] * y)),
+                                  lom_splat_double((double)(e->start[2] + e->dx[2] * x + e->dy[2] * y)),
+                                  lom_splat_double((double)e->area) };
 }
 
 LOM_INLINE void weigh(const struct large *g, const struct window_edges *w, int part, lom_float l[3])
@@ -133,14 +136,12 @@ static void raster_large_window(struct lom_tile *tile, const struct large *g, in
 /* What raster_large_window does of a whole window with g->shades. */
 static void shade_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y)
 {
-    struct part at = { .number = number, .base = memory_index(tile, x, y) };
     struct window_edges w = edges_of_window(&g->edges, x, y);
-    lom_float l[3], depth = { 0 };
+    lom_float l[PARTS][3];
     tile->fragments += 16;
-    for (; at.part < PARTS; at.part++) {
-        weigh(g, &w, at.part, l);
-        LOM_WIDE(lom_shade_part)(tile, &at, l, &depth);
-    }
+    for (int part = 0; part < PARTS; part++)
+        weigh(g, &w, part, l[part]);
+    LOM_WIDE(lom_shade_window)(tile, number, memory_index(tile, x, y), l);
 }
 
 /* Whether the draw's paint goes to every pixel that the triangle covers. */

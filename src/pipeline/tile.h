@@ -50,10 +50,16 @@ struct lom_list {
     int tested; /* codes whose early depth test is done */
 };
 
-/* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). */
+/* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). What is the same for all of
+ * them waits in the varyings that its packets give to shaders: those which do not vary, and all differences. */
+enum { LARGEST_VARYINGS = 64 * (3 * LOM_MAX_VARYINGS + 16) }; /* bytes of lom_varyings at 16 lanes, at most */
 struct lom_facet {
     const lom_primitive *primitive; /* whose they are; NULL: nobody's */
+    uint32_t varies;                /* varyings that are not the same at all vertices, a bit each */
+    bool level;                     /* 1/w is 1 at all vertices: slopes are the steps over the sum of the weights */
+    float slope[2][3];              /* along x and y: of l1 / w1, of l2 / w2, of the sum */
     float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
+    _Alignas(64) unsigned char varyings[LARGEST_VARYINGS];
 };
 
 /* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where

@@ -41,7 +41,8 @@ LOM_DEPTH_SHADER(depth_only, place_values, .attributes = 2, .varyings = 4)
 
 static vertex vertices[3 * TRIANGLES];
 
-/* Heaps of triangles of up to a dozen pixels, a few larger; depths of few values, so that many are equal. */
+/* Heaps of triangles of up to a dozen pixels, a few larger; depths of few values, so that many are equal. Of some triangles
+ * w is 1, or values are the same at all vertices, one of them -0: what is found once for all packets differs by that. */
 static void make_heap(void)
 {
     for (size_t t = 0; t < TRIANGLES; t++) {
@@ -49,13 +50,15 @@ static void make_heap(void)
         float x = random_float(-0.6f, 0.6f), y = random_float(-0.6f, 0.6f), z = (float)random_whole(0, 7) / 8;
         for (size_t k = 0; k < 3; k++) {
             vertex *v = &vertices[3 * t + k];
-            float w = t % 2 == 0 ? 1.0f : random_float(0.5f, 2);
+            float w = t % 4 == 0 ? 1.0f : random_float(0.5f, 2);
             v->position[0] = (x + random_float(-reach, reach)) * w;
             v->position[1] = (y + random_float(-reach, reach)) * w;
             v->position[2] = (t % 3 == 0 ? random_float(0, 1) : z) * w;
             v->position[3] = w;
             for (int i = 0; i < 8; i++)
-                v->value[i] = random_float(0, 1);
+                v->value[i] = t % 3 == 0 && k > 0 ? vertices[3 * t].value[i] : random_float(0, 1);
+            if (t % 3 == 0)
+                v->value[t % 4] = -0.0f;
             v->distance[0] = t % 9 == 0 ? random_float(-1, 1) : 1.0f;
         }
     }
