@@ -93,6 +93,32 @@ typedef struct lom_cloud_wind { /* [[clouds.wind]]: heights rise strictly */
     double gust_period;
 } lom_cloud_wind;
 
+typedef struct lom_cloud_mix { /* [[clouds.mix]]: what a sky of many is made of */
+    bool present;
+    const char *kind; /* one that lom_find_cloud_kind knows */
+    double share;     /* of the clouds, in parts of the sum of all shares */
+} lom_cloud_mix;
+
+enum {
+    LOM_MAX_SKY = 4096, /* clouds that [clouds] makes */
+    LOM_MAX_MIX = 16,
+    LOM_MAX_SKY_SHAPES = 16,
+    LOM_MAX_METAR_LAYERS = 8
+};
+
+/* A group of clouds of an aerodrome's report. */
+typedef struct lom_metar_layer {
+    double oktas;     /* eighths of the sky: FEW 1.5, SCT 3.5, BKN 6, OVC and VV 8 */
+    double base;      /* metres above the aerodrome; negative: not measured */
+    const char *kind; /* cumulonimbus, cumulus_congestus (TCU), or by height and amount */
+} lom_metar_layer;
+
+/* The clouds of METAR text (WMO-No. 306, FM 15): groups such as "FEW030 BKN120CB", heights in hundreds of feet; NSC,
+ * NCD, SKC, CLR and CAVOK tell that there are none. Text that begins with METAR or SPECI may be a whole report: its other
+ * groups are passed over, and what follows RMK, NOSIG, BECMG or TEMPO. Returns the number of layers, in the order of the
+ * text; -1 with a sentence when a group is no such thing or there are too many. */
+int lom_parse_metar(const char *text, lom_metar_layer layer[LOM_MAX_METAR_LAYERS], lom_error *error);
+
 typedef struct lom_clouds {
     bool present;
     lom_cloud_phase phase;
@@ -110,6 +136,18 @@ typedef struct lom_clouds {
     size_t wind_count;          /* 0: calm */
     double evolve; /* seconds in which the small shapes of clouds become others; 0: they stay as they are */
     double swell;  /* 0..1, how much clouds grow and shrink meanwhile, in twice that time */
+    /* a sky of many; the reader has added them to the scene's clouds */
+    int count;          /* 0..LOM_MAX_SKY; 0: as many as `oktas` or `metar` need */
+    double oktas;       /* 0..8, eighths of the area that are covered, seen from above */
+    const char *metar;  /* a report that lom_parse_metar reads, or NULL */
+    int seed, shapes;   /* shapes: of each kind, 1..LOM_MAX_SKY_SHAPES; clouds of one shape share their volume */
+    double area[2];     /* metres along x and z in which the middles of clouds are */
+    double middle[2];   /* x and z of the area's */
+    double sizes[2];    /* least and largest, in parts of the kind's */
+    double voxels;      /* along each axis, in parts of the kind's, above 0 to 1 */
+    double base;        /* metres; negative: each kind's, drawn from its range */
+    lom_cloud_mix *mix; /* mix_count 0: cumulus of fair weather */
+    size_t mix_count;
 } lom_clouds;
 
 /* ---- quality.clouds ---- */

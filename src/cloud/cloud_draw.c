@@ -5,6 +5,8 @@
 #include "cloud/cloud_draw.h"
 #include "cloud/cloud_uniforms.h"
 
+#include "base/counting_sort.h"
+
 /* Radiance of a place that sees all of the sun, in parts of the sun's colour. A surface lit straight on sends its
  * colour, so the sun's irradiance is pi times it and isotropic scattering would send 1/4; light that was scattered more
  * than once makes up the rest in a thick cloud, and the octaves' geometric weights leave this factor free: it makes the
@@ -49,20 +51,26 @@ static double nearness(const struct lom_placed_cloud *cloud, const struct lom_cl
     return -(axis[0] * away.x + axis[1] * away.y + axis[2] * away.z);
 }
 
+static uint32_t order_key(const void *keys, uint32_t number)
+{
+    return ((const uint32_t *)keys)[number];
+}
+
 size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_view *view, bool cull, size_t *order)
 {
     lom_mat4 clip_from_world = lom_multiply(&view->projection, &view->view);
     lom_frustum frustum = lom_view_frustum(&clip_from_world, false);
+    uint32_t *keys = set->sorting, *numbers = keys + set->count, *scratch = numbers + set->count;
     size_t count = 0;
     for (size_t n = set->count; n-- > 0;) {
         if (cull && lom_box_visibility(&frustum, lom_cloud_bounds(&set->clouds[n])) == LOM_OUTSIDE)
             continue;
-        double distance = nearness(&set->clouds[n], view);
-        size_t at = count++;
-        for (; at > 0 && nearness(&set->clouds[order[at - 1]], view) < distance; at--)
-            order[at] = order[at - 1];
-        order[at] = n;
+        keys[n] = lom_sorting_key((float)nearness(&set->clouds[n], view));
+        numbers[count++] = (uint32_t)n;
     }
+    lom_sort_by_key(order_key, keys, 4, count, numbers, scratch);
+    for (size_t i = 0; i < count; i++)
+        order[i] = numbers[i];
     return count;
 }
 

@@ -45,8 +45,9 @@ struct lom_cloud_set {
     size_t density_count;
     struct lom_placed_cloud *clouds; /* in the order of the file; those that are not visible are left out */
     size_t count;
-    size_t *order;  /* room for the numbers of all of them: those in view (lom_order_clouds) */
-    size_t *others; /* likewise: those that shadow one (cloud_light.c) */
+    size_t *order;     /* room for the numbers of all of them: those in view (lom_order_clouds) */
+    uint32_t *sorting; /* room for a key and two numbers of each, while they are put in order */
+    size_t *others;    /* likewise: those that shadow one (cloud_light.c) */
     lom_detail *detail;
     lom_image *fields[LOM_DETAIL_FIELDS]; /* of noise; only the first where shapes do not change */
     double phase;                         /* of the crossfade that `detail` is from */

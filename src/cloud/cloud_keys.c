@@ -93,6 +93,24 @@ static const lom_key_table wind_table = {
             "their ways are mixed."
 };
 
+#define OF_MIX(member) offsetof(lom_cloud_mix, member)
+static const lom_key mix[] = {
+    { "kind", LOM_KEY_STRING, OF_MIX(kind), .flags = LOM_KEY_REQUIRED, .text = "A kind, as in `[[cloud]]`." },
+    { "share", LOM_KEY_NUMBER, OF_MIX(share), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 1 },
+      .text = "How many of the clouds are of it, in parts of the sum of all shares." },
+};
+static bool check_mix(void *members, const lom_key_check *check)
+{
+    const lom_cloud_mix *it = members;
+    lom_error unknown = { 0 };
+    return lom_find_cloud_kind(it->kind, &unknown) != NULL || check->fail(check, "kind", unknown.text);
+}
+static const lom_key_table mix_table = { .size = sizeof(lom_cloud_mix),
+                                         .keys = mix,
+                                         .key_count = sizeof mix / sizeof *mix,
+                                         .text = "A kind of cloud in the sky that `count` or `oktas` makes.",
+                                         .check = check_mix };
+
 static const lom_key clouds[] = {
     { "phase", LOM_KEY_CHOICE, OF_ALL(phase), .choices = { "dual", "henyey_greenstein", "rayleigh", "isotropic" },
       .text = "Where light goes that is scattered: two Henyey-Greenstein lobes, the forward one alone, Rayleigh's "
@@ -139,16 +157,67 @@ static const lom_key clouds[] = {
       .text = "Time in which the small shapes of clouds become others; 0: they stay as they are." },
     { "swell", LOM_KEY_NUMBER, OF_ALL(swell), .maximum = 1, .initial = { 0.3 },
       .text = "With `evolve`: how much the clouds grow and shrink meanwhile, each in a phase of its own." },
+    { "count", LOM_KEY_INTEGER, OF_ALL(count), .maximum = LOM_MAX_SKY,
+      .text = "A sky of many: so many clouds, beside those of `[[cloud]]`. Each is put where it overlaps least of the "
+              "others." },
+    { "oktas", LOM_KEY_NUMBER, OF_ALL(oktas), .maximum = 8,
+      .text = "Instead of `count`: eighths of the area that clouds cover, seen from above." },
+    { "metar", LOM_KEY_STRING, OF_ALL(metar),
+      .text =
+          "Instead of both: the clouds of a report, `\"FEW030 BKN120CB\"`, in layers; amounts FEW (1.5 oktas), SCT "
+          "(3.5), BKN (6), OVC and VV (8), heights of bases in hundreds of feet, CB and TCU; other kinds follow from "
+          "height and amount. A whole report begins with METAR or SPECI." },
+    { "seed", LOM_KEY_INTEGER, OF_ALL(seed), .maximum = 2147483647, .initial = { 1 },
+      .text = "Another seed puts other clouds in other places." },
+    { "shapes", LOM_KEY_INTEGER, OF_ALL(shapes), .minimum = 1, .maximum = LOM_MAX_SKY_SHAPES, .initial = { 3 },
+      .text = "How many volumes of each kind are made; clouds of one shape differ in size and turn." },
+    { "area", LOM_KEY_NUMBER, OF_ALL(area), 2, .flags = LOM_KEY_SPREAD, .minimum = 1, .maximum = 1e6,
+      .initial = { 16000, 16000 }, .unit = "m", .text = "Along x and z: where the middles of clouds are." },
+    { "middle", LOM_KEY_NUMBER, OF_ALL(middle), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .text = "x and z of the middle of that area." },
+    { "sizes", LOM_KEY_NUMBER, OF_ALL(sizes), 2, .minimum = 0.001, .maximum = 100, .initial = { 0.7, 1.3 },
+      .text = "The least and the largest cloud, in parts of its kind's size. A cover that is nearly reached may be "
+              "ended by "
+              "smaller ones." },
+    { "voxels", LOM_KEY_NUMBER, OF_ALL(voxels), .minimum = 0.01, .maximum = 1, .initial = { 0.5 },
+      .text =
+          "Voxels of these clouds along each axis, in parts of the kind's. Each cloud has a grid of light as fine as "
+          "that times `quality.cloud_light_scale`." },
+    { "base", LOM_KEY_NUMBER, OF_ALL(base), .maximum = 20000, .unit = "m", .text = "Height of all bases (y).",
+      .initial_text = "one of the kind's range of heights" },
+    { "mix", LOM_KEY_TABLES, OF_ALL(mix), .table = &mix_table, .length_offset = OF_ALL(mix_count),
+      .text = "What the sky is made of; without it `cumulus_humilis`, `_mediocris` and `_fractus` as 3 : 2 : 1." },
 };
+static bool check_sky(lom_clouds *all, const lom_key_check *check)
+{
+    static const char *const told[] = { "count", "oktas", "base", "mix" }; /* by a report */
+    lom_metar_layer layer[LOM_MAX_METAR_LAYERS];
+    lom_error wrong = { 0 };
+    if (!check->is_given(check, "base"))
+        all->base = -1;
+    if (all->count > 0 && all->oktas > 0)
+        return check->fail(check, "oktas", "a sky has either a count of clouds or a cover.");
+    if (all->sizes[0] > all->sizes[1])
+        return check->fail(check, "sizes", "the least size of clouds is above the largest.");
+    if (all->mix_count > LOM_MAX_MIX)
+        return check->fail(check, "mix", "a sky is mixed of at most 16 kinds.");
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (all->metar != NULL && check->is_given(check, told[i]))
+            return check->fail(check, told[i], "a report of clouds (metar) tells this itself.");
+    if (all->metar != NULL && lom_parse_metar(all->metar, layer, &wrong) < 0)
+        return check->fail(check, "metar", wrong.text);
+    return true;
+}
+
 static bool check_clouds(void *members, const lom_key_check *check)
 {
-    const lom_clouds *all = members;
+    lom_clouds *all = members;
     for (size_t i = 1; i < all->wind_count; i++)
         if (!(all->winds[i].height > all->winds[i - 1].height)) {
             const lom_key_check at = check->element(check, "wind", i);
             return at.fail(&at, "height", "the heights of winds must rise.");
         }
-    return true;
+    return check_sky(all, check);
 }
 
 const lom_key_table lom_clouds_keys = { .size = sizeof(lom_clouds),

@@ -26,6 +26,7 @@ void lom_free_cloud_set(struct lom_cloud_set *set)
     lom_release(set->densities);
     lom_release(set->clouds);
     lom_release(set->order);
+    lom_release(set->sorting);
     lom_release(set->others);
     lom_release(set);
 }
@@ -230,9 +231,10 @@ bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds 
     set->densities = lom_allocate(visible, sizeof *set->densities, error);
     set->clouds = lom_allocate(visible, sizeof *set->clouds, error);
     set->order = lom_allocate(visible, sizeof *set->order, error);
+    set->sorting = lom_allocate(visible, 3 * sizeof *set->sorting, error);
     set->others = lom_allocate(visible, sizeof *set->others, error);
-    bool done = set->densities != NULL && set->clouds != NULL && set->order != NULL && set->others != NULL &&
-                load_shared(set, before, error);
+    bool done = set->densities != NULL && set->clouds != NULL && set->order != NULL && set->sorting != NULL &&
+                set->others != NULL && load_shared(set, before, error);
     for (size_t i = 0; done && i < count; i++)
         if (clouds[i].visible)
             done = place_cloud(set, before, &clouds[i], error);

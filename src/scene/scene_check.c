@@ -1,5 +1,7 @@
 /* What concerns several tables of a scene at once. In: a lom_scene whose tables are filled and checked, and the tree it
  * came from. Out: what one table takes from another. Invariant: afterwards the scene contradicts itself nowhere. */
+#include "cloud/cloud_keys.h"
+#include "cloud/cloud_sky.h"
 #include "scene/reader.h"
 
 #include <lom/shallow.h>
@@ -159,10 +161,36 @@ static bool check_views(const lom_scene *scene, const lom_key_check *root)
     return at.fail(&at, "name", "a picture has at most 8 views.");
 }
 
+/* The sky of many that [clouds] asks for, behind the clouds of the file. */
+static bool add_sky(lom_scene *scene, lom_reader *reader)
+{
+    if (!lom_has_sky(&scene->clouds))
+        return true;
+    lom_cloud pattern = { .present = false },
+              *all = lom_allocate(scene->cloud_count + LOM_MAX_SKY, sizeof *all, reader->error);
+    size_t count = scene->cloud_count;
+    if (all == NULL || !lom_read_table(reader, &lom_cloud_keys, NULL, &pattern)) {
+        lom_release(all);
+        return false;
+    }
+    if (count > 0)
+        memcpy(all, scene->cloud, count * sizeof *all);
+    bool done = lom_place_sky(&scene->clouds, &pattern, all, &count, reader->error);
+    lom_cloud *kept =
+        done && count > 0 ? lom_arena_take(&scene->memory->arena, count, sizeof *kept, reader->error) : NULL;
+    if (kept != NULL) {
+        memcpy(kept, all, count * sizeof *kept);
+        scene->cloud = kept;
+        scene->cloud_count = count;
+    }
+    lom_release(all);
+    return done && (count == 0 || kept != NULL);
+}
+
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
     const lom_key_check check = lom_check_of(reader, root);
     return check_all_names(reader->scene, &check) && check_ground(reader->scene, &check) &&
            check_shallow(reader->scene, &check) && check_followed(reader->scene, &check) &&
-           check_drops(reader->scene, &check) && check_views(reader->scene, &check);
+           check_drops(reader->scene, &check) && check_views(reader->scene, &check) && add_sky(reader->scene, reader);
 }

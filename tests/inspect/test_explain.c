@@ -92,6 +92,7 @@ static void explained_pixels_are_the_pictures(void)
         { "gale", 0, { 0, 0, 0, 0 } },       { "lagoon", 0, { 0, 0, 0, 0 } },     { "mackerel", 0, { 0, 0, 0, 0 } },
         { "reef", 0, { 0, 0, 0, 0 } },       { "river", 0, { 0, 0, 0, 0 } },      { "storm", 0, { 0, 0, 0, 0 } },
         { "surf", 0, { 0, 0, 0, 0 } },       { "swell", 0, { 0, 0, 0, 0 } },      { "wake", 0, { 0, 0, 0, 0 } },
+        { "tradewind", 0, { 0, 0, 0, 0 } },
     };
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
         if (is_exhaustive() || scenes[i].at.width != 0)

@@ -16,6 +16,7 @@ static const char head[] = "[output]\nwidth = 16\nheight = 9\nformat = \"rgb32f\
     "0\n[[light.key]]\ntime = 1\nazimuth = 40\n"
 #define CLOUD     "[[cloud]]\nkind = \"cumulus_mediocris\"\nsize = [12, 6, 8]\nposition = [0, 2, -8]\nvoxels = [8, 6, 7]\n"
 #define WIND      "[[clouds.wind]]\nheight = 3\nspeed = 11\ndirection = -35\n"
+#define MANY      "area = [30, 20]\nmiddle = [0, -10]\nsizes = [0.004, 0.008]\nvoxels = 0.08\n"
 #define SEA       "[water.waves]\nkind = \"sea\"\nsize = 16\ncascades = 1\n"
 #define DISPLACED "[quality]\nwater = \"displaced\"\n[water]\nlevel = 0\nsize = 40\n"
 
@@ -100,7 +101,12 @@ static const struct base bases[] = {
       "quality.cloud_stop quality.cloud_octaves quality.cloud_jitter quality.cloud_light_scale quality.clouds",
       VIEW TERRAIN CLOUD
       "[[cloud]]\nkind = \"stratus\"\nsize = [20, 3, 20]\nposition = [0, 5, -20]\nvoxels = [8, 4, 8]\n" WIND
-      "[clouds]\nhaze_distance = 90\nshadows = false\n" },
+      "[clouds]\nhaze_distance = 90\nshadows = false\n" MANY },
+    { "many_clouds",
+      "clouds.count clouds.seed clouds.shapes clouds.area clouds.middle clouds.sizes clouds.voxels clouds.base "
+      "clouds.mix cloud.0.visible",
+      VIEW CLOUD "[clouds]\ncount = 3\nbase = 2\nshadows = false\n" MANY
+                 "[[clouds.mix]]\nkind = \"cumulus_fractus\"\n[[clouds.mix]]\nkind = \"puffs\"\nshare = 2\n" },
     { "cloud_shadows",
       "clouds.shadows clouds.shadow_strength cloud.0.size cloud.0.position cloud.0.yaw cloud.0.density "
       "cloud.0.extinction cloud.0.detail_size light.elevation terrain.size",
