@@ -1,5 +1,7 @@
 /* `lom version`. In: nothing. Out: what decides a picture (the versions, the float rules) and what decides only its
  * speed (the CPU). Invariant: the rules are probed in this very build, not quoted. */
+#include "version.h"
+
 #include "commands.h"
 #include "json.h"
 #include "options.h"
@@ -66,15 +68,31 @@ static const char *width_support(int width, const lom_cpu *cpu)
 #endif
 }
 
-static void print_json(const lom_cpu *cpu)
+const char *lom_compiler_name(void)
 {
+#if defined __clang__
+    return __VERSION__;
+#else
+    return "gcc " __VERSION__;
+#endif
+}
+
+void lom_print_widths(FILE *out)
+{
+    lom_cpu cpu = lom_detect_cpu();
+    fprintf(out, "4 (%s), 8 (%s), 16 (%s)", width_support(4, &cpu), width_support(8, &cpu), width_support(16, &cpu));
+}
+
+static void print_json(void)
+{
+    lom_cpu cpu = lom_detect_cpu();
     lom_json json = lom_json_begin(stdout);
     lom_json_text(&json, "version", LOM_VERSION);
     lom_json_integer(&json, "picture_version", LOM_PICTURE_VERSION);
     lom_json_text(&json, "compiler", __VERSION__);
-    lom_json_text(&json, "lanes_4", width_support(4, cpu));
-    lom_json_text(&json, "lanes_8", width_support(8, cpu));
-    lom_json_text(&json, "lanes_16", width_support(16, cpu));
+    lom_json_text(&json, "lanes_4", width_support(4, &cpu));
+    lom_json_text(&json, "lanes_8", width_support(8, &cpu));
+    lom_json_text(&json, "lanes_16", width_support(16, &cpu));
     lom_json_integer(&json, "threads", lom_default_threads());
     lom_json_bool(&json, "contraction", contracts());
     lom_json_bool(&json, "denormals", keeps_denormals());
@@ -90,21 +108,16 @@ int lom_command_version(int argc, char **argv)
     int status;
     if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
         return status;
-    lom_cpu cpu = lom_detect_cpu();
     if (values.json) {
-        print_json(&cpu);
+        print_json();
         return LOM_EXIT_DONE;
     }
-#if defined __clang__
-    const char *compiler = "", *compiler_version = __VERSION__;
-#else
-    const char *compiler = "gcc ", *compiler_version = __VERSION__;
-#endif
     printf("lom %s\n", LOM_VERSION);
     printf("  picture version  %d\n", LOM_PICTURE_VERSION);
-    printf("  compiler         %s%s\n", compiler, compiler_version);
-    printf("  lanes            4 (%s), 8 (%s), 16 (%s)\n", width_support(4, &cpu), width_support(8, &cpu),
-           width_support(16, &cpu));
+    printf("  compiler         %s\n", lom_compiler_name());
+    printf("  lanes            ");
+    lom_print_widths(stdout);
+    putchar('\n');
     printf("  threads          %d by default\n", lom_default_threads());
     printf("  floats           contraction %s, denormals %s, %s, FLT_EVAL_METHOD %d\n", contracts() ? "ON" : "off",
            keeps_denormals() ? "kept" : "FLUSHED", rounds_to_nearest() ? "round to nearest" : "ANOTHER ROUNDING",

@@ -74,6 +74,10 @@ typedef struct lom_selftest {
  * variant that this processor runs, on 1, 2 and 3 threads with different tiles. Reads no file. False only when it could
  * not be done; a difference is a result. */
 bool lom_run_selftest(lom_selftest *result, lom_error *error);
+/* Rows of the matrix of builds (tests/house/matrix.sh, bench/results/matrix.md) that gave one hash of the self-test. */
+extern const uint64_t lom_selftest_seen; /* that hash */
+extern const char
+    *const lom_selftest_rows[]; /* "gcc-3", "s390x-0": compiler or architecture, level, more; NULL at the end */
 /* All pictures of the parts that draw, side by side in 8 bits: to look at where a part differs. Freed with
  * lom_free_image; NULL on failure. */
 lom_image *lom_draw_selftest(lom_error *error);
