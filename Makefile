@@ -361,8 +361,9 @@ $(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
 
 # Every float through every conversion (a minute) and every unary lane function (a quarter of an hour).
 LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/render/test_key_ranges $(BUILD)/tests/render/test_change $(BUILD)/tests/inspect/test_explain
-check-long: $(LONG_TESTS)
+check-long: all $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
+	BUILD='$(BUILD)' tests/house/many_machines.sh
 
 # For WebAssembly, by the newest clang; SIMD= leaves out its vectors of 128 bits. The pages want node and cmark-gfm.
 WASM_CC = $(or $(lastword $(sort $(notdir $(wildcard /usr/bin/clang-[1-9][0-9])))),clang)

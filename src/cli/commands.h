@@ -10,6 +10,7 @@ int lom_command_convert(int argc, char **argv);
 int lom_command_explain(int argc, char **argv);
 int lom_command_grade(int argc, char **argv);
 int lom_command_info(int argc, char **argv);
+int lom_command_join(int argc, char **argv);
 int lom_command_lesson(int argc, char **argv);
 int lom_command_make(int argc, char **argv);
 int lom_command_overlay(int argc, char **argv);

@@ -7,6 +7,7 @@
 #include "picture_kinds.h"
 #include "progress.h"
 #include "scene_options.h"
+#include "shard.h"
 #include "show_pass.h"
 #include "watch.h"
 
@@ -20,8 +21,8 @@
 struct values {
     struct lom_scene_options scene;
     const char *output, *stats, *format, *show;
-    lom_option_integers frame, frames;
-    bool hash, watch, check, quiet;
+    lom_option_integers frame, frames, shard;
+    bool hash, watch, check, resume, quiet;
 };
 
 static const lom_option options[] = {
@@ -33,6 +34,10 @@ static const lom_option options[] = {
       "draw frames A to B, both included, or all of the scene" },
     LOM_SCENE_OPTIONS(struct values),
     { "hash", 0, LOM_OPTION_FLAG, offsetof(struct values, hash), NULL, 0, 0, "print \"HASH  frame N\" for each frame" },
+    { "shard", 0, LOM_OPTION_INTEGER, offsetof(struct values, shard), "I/N", 1, 1e6,
+      "draw the I-th of N shares of the frames, a part that lom join reads" },
+    { "resume", 0, LOM_OPTION_FLAG, offsetof(struct values, resume), NULL, 0, 0,
+      "with --shard: nothing is drawn where the part is whole already" },
     { "stats", 0, LOM_OPTION_TEXT, offsetof(struct values, stats), "FILE", 0, 0,
       "write a JSON line a frame with its passes, work and time; - is stdout" },
     { "show", 0, LOM_OPTION_TEXT, offsetof(struct values, show), "PASS", 0, 0,
@@ -146,6 +151,20 @@ static void find_frames(const struct run *run, int *first, int *last)
     }
 }
 
+/* The share of --shard. */
+static struct lom_shard find_shard(const struct run *run)
+{
+    const struct values *v = run->values;
+    struct lom_shard shard = { .pattern = v->output,
+                               .resume = v->resume,
+                               .quiet = v->quiet,
+                               .shard = (int)v->shard.value[0],
+                               .shards = (int)v->shard.value[1],
+                               .options = &v->scene };
+    find_frames(run, &shard.first, &shard.last);
+    return shard;
+}
+
 static bool draw_frames(struct run *run, lom_error *error)
 {
     const struct values *v = run->values;
@@ -173,6 +192,10 @@ static bool check_run(const struct run *run, lom_error *error)
     lom_output_format format = v->show == NULL                           ? (lom_output_format)run->scene->output.format
                                : lom_shows_numbers(v->output, v->format) ? LOM_OUTPUT_RGB32F
                                                                          : LOM_OUTPUT_RGB8;
+    if (v->shard.given) {
+        struct lom_shard shard = find_shard(run);
+        return lom_check_shard(&shard, run->scene, error);
+    }
     return (v->show == NULL || lom_check_shown_pass(v->show, error)) && lom_check_frame(run->scene, &desc, error) &&
            lom_check_frame_output(&run->output, format, last - first + 1, error);
 }
@@ -243,6 +266,16 @@ static bool provide_renderer(struct run *run, lom_scene *before, lom_error *erro
     return done;
 }
 
+/* What is drawn already is not loaded. */
+static bool render_shard(struct run *run, const char *path, lom_error *error)
+{
+    struct lom_shard shard = find_shard(run);
+    bool found = false, done = check_run(run, error) && lom_find_part(&shard, run->scene, path, &found, error);
+    if (done && !found)
+        done = provide_renderer(run, NULL, error) && lom_draw_shard(&shard, run->scene, path, run->renderer, error);
+    return done;
+}
+
 /* After a failure the run has no scene, unless none could be read. */
 static bool render_once(struct run *run, const char *path, lom_error *error)
 {
@@ -254,6 +287,8 @@ static bool render_once(struct run *run, const char *path, lom_error *error)
         lom_watch_scene(run->watched, scene);
     run->scene = scene;
     run->output = (struct lom_frame_output){ v->output, v->format, scene->output.fps, NULL };
+    if (v->shard.given)
+        return render_shard(run, path, error);
     bool done = provide_renderer(run, before, error);
     if (done)
         hint_at_frames(run);
@@ -299,6 +334,25 @@ static bool check_names(const struct values *v)
            lom_complain("render: --output and --stats are both %s.", v->stats) == 0;
 }
 
+/* A part holds pieces, which are no whole frames; it is for machines that work alone. */
+static bool check_shard_options(const struct values *v)
+{
+    const struct {
+        bool given;
+        const char *name;
+    } others[] = { { v->hash, "--hash (lom join has it)" },
+                   { v->watch, "--watch" },
+                   { v->check, "--check" },
+                   { v->show != NULL, "--show" },
+                   { v->stats != NULL, "--stats" },
+                   { v->format != NULL, "--format (lom join has it)" },
+                   { v->scene.view != NULL, "--view" } };
+    for (size_t i = 0; i < sizeof others / sizeof others[0] && v->shard.given; i++)
+        if (others[i].given)
+            return lom_complain("render: --shard excludes %s.", others[i].name) == LOM_EXIT_DONE;
+    return v->shard.given || !v->resume || lom_complain("render: --resume is of --shard.") == LOM_EXIT_DONE;
+}
+
 int lom_command_render(int argc, char **argv)
 {
     struct values values = { .output = NULL };
@@ -312,6 +366,8 @@ int lom_command_render(int argc, char **argv)
         return LOM_EXIT_FAILED;
     if (values.frame.given && values.frames.given)
         return lom_complain("--frame and --frames exclude one another.");
+    if (!check_shard_options(&values))
+        return LOM_EXIT_FAILED;
     struct lom_watched watched = { .count = 0 };
     struct run run = { .values = &values, .watched = values.watch ? &watched : NULL };
     if (values.watch)

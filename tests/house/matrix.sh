@@ -1,11 +1,11 @@
 #!/bin/bash
-# Proves that bytes do not depend on the compiler, its optimisation level, the architecture, its byte order, its vectors,
-# the C library, the locale. Builds the program once for each row below, each into its own folder (rows that only run
-# otherwise share one), and compares with the rows before it: the self-test, the lake at 160x90 at the row's widths, the
-# float stages of the pipeline at these widths, and two frames of the scenes of assets/ at 160x90 at 4 lanes: all of them,
-# or where an emulator draws, a part, another one for each row, so that every scene is drawn by several of them. Prints a
-# table with seconds of processor time, and one hash; status 1 when a row differs, 2 when a build fails. A compiler or an
-# emulator that is not installed is a line with SKIP.
+# Proves that bytes do not depend on the compiler, its optimisation level, the architecture, its byte order, its
+# vectors, the C library, the locale. Builds the program once for each row below, each into its own folder (rows that
+# only run otherwise share one), and compares with the rows before it: the self-test, the lake at 160x90 at the row's
+# widths, the float stages of the pipeline at these widths, and two frames of the scenes of assets/ at 160x90 at 4 lanes:
+# all of them, or where an emulator draws, a part, another one for each row, so that every scene is drawn by several of
+# them. Prints a table with seconds of processor time, and one hash; status 1 when a row differs, 2 when a build fails.
+# A compiler or an emulator that is not installed is a line with SKIP.
 #
 #   make matrix                                  every row
 #   make matrix ROWS="gcc-3 aarch64-3"           these rows
@@ -28,10 +28,10 @@ status=0
 
 # WebAssembly, without and with its vectors, by the newest clang (docs/wasm.md).
 wasm_clang=$(basename "$(ls /usr/bin/clang-[1-9][0-9] 2>/dev/null | sort | tail -1)")
-wasm_clang=${wasm_clang:-clang}
+wasm_clang=${wasm_clang:-clang} node='node src/web/lom.mjs'
 
-# Sets what a row is: compiler, archiver, linker flags, what runs its programs, its widths, the part of the scenes it draws
-# ("0/1" all, "2/6" each sixth from the third on), the variable that it runs with, the row whose build it shares.
+# Sets what a row is: compiler, archiver, linker flags, what runs its programs, its widths, the part of the scenes that
+# it draws ("0/1" all, "2/6" each sixth from the third on), the variable that it runs with, the row whose build it shares.
 set_row() {
     archiver=ar flags='' emulator='' widths=4 part=0/1 variable=LC_ALL=C shared=$1
     case $1 in
@@ -44,8 +44,8 @@ set_row() {
     i686-*) cross i686-linux-gnu i386 0/1 && emulator='' compiler="$compiler -march=pentium4 -mfpmath=sse" ;;
     musl-*) compiler=musl-gcc flags=-static ;;
     mingw-*) compiler=x86_64-w64-mingw32-gcc archiver=x86_64-w64-mingw32-ar emulator=wine ;;
-    wasm-*) compiler="$wasm_clang --target=wasm32-wasi" archiver=llvm-ar emulator="node src/web/lom.mjs" part=1/2 ;;
-    wasm128-*) compiler="$wasm_clang --target=wasm32-wasi -msimd128" archiver=llvm-ar emulator="node src/web/lom.mjs" part=0/2 ;;
+    wasm-*) compiler="$wasm_clang --target=wasm32-wasi" archiver=llvm-ar emulator=$node part=1/2 ;;
+    wasm128-*) compiler="$wasm_clang --target=wasm32-wasi -msimd128" archiver=llvm-ar emulator=$node part=0/2 ;;
     gcc-1[0-9]-* | clang-1[0-9]-*) compiler=$(echo "$1" | cut -d- -f1,2) ;;
     *) compiler=${1%%-*} ;;
     esac
@@ -75,15 +75,22 @@ missing() {
     done
     case $1 in
     mingw-*) echo "lom's files, processes and signals are those of POSIX, which mingw-w64 has not"; return ;;
-    *-locale) locale -a 2>/dev/null | grep -qi 'de_DE.utf' || { echo "the locale de_DE.UTF-8 is not installed"; return; } ;;
+    *-locale)
+        locale -a 2>/dev/null | grep -qi 'de_DE.utf' || { echo "the locale de_DE.UTF-8 is not installed"; return; } ;;
     esac
-    echo 'int main(void) { return 0; }' | $compiler $flags -x c -o "$root/nothing" - 2>/dev/null || echo "$compiler links no program"
+    echo 'int main(void) { return 0; }' | $compiler $flags -x c -o "$root/nothing" - 2>/dev/null ||
+        echo "$compiler links no program"
+}
+
+# The test of the float stages wants threads and rounding modes, and its oracle integers of 128 bits.
+has_float_test() {
+    case $compiler in *wasm32* | i686-* | arm-*) return 1 ;; esac
 }
 
 # The programs of a row, in its folder.
 build() {
     local folder=$1 targets="$1/lom" tested=$widths
-    case $compiler in *wasm32*) tested= ;; esac # the test wants threads and rounding modes
+    has_float_test || tested=''
     for lanes in $tested; do
         case $lanes in 4 | 8 | 16) targets="$targets $folder/tests/pipeline/test_invariance.w$lanes" ;; esac
     done
@@ -104,13 +111,20 @@ meets() {
     [ -n "$2" ] && [ "${before:-$2}" = "$2" ] || differences="$differences $1"
 }
 
+# The hashes of frames: draw FOLDER SCENE OPTIONS...
+draw() {
+    local log=$1/log
+    shift
+    $program render "$@" --size 160x90 --hash --quiet 2>>"$log" | cut -d' ' -f1
+}
+
 # Draws two frames of the scenes of the row's part; sets `drawn`.
 scenes() {
     local number=0 frame hash
     drawn=0
     for scene in assets/scenes/*.toml assets/scenes/features/*.toml; do
         if [ $((number++ % ${part#*/})) -eq "${part%/*}" ]; then
-            hashes=$($program render "$scene" --size 160x90 --frames 0:1 --lanes 4 --hash --quiet 2>>"$1/log" | cut -d' ' -f1)
+            hashes=$(draw "$1" "$scene" --frames 0:1 --lanes 4)
             for frame in 0 1; do
                 hash=$(echo "$hashes" | sed -n $((frame + 1))p)
                 meets "$(basename "$scene" .toml):$frame" "$hash"
@@ -122,7 +136,7 @@ scenes() {
 
 # What a build answers; sets the columns of its row.
 ask() {
-    local folder=$1 lanes hash
+    local folder=$1 lanes hash test
     lake=() floats=- differences=
     program="env $variable $emulator $folder/lom"
     selftest=$($program selftest 2>>"$folder/log" | sed -n 's/^\([0-9a-f]\{16\}\)  selftest$/\1/p')
@@ -130,13 +144,14 @@ ask() {
     for lanes in 4 8 16; do
         hash=-
         case " $widths " in *" $lanes "*)
-            hash=$($program render assets/scenes/lake.toml --size 160x90 --lanes $lanes --hash --quiet 2>>"$folder/log" | cut -d' ' -f1)
+            hash=$(draw "$folder" assets/scenes/lake.toml --lanes $lanes)
             meets lake "$hash"
-            case $compiler in *wasm32*) ;; *)
+            if has_float_test; then
                 floats=same
-                $emulator "$folder/tests/pipeline/test_invariance.w$lanes" float_stages_have_one_hash >>"$folder/log" 2>&1 ||
-                    differences="$differences floats:$lanes" ;;
-            esac ;;
+                test=$folder/tests/pipeline/test_invariance.w$lanes
+                $emulator "$test" float_stages_have_one_hash >>"$folder/log" 2>&1 ||
+                    differences="$differences floats:$lanes"
+            fi ;;
         esac
         lake+=("$hash")
     done
@@ -167,14 +182,16 @@ for row in $rows; do
     fi
     widths=$widths_asked built=$(($(processor) - start)) start=$(processor)
     ask "$folder"
-    printf "$format" "$row" "$selftest" "${lake[@]}" $floats $drawn $built $(($(processor) - start)) "${differences:+differs:$differences; see $folder/log}"
+    printf "$format" "$row" "$selftest" "${lake[@]}" $floats $drawn $built $(($(processor) - start)) \
+        "${differences:+differs:$differences; see $folder/log}"
     if [ -z "$differences" ]; then
         seen="$seen $row"
     elif [ $status -eq 0 ]; then
         status=1
     fi
 done
-echo "$(sort "$known" | sha256sum | cut -c 1-16)  matrix of $(echo "$seen" | wc -w) rows that agree, $((SECONDS / 60)) min $((SECONDS % 60)) s"
+echo "$(sort "$known" | sha256sum | cut -c 1-16)  matrix of $(echo "$seen" | wc -w) rows that agree, in" \
+    "$((SECONDS / 60)) min $((SECONDS % 60)) s"
 
 # The rows, as the program tells them.
 if [ -n "${RECORD:-}" ] && [ $status -eq 0 ]; then
