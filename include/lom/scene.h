@@ -361,10 +361,13 @@ typedef struct lom_scene {
     struct lom_scene_memory *memory; /* what the strings and arrays live in */
 } lom_scene;
 
-/* Reads and checks a scene file ("-" is standard input; its files are then relative to the working folder). An override
- * is "KEY=VALUE", applied in order after the file: KEY is a dotted path like "water.level", "entity.0.position" or
- * "entity.boat.visible" (arrays of tables by index or by name), VALUE is a TOML value; what is none is taken as a
- * string. NULL on failure; the error names file, line and column, or the override. Freed with lom_free_scene. */
+/* Reads and checks a scene file ("-" is standard input; its files are then relative to the working folder). An
+ * override is "KEY=VALUE", applied in order after the file: KEY is a dotted path like "water.level",
+ * "entity.0.position" or "entity.boat.visible" (arrays of tables by index or by name), VALUE is a TOML value; what
+ * is none is taken as a string. Or it is "@FILE": a scene file of settings (relative to the working folder; "@-" is
+ * standard input), whose tables are laid over the scene's: what it says replaces what the scene says, an array of
+ * tables all of it, and files that it names are relative to the scene's folder. NULL on failure; the error names
+ * file, line and column, or the override. Freed with lom_free_scene. */
 lom_scene *lom_read_scene(const char *path, const char *const *overrides, size_t override_count, lom_error *error);
 /* The same from memory; path serves the messages and its folder the relative file names. */
 lom_scene *lom_decode_scene(const char *text, size_t size, const char *path, const char *const *overrides,

@@ -27,6 +27,7 @@ static const command commands[] = {
     { "view", "show a scene in a window, fly through it, change it", lom_command_view },
     { "steps", "draw a scene stage by stage: a numbered picture each, and a page with a slider", lom_command_steps },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
+    { "trade", "say what each dial of a scene buys: error against a reference over milliseconds", lom_command_trade },
     { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },
     { "grade", "compare a student's stage of the pipeline with the right one, name the broken rule",
       lom_command_grade },

@@ -29,11 +29,30 @@ static bool check_scene_name(const char *path, lom_error *error)
     return true;
 }
 
+/* The file of settings comes first, then each --set. */
+static lom_scene *read_scene(const char *path, const struct lom_scene_options *options, lom_error *error)
+{
+    const char *changes[LOM_OPTION_LIST_MAX + 1];
+    size_t count = 0;
+    char *settings = NULL;
+    if (options->settings != NULL) {
+        settings = lom_path_print(error, "@%s", options->settings);
+        if (settings == NULL)
+            return NULL;
+        changes[count++] = settings;
+    }
+    for (int i = 0; i < options->set.count; i++)
+        changes[count++] = options->set.items[i];
+    lom_scene *scene = lom_read_scene(path, changes, count, error);
+    lom_release(settings);
+    return scene;
+}
+
 lom_scene *lom_open_scene(const char *path, const struct lom_scene_options *options, lom_error *error)
 {
     if (!check_scene_name(path, error))
         return NULL;
-    lom_scene *scene = lom_read_scene(path, options->set.items, (size_t)options->set.count, error);
+    lom_scene *scene = read_scene(path, options, error);
     if (scene != NULL && options->fps.given)
         scene->output.fps = options->fps.value;
     return scene;

@@ -9,7 +9,7 @@
 struct lom_scene_options {
     lom_option_list set;
     lom_option_integers size, crop, threads;
-    const char *lanes, *view;
+    const char *lanes, *view, *settings;
     lom_option_number fps, memory;
 };
 
@@ -49,6 +49,14 @@ struct lom_scene_options {
           0,                                                                                                           \
           0,                                                                                                           \
           "change a key of the scene, like water.level=12" },                                                          \
+        { "settings",                                                                                                  \
+          0,                                                                                                           \
+          LOM_OPTION_TEXT,                                                                                             \
+          offsetof(values, scene.settings),                                                                            \
+          "FILE",                                                                                                      \
+          0,                                                                                                           \
+          0,                                                                                                           \
+          "a scene file that is laid over the scene before --set, as `lom tune` writes them" },                        \
         { "memory", 0,     LOM_OPTION_NUMBER, offsetof(values, scene.memory),                                          \
           "GIB",    0.001, 1000000,           "what a frame's targets may take; the machine's when not given" },       \
         { "threads",                                                                                                   \

@@ -1,5 +1,5 @@
 /* docs/dials.md. In: the table of dials. Out: Markdown. Invariant: what the page says of a dial is what `lom plan`
- * reads. */
+ * and `lom trade` read. */
 #include "measure/dials.h"
 
 #include <string.h>
@@ -11,9 +11,11 @@ static const char introduction[] =
     "\n"
     "Everything that is cheaper because it is less exact is a dial: a key of the scene file with named settings, a\n"
     "default, and a reference that tells how wrong each of them is. Their ranges and meanings are those of\n"
-    "[scene.md](scene.md): both pages, the reader of scenes, and `lom plan SCENE` (which dials act in this scene, at "
+    "[scene.md](scene.md): both pages, the reader of scenes, `lom plan SCENE` (which dials act in this scene, at "
     "which\n"
-    "setting, and why the others do not) read one table.\n"
+    "setting, and why the others do not) and `lom trade`, which measures what they buy ([trade.md](trade.md)), read "
+    "one\n"
+    "table.\n"
     "\n"
     "Settings stand from the cheapest to the most exact; a scene may say any value within the key's range. The "
     "reference\n"

@@ -1,5 +1,6 @@
 /* Timing frames. In: a workload and a device; out: the median and the fastest frame. Invariant: the clock runs from
  * before the first call of a frame until its last pass is complete, and over nothing else. */
+#include "median.h"
 #include "workload.h"
 
 #include <time.h>
@@ -9,24 +10,6 @@ static double now_ms(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
-
-/* Insertion: the times of equal frames come nearly in any order, and there are few. */
-static void sort(double *times, int count)
-{
-    for (int i = 1; i < count; i++) {
-        double time = times[i];
-        int j = i;
-        for (; j > 0 && times[j - 1] > time; j--)
-            times[j] = times[j - 1];
-        times[j] = time;
-    }
-}
-
-static double median(double *times, int count)
-{
-    sort(times, count);
-    return (times[(count - 1) / 2] + times[count / 2]) / 2;
 }
 
 /* One frame; `read`: and its picture. */
@@ -80,11 +63,11 @@ static bool time_all(lom_workload *workload, lom_device *device, int warm_up, do
     if (!time_frames(workload, device, warm_up + frames - 1, false, times + 1, error))
         return false;
     times += warm_up;
-    timing->median_ms = median(times, frames);
+    timing->median_ms = lom_median(times, frames);
     timing->min_ms = times[0];
     if (!time_frames(workload, device, reads, true, times, error))
         return false;
-    timing->read_ms = median(times, reads);
+    timing->read_ms = lom_median(times, reads);
     return true;
 }
 

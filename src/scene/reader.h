@@ -32,7 +32,7 @@ bool lom_add_scene_file(lom_scene *scene, const char *path, lom_error *error);
 /* key_check.c: what the check of a table that was read from this value (NULL: it is not in the file) asks and says. */
 lom_key_check lom_check_of(lom_reader *reader, const lom_toml_value *table);
 
-/* scene_override.c: puts the value of "KEY=VALUE" into the tree under root. */
+/* scene_override.c: puts the value of "KEY=VALUE", or what "@FILE" holds, into the tree under root. */
 bool lom_apply_override(lom_reader *reader, lom_toml_value *root, const char *text);
 
 /* scene_check.c: what concerns several tables at once. */

@@ -1,6 +1,6 @@
-/* Overrides of a scene: KEY=VALUE. In: the text and the tree of the file. Out: the tree with the value in its place.
- * Invariant: an override can say what the file could say and nothing else; what it says is checked where the file is.
- */
+/* Overrides of a scene: KEY=VALUE, @FILE. In: the text and the tree of the file. Out: the tree with the values in their
+ * places. Invariant: an override can say what the file could say and nothing else; what it says is checked where the
+ * file is. */
 #include "scene/reader.h"
 
 #include <stdio.h>
@@ -88,8 +88,42 @@ static bool put(lom_reader *reader, lom_toml_value *parent, const lom_toml_value
     return true;
 }
 
+/* Puts what `over` holds into `table`: tables into tables, anything else in the place of what is there. */
+static bool merge(lom_reader *reader, lom_toml_value *table, const lom_toml_value *over)
+{
+    for (size_t i = 0; i < over->count; i++) {
+        lom_toml_value *value = over->items[i], *there = lom_toml_find(table, value->key, value->key_length);
+        const bool both = there != NULL && there->type == LOM_TOML_TABLE && value->type == LOM_TOML_TABLE;
+        if (both ? !merge(reader, there, value) : !lom_toml_put(reader->tree, table, value, reader->error))
+            return false;
+    }
+    return true;
+}
+
+/* A file of settings. Its text lives as long as the tree, whose messages name places in it. */
+static bool apply_file(lom_reader *reader, lom_toml_value *root, const char *name)
+{
+    lom_bytes bytes = lom_read_file(name, LOM_TOML_MAX_SIZE, reader->error);
+    if (bytes.data == NULL)
+        return false;
+    const char *path = lom_arena_text(&reader->scene->memory->arena, name, strlen(name), reader->error);
+    const char *text = lom_arena_text(reader->tree, (const char *)bytes.data, bytes.size, reader->error);
+    const size_t size = bytes.size;
+    lom_release(bytes.data);
+    lom_toml_source *source = lom_arena_take(reader->tree, 1, sizeof *source, reader->error);
+    if (path == NULL || text == NULL || source == NULL)
+        return false;
+    *source = (lom_toml_source){ .name = path, .text = text, .size = size };
+    if (strcmp(name, "-") != 0 && !lom_add_scene_file(reader->scene, path, reader->error))
+        return false;
+    const lom_toml_value *over = lom_toml_parse(reader->tree, source, reader->error);
+    return over != NULL && merge(reader, root, over);
+}
+
 bool lom_apply_override(lom_reader *reader, lom_toml_value *root, const char *text)
 {
+    if (text[0] == '@')
+        return apply_file(reader, root, text + 1);
     lom_toml_source *source = lom_arena_take(reader->tree, 1, sizeof *source, reader->error);
     char *name = lom_arena_take(reader->tree, SHOWN + 16, 1, reader->error);
     lom_toml_value *parts = lom_arena_take(reader->tree, LOM_TOML_MAX_DEPTH, sizeof *parts, reader->error);
