@@ -325,6 +325,8 @@ typedef struct lom_quality {
     int entity_shadows;     /* texels a side of the maps of what entities keep the sun off; 0: they do not */
     int lamp_shadows;       /* texels a side of the maps of lamps with a shadow; 0: they throw none */
     int lamp_shadow_maps;   /* of a frame, at most; lamps that come later throw no shadow */
+    int shadow_cascades;    /* maps of the view that entities keep the sun off; 1: two, sorted by what casts */
+    double shadow_split;    /* of the cascades: 0: of equal depths, 1: of equal ratios */
     double normals;         /* metres of the lines that show the normals of entities' vertices; 0: none */
     bool ambient_occlusion; /* terrain gets ambient light only from the sky it sees */
     lom_wireframe wireframe;

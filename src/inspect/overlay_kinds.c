@@ -190,6 +190,12 @@ static const struct overlay_row rows[] = {
       OVERLAY_SCALE,
       { .named = "lamps" },
       false },
+    { { "cascades", "which of the sun's cascades shades what is seen, from 1; between two where they are mixed", 0, 4,
+        false, true },
+      tell_named,
+      OVERLAY_SCALE,
+      { .named = "cascade" },
+      false },
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 

@@ -87,13 +87,14 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_TEXTURES | LOM_PART_GROUND, "quality.mipmaps" },
     { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
-    { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows" },
+    { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows quality.shadow_cascades" },
     { LOM_PART_LAMP_SHADOWS, "quality.lamp_shadows" },
     { LOM_PART_GROUND, "quality.ambient_occlusion quality.tessellation" },
     { LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_TARGETS, "quality.wireframe" },
     { each_frame, "quality quality.cloud_error quality.cloud_stop quality.cloud_octaves quality.impostors "
                   "quality.impostor.* quality.shading quality.reflection quality.toon_thresholds "
-                  "quality.toon_tones quality.lamp_tiles quality.lamp_shadow_maps quality.normals quality.scissor "
+                  "quality.toon_tones quality.lamp_tiles quality.lamp_shadow_maps quality.shadow_split quality.normals "
+                  "quality.scissor "
                   "quality.reference.* "
                   "quality.terrain_error quality.wireframe_color quality.terrain_composite" },
 };

@@ -141,8 +141,7 @@ static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const 
                                   .haze = lom_scene_haze(renderer->scene, view->eye.y, view->mirrored),
                                   .reflection = reflection_uniform(&renderer->scene->quality),
                                   .caustics = caustics_uniform(&view->caustics, view->eye) };
-    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
-        u.entity_shadow[i] = lom_entity_shadow_uniform(&renderer->entities.shadows[i], view->eye);
+    u.entity_shadow = lom_entity_shadow_uniform(&renderer->entities, view->eye);
     lom_center_row(u.plane, view->plane, view->eye);
     return u;
 }

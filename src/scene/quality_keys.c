@@ -187,6 +187,19 @@ static const lom_key quality[] = {
       .dial = &(const lom_key_dial){ .approximates = "the edge of a shadow that an entity throws",
                                      .settings = "256 512 1024 2048 4096 8192",
                                      .needs = "entity quality.entity_shadows" } },
+    { "shadow_cascades", LOM_KEY_INTEGER, AT(lom_quality, shadow_cascades), .minimum = 1, .maximum = 4,
+      .initial = { 1 }, .unit = "maps",
+      .text =
+          "1: the two maps of `entity_shadows`. 2 to 4: as many instead, each for a slice of the view's depth and the "
+          "last for all (docs/lighting.md); of parallel rays the two maps.",
+      .dial = &(const lom_key_dial){ .approximates = "the edge of a shadow that an entity throws, near and far",
+                                     .settings = "1 2 3 4",
+                                     .needs = "entity quality.entity_shadows" } },
+    { "shadow_split", LOM_KEY_NUMBER, AT(lom_quality, shadow_split), .maximum = 1, .initial = { 0.95 },
+      .text = "Where slices end: a mix of equal depths (0) and equal ratios (1).",
+      .dial = &(const lom_key_dial){ .approximates = "the edge of a shadow, nearer or farther",
+                                     .settings = "0 0.5 0.75 0.95 1",
+                                     .needs = "entity quality.entity_shadows" } },
     { "lamp_shadows", LOM_KEY_INTEGER, AT(lom_quality, lamp_shadows), .minimum = 0, .maximum = 4096, .initial = { 512 },
       .unit = "texels",
       .text =

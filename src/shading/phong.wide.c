@@ -82,8 +82,7 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
     const lom_float3 normal = f->normal;
     lom_float share = lom_light_share(light, f->offset);
     lom_float facing = f->model->diffuse(f->reflection, lom_dot3(normal, lom_uniform3(light->to_light)));
-    if (view->entity_shadow[0].map != NULL && /* the far one is only there with it */
-        lom_any(facing * share > 0.0f)) {
+    if (view->entity_shadow.count != 0 && lom_any(facing * share > 0.0f)) {
         lom_float open;
         LOM_WIDE(lom_entity_light)(view, &f->offset, &normal, &open);
         share = share * open;

@@ -40,15 +40,51 @@ static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_floa
     return one - compare_texels(shadow->map, shadow->size, shadow->texel, s, t, depth).dark;
 }
 
+/* A place counts where the kernel of 1.5 texels around it lies in the map; the share of a cascade falls from 1 to 0 over the
+ * last sixteenth of the map's side before that. */
+static const float kept = 2.0f, overlap = 1.0f / 16.0f;
+
+static lom_float3 moved_place(const struct lom_shadow_map_uniform *map, lom_float3 offset, lom_float3 normal)
+{
+    return lom_add3(offset, lom_scale3(normal, lom_splat(map->offset)));
+}
+
+/* Which cascade, counted from 1 and mixed where two are, is for records. */
+static lom_float cascade_light(const struct lom_sun_shadow_uniform *sun, lom_float3 offset, lom_float3 normal)
+{
+    struct kernel sum = { { 0 }, { 0 } };
+    lom_float rest = lom_splat(1.0f), cascade = { 0 };
+    for (int i = 0; i < sun->count && lom_any(rest > 0.0f); i++) {
+        const struct lom_shadow_map_uniform *map = &sun->map[i];
+        lom_float3 place = moved_place(map, offset, normal);
+        lom_float s = lom_transform_row(map->s, place), t = lom_transform_row(map->t, place), weight = rest;
+        if (i + 1 < sun->count) {
+            lom_float border = lom_min(lom_min(s, 1.0f - s), lom_min(t, 1.0f - t));
+            weight = rest * lom_saturate((border - kept * map->texel) / overlap);
+        }
+        cascade = cascade + weight * (float)(i + 1);
+        rest = rest - weight;
+        struct kernel part = { { 0 }, lom_splat(1.0f) };
+        if (lom_any((weight > 0.0f) & (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f)))
+            part = compare_texels(map->map, map->size, map->texel, s, t, lom_transform_row(map->depth, place));
+        sum.dark = sum.dark + weight * part.dark;
+        sum.open = sum.open + weight * part.open;
+    }
+    LOM_NAME_VALUE(cascade);
+    return lom_select(sum.dark > 0.0f, sum.open, lom_splat(1.0f));
+}
+
 void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
                                 lom_float *share)
 {
-    *share = lom_splat(1.0f);
-    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++) {
-        const struct lom_shadow_map_uniform *shadow = &view->entity_shadow[i];
-        if (shadow->map != NULL)
-            *share = *share * map_light(shadow, lom_add3(*offset, lom_scale3(*normal, lom_splat(shadow->offset))));
+    const struct lom_sun_shadow_uniform *sun = &view->entity_shadow;
+    if (sun->cascaded) {
+        *share = cascade_light(sun, *offset, *normal);
+        return;
     }
+    *share = lom_splat(1.0f);
+    for (int i = 0; i < sun->count; i++)
+        *share = *share * map_light(&sun->map[i], moved_place(&sun->map[i], *offset, *normal));
 }
 
 static lom_float largest(lom_float3 v)

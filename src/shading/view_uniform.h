@@ -34,13 +34,20 @@ struct lom_caustics_uniform {
 
 /* How near to the sun entities reach, seen from it. */
 struct lom_shadow_map_uniform {
-    const lom_texture *map;     /* depth, 0 where there is none; NULL: no shadows */
+    const lom_texture *map;     /* depth, 0 where there is none */
     float s[4], t[4], depth[4]; /* rows: texture coordinates and depth of an offset (x, y, z, 1) */
     float size, texel;          /* texels a side, and 1 / size */
     float offset;               /* metres that a place is moved along its normal, so that it does not shade itself */
 };
 
-enum { LOM_ENTITY_SHADOWS = 2 };
+/* Those of a frame that show something: each a part of the entities; or cascades of the view, of which a place takes the
+ * first that holds it, and at its border some of the next. */
+enum { LOM_ENTITY_SHADOWS = 4 };
+struct lom_sun_shadow_uniform {
+    int count;
+    bool cascaded;
+    struct lom_shadow_map_uniform map[LOM_ENTITY_SHADOWS];
+};
 
 /* What every draw of opaque things in a pass shares. Offsets are places less the eye. */
 struct lom_view_uniform {
@@ -51,7 +58,7 @@ struct lom_view_uniform {
     struct lom_reflection_uniform reflection;
     float plane[4]; /* clip distance 0 is plane . (offset, 1); (0, 0, 0, 1) keeps everything */
     struct lom_caustics_uniform caustics;
-    struct lom_shadow_map_uniform entity_shadow[LOM_ENTITY_SHADOWS];
+    struct lom_sun_shadow_uniform entity_shadow;
 };
 
 #endif

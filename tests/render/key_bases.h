@@ -27,7 +27,8 @@ static const struct base bases[] = {
       "camera.key camera.person light.azimuth light.elevation light.color light.intensity light.ambient light.ground "
       "light.key haze sky terrain entity quality.terrain_error quality.tessellation quality.normals "
       "quality.terrain_shadows "
-      "quality.entity_shadows quality.ambient_occlusion quality.shading quality.texture_filter quality.anisotropy "
+      "quality.entity_shadows quality.shadow_cascades quality.ambient_occlusion quality.shading quality.texture_filter "
+      "quality.anisotropy "
       "quality.mipmaps",
       VIEW KEYS TERRAIN
       "tile = 5\ndetail_map = \"color.png\"\nnormal_map = \"normal.png\"\n[terrain.material]\nspecular = 0.3\n"
@@ -54,6 +55,10 @@ static const struct base bases[] = {
       "exponent = 2\nattenuation = [1, 0.1, 0.05]\nreach = 30\n[[lamp.key]]\ntime = 0\n"
       "[[lamp.key]]\ntime = 1\nposition = [1, 4, 2]\n[[lamp]]\nname = \"b\"\nposition = [2, 3, 2]\n"
       "range = 7\n[[lamp]]\ndirection = [1, -1, 1]\ndiffuse = 0.1\n" },
+    { "cascades", "quality.shadow_split camera.position quality.entity_shadows",
+      VIEW TERRAIN "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
+                   "[[entity]]\nmesh = \"box.obj\"\nposition = [3, 0.3, -9]\n"
+                   "[quality]\nentity_shadows = 64\nshadow_cascades = 3\n" },
     { "lamp_shadows", "lamp.0.shadow lamp.0.shadow_from lamp.0.position quality.lamp_shadows quality.lamp_shadow_maps",
       VIEW TERRAIN "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n"
                    "[[lamp]]\nposition = [0, 4, 3]\nrange = 20\nshadow = true\n[quality]\nlamp_shadows = 32\n" },

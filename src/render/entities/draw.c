@@ -190,10 +190,8 @@ void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *enti
     }
 }
 
-struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye)
+static struct lom_shadow_map_uniform map_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye)
 {
-    if (!shadow->falls)
-        return (struct lom_shadow_map_uniform){ .map = NULL };
     const float size = (float)lom_texture_width(shadow->map);
     struct lom_shadow_map_uniform u = {
         .map = shadow->map, .size = size, .texel = 1 / size, .offset = (float)(2.5 * shadow->texel)
@@ -206,6 +204,16 @@ struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_
     lom_center_row(u.s, s, eye);
     lom_center_row(u.t, t, eye);
     lom_center_row(u.depth, shadow->clip_from_world.m[2], eye);
+    return u;
+}
+
+struct lom_sun_shadow_uniform lom_entity_shadow_uniform(const struct lom_drawn_entities *entities, lom_vec3 eye)
+{
+    struct lom_sun_shadow_uniform u = { .count = 0 };
+    for (int i = 0; i < LOM_ENTITY_SHADOWS; i++)
+        if (entities->shadows[i].falls)
+            u.map[u.count++] = map_uniform(&entities->shadows[i], eye);
+    u.cascaded = entities->cascaded;
     return u;
 }
 

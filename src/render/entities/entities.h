@@ -30,7 +30,7 @@ struct lom_drawn_entity {
     uint32_t *edges;                        /* of its mesh, for a wireframe; NULL without */
     size_t edge_count;                      /* indices, two each */
     bool shares_edges;                      /* with an entity before it */
-    int shadow_map;                         /* that it is drawn into in this frame; -1: none */
+    unsigned shadow_maps;                   /* that it is drawn into in this frame: sun_map.h */
     struct lom_transparent transparent;
 };
 
@@ -48,6 +48,7 @@ struct lom_drawn_entities {
     size_t count;
     struct lom_distant *order; /* twice as many */
     struct lom_entity_shadow shadows[LOM_ENTITY_SHADOWS];
+    bool cascaded; /* they are cascades of the view */
 };
 
 bool lom_load_entities(lom_renderer *renderer, lom_error *error);
@@ -77,8 +78,8 @@ void lom_drop_entity_shadows(lom_renderer *renderer);
 /* Whether one of them would be drawn; whether any. */
 bool lom_shows_entity(const struct lom_drawn_entity *entity, const struct lom_culler *culler);
 bool lom_shows_entities(const lom_renderer *renderer, const struct lom_culler *culler);
-/* The map of a shadow, for places less the eye. */
-struct lom_shadow_map_uniform lom_entity_shadow_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye);
+/* The maps of the sun's shadow, for places less the eye. */
+struct lom_sun_shadow_uniform lom_entity_shadow_uniform(const struct lom_drawn_entities *entities, lom_vec3 eye);
 /* What the draws of an entity have in common; the uniforms' material is not set. */
 lom_draw_desc lom_begin_entity(const lom_renderer *renderer, const struct lom_drawn_entity *entity,
                                const struct lom_scene_view *view, const struct lom_view_uniform *uniform,
