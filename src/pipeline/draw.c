@@ -194,8 +194,17 @@ __attribute__((no_sanitize("memory")))
 static bool
 are_same(const unsigned char *a, const unsigned char *b, size_t size)
 {
-    unsigned different = 0;
-    for (size_t i = 0; i < size; i++)
+    enum { WORDS = 8 };
+    uint64_t different = 0;
+    size_t i = 0;
+    for (; i + WORDS * sizeof(uint64_t) <= size && different == 0; i += WORDS * sizeof(uint64_t)) {
+        uint64_t from[2][WORDS];
+        memcpy(from[0], a + i, sizeof from[0]);
+        memcpy(from[1], b + i, sizeof from[1]);
+        for (int k = 0; k < WORDS; k++)
+            different |= from[0][k] ^ from[1][k];
+    }
+    for (; i < size && different == 0; i++)
         different |= a[i] ^ (unsigned)b[i];
     return different == 0;
 }

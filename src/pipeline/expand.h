@@ -10,9 +10,11 @@
 bool lom_expand_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 void lom_free_expansion(struct lom_expansion *expansion);
 
-/* The vertices of pieces that feedback keeps, into the chunk; those of a chunk to the buffer, in order. */
+/* The vertices of pieces that feedback keeps, into the chunk; which of them the buffer has room for and where, chunk after
+ * chunk in order; those to the buffer, chunks in any order. */
 bool lom_capture(struct lom_chunk *chunk, const struct lom_stage_rows *rows, const struct lom_pieces *pieces);
-void lom_append_feedback(const struct lom_chunk *chunk);
+void lom_place_feedback(struct lom_chunk *chunk);
+void lom_copy_feedback(const struct lom_chunk *chunk);
 
 /* Checks of a draw that names such stages, and what follows from them; for other draws nothing. */
 bool lom_check_stages(lom_device *device, const lom_draw_desc *desc);

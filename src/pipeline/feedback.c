@@ -30,7 +30,7 @@ bool lom_capture(struct lom_chunk *chunk, const struct lom_stage_rows *rows, con
     return true;
 }
 
-void lom_append_feedback(const struct lom_chunk *chunk)
+void lom_place_feedback(struct lom_chunk *chunk)
 {
     lom_feedback *feedback = chunk->draw->desc.feedback;
     static const uint8_t vertices[] = { [LOM_TRIANGLES] = 3, [LOM_POINTS] = 1, [LOM_LINES] = 2 };
@@ -40,8 +40,14 @@ void lom_append_feedback(const struct lom_chunk *chunk)
         written = 0;
     else if (written > fits)
         written = fits / piece * piece;
-    if (written > 0)
-        memcpy((char *)feedback->data + feedback->written * stride, chunk->captured, written * stride);
+    chunk->kept_bytes = written * stride;
+    chunk->kept_from = feedback->written * stride;
     feedback->written += written;
     feedback->needed += chunk->captured_vertices;
+}
+
+void lom_copy_feedback(const struct lom_chunk *chunk)
+{
+    if (chunk->draw->desc.feedback != NULL && chunk->kept_bytes > 0)
+        memcpy((char *)chunk->draw->desc.feedback->data + chunk->kept_from, chunk->captured, chunk->kept_bytes);
 }

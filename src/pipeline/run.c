@@ -157,6 +157,13 @@ static void run_all(lom_device *device, lom_work *work)
     lom_run_pool(device->pool, work, &device->pass);
 }
 
+static void copy_feedback(void *context, size_t first, size_t end)
+{
+    const struct lom_pass *pass = context;
+    for (size_t i = first; i < end; i++)
+        lom_copy_feedback(&pass->chunks[i]);
+}
+
 static bool run_batch(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
@@ -165,7 +172,7 @@ static bool run_batch(lom_device *device)
     if (pass->chunk_count > 0)
         run_all(device, run_chunks);
     for (size_t i = 0; i < pass->chunk_count; i++) {
-        const struct lom_chunk *chunk = &pass->chunks[i];
+        struct lom_chunk *chunk = &pass->chunks[i];
         if (chunk->failed)
             return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw of %s.",
                             chunk->draw->desc.shader->name);
@@ -175,8 +182,10 @@ static bool run_batch(lom_device *device)
         device->counters.triangles_clipped += chunk->triangles_clipped;
         device->counters.triangles_binned += chunk->triangle_count;
         if (chunk->draw->desc.feedback != NULL)
-            lom_append_feedback(chunk);
+            lom_place_feedback(chunk);
     }
+    if (pass->feeds_back)
+        lom_share_out(device->pool, pass->chunk_count, 1, copy_feedback, pass);
     if (!pass->desc.feedback_only)
         run_all(device, run_tiles);
     if (pass->recorder != NULL)

@@ -178,7 +178,8 @@ struct lom_chunk {
     uint64_t triangles_clipped, vertices_shaded;
     float *captured; /* with feedback: what it keeps of each vertex */
     size_t captured_capacity, captured_vertices;
-    bool failed; /* memory ran out */
+    size_t kept_from, kept_bytes; /* of that in the buffer */
+    bool failed;                  /* memory ran out */
 };
 
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
