@@ -346,9 +346,11 @@ typedef struct lom_scene {
     lom_haze haze;       /* clear air when given is 0 */
     lom_terrain terrain; /* there is none when given is 0 */
     lom_sky_params sky;
-    lom_water_params water;    /* drawn when given is not 0 and enabled is set */
-    lom_water_surf surf;       /* when its height is not 0 waves come in to the terrain */
-    lom_shallow_water shallow; /* when given is not 0 the water flows */
+    lom_water_params water;         /* [water], or the first [[water]]; drawn when given is not 0 and enabled is set */
+    lom_water_params *other_waters; /* of [[water]] those behind the first */
+    size_t other_water_count;       /* at most LOM_MAX_OTHER_WATERS */
+    lom_water_surf surf;            /* of the first water: when its height is not 0 waves come in to the terrain */
+    lom_shallow_water shallow;      /* of the first water: when given is not 0 it flows */
     lom_clouds clouds;
     lom_quality quality;
     lom_entity *entities;

@@ -53,10 +53,13 @@ typedef enum lom_water_model {                       /* from cheap to exact, but
                                LOM_WATER_REFERENCE   /* rays in double precision through the whole frame */
 } lom_water_model;
 
+enum { LOM_MAX_OTHER_WATERS = 7 }; /* of a scene, beside the first */
+
 /* The planar lake. Its nine steps can be switched one by one (the switches 1 to 9 below); docs/scene.md says what each switch does. Filled by lom_read_scene, which
  * keeps every range stated there. Strings belong to the scene. */
 typedef struct lom_water_params {
     bool present;       /* the scene has a [water] table */
+    const char *name;   /* or NULL; unique in the scene */
     bool enabled;       /* false: no water is drawn although there is a table */
     double level;       /* y of the surface, metres */
     double position[2]; /* x, z of the middle of the quad, metres */

@@ -58,8 +58,11 @@ typedef struct lom_key {
     const char *choices[12];           /* of LOM_KEY_CHOICE, ended by NULL */
     const struct lom_key_table *table; /* of LOM_KEY_TABLE and LOM_KEY_TABLES */
     size_t length_offset;              /* of LOM_KEY_TABLES */
-    const char *initial_text;          /* what the documentation says of the default when no number can say it */
-    const lom_key_dial *dial;          /* of an approximation; every key inside [quality] has one */
+    size_t
+        others_offset; /* of LOM_KEY_TABLE: where the file may have an array of them instead, the first is inline and a
+                             pointer to an array of the others is here, their number at length_offset; 0: it may not */
+    const char *initial_text; /* what the documentation says of the default when no number can say it */
+    const lom_key_dial *dial; /* of an approximation; every key inside [quality] has one */
     const char *untraced; /* the TOML value with which a picture has nothing that the reference does not: what is drawn
                              to be compared with it has this value; NULL: the reference knows the key, or it has no
                              such effect */

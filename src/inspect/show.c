@@ -89,7 +89,7 @@ static lom_image *show_cloud_shadow(lom_renderer *r, const lom_frame_desc *desc,
 static lom_image *show_caustics(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
     (void)desc;
-    return read_floats(r->water.caustics, LOM_FORMAT_R32F, "caustics", error);
+    return read_floats(r->water->caustics, LOM_FORMAT_R32F, "caustics", error);
 }
 
 /* ---- grids ---- */

@@ -8,8 +8,9 @@
 struct frame {
     lom_reference reference; /* as it was loaded, with what moves, and the waves, of this frame */
     bool placed;             /* what it places is its own */
-    struct lom_wave_surface waves;
-    bool in_water; /* the camera */
+    lom_reference others[LOM_MAX_OTHER_WATERS];
+    struct lom_wave_surface waves[1 + LOM_MAX_OTHER_WATERS];
+    const lom_reference *inside; /* of the water that the camera is in, or NULL */
     lom_reference_frame desc;
     lom_image *image;
     lom_camera_view camera;
@@ -44,11 +45,19 @@ static void place_sample(const struct frame *f, int x, int y, int i, double *u, 
     *v = fraction(radical_inverse((uint32_t)i) + lom_random_uniform(pixel, 1));
 }
 
-static bool starts_in_water(const struct frame *f, lom_vec3 place)
+static bool is_under(const struct frame *f, const lom_reference *one, lom_vec3 place)
 {
-    if (f->waves.triangles == NULL)
-        return lom_water_above(&f->reference, place, f->desc.time) > 0;
-    return lom_is_over_water(&f->reference, place) && place.y < lom_wave_surface_height(&f->waves, place.x, place.z);
+    if (one->waves == NULL)
+        return lom_water_above(one, place, f->desc.time) > 0;
+    return lom_is_over_water(one, place) && place.y < lom_wave_surface_height(one->waves, place.x, place.z);
+}
+
+static const lom_reference *water_around(const struct frame *f, lom_vec3 place)
+{
+    for (size_t i = 0; i <= f->reference.other_count; i++)
+        if (is_under(f, lom_reference_with(&f->reference, i), place))
+            return lom_reference_with(&f->reference, i);
+    return NULL;
 }
 
 /* The ray through a place of the picture in pixels. Each of parallel rays starts at a place of its own, in water or
@@ -58,9 +67,10 @@ static lom_vec3 see(const struct frame *f, double x, double y)
     struct lom_ray ray;
     lom_ray_through(&f->projection, &f->view, f->eye, 2 * x / f->desc.width - 1, 1 - 2 * y / f->desc.height,
                     &ray.origin, &ray.direction);
-    bool in_water = f->camera.projection == LOM_PROJECTION_PERSPECTIVE ? f->in_water : starts_in_water(f, ray.origin);
+    const lom_reference *inside =
+        f->camera.projection == LOM_PROJECTION_PERSPECTIVE ? f->inside : water_around(f, ray.origin);
     return lom_radiance_along(&f->reference, ray, f->camera.near_plane * length(ray.direction), f->desc.time,
-                              f->desc.depth, in_water);
+                              f->desc.depth, inside);
 }
 
 static void trace_row(const struct frame *f, int row)
@@ -116,27 +126,41 @@ static bool move(struct frame *f, const lom_reference *loaded, lom_error *error)
 }
 
 /* Where waves are finest: below the eye; where the middle one of parallel rays comes to the water. */
-static lom_vec3 middle_of_waves(const struct frame *f)
+static lom_vec3 middle_of_waves(const struct frame *f, const lom_reference *one)
 {
     lom_vec3 origin, ray;
     lom_ray_through(&f->projection, &f->view, f->eye, 0, 0, &origin, &ray);
-    double way = ray.y != 0 ? (f->reference.scene->water.level - origin.y) / ray.y : 0;
+    double way = ray.y != 0 ? (one->scene->water.level - origin.y) / ray.y : 0;
     bool comes = f->camera.projection != LOM_PROJECTION_PERSPECTIVE && way > 0 && way < f->camera.far_plane;
     return comes ? along(origin, ray, way) : f->eye;
 }
 
-/* The camera and the waves around it. */
+static bool add_waves(struct frame *f, lom_reference *one, lom_error *error)
+{
+    struct lom_wave_surface *waves = &f->waves[one->number];
+    if (!lom_make_wave_surface(waves, one, middle_of_waves(f, one), f->desc.time, error))
+        return false;
+    one->waves = waves->triangles != NULL ? waves : NULL;
+    return true;
+}
+
+/* The camera and the waters around it, each with its waves. */
 static bool look(struct frame *f, lom_error *error)
 {
     f->camera = f->desc.camera != NULL ? *f->desc.camera : lom_scene_camera_at(f->reference.scene, f->desc.time);
     f->view = lom_camera_look(&f->camera);
     f->projection = lom_camera_projection(&f->camera, (double)f->desc.width / f->desc.height);
     f->eye = lom_camera_eye(&f->camera);
-    if (!lom_make_wave_surface(&f->waves, &f->reference, middle_of_waves(f), f->desc.time, error))
+    f->reference.others = f->others;
+    f->reference.other_count = f->reference.own_water ? 0 : f->reference.scene->other_water_count;
+    for (size_t i = 1; i <= f->reference.other_count; i++)
+        lom_set_other_water(&f->others[i - 1], &f->reference, i);
+    if (!add_waves(f, &f->reference, error))
         return false;
-    f->in_water = starts_in_water(f, f->eye);
-    if (f->waves.triangles != NULL)
-        f->reference.waves = &f->waves;
+    for (size_t i = 0; i < f->reference.other_count; i++)
+        if (!add_waves(f, &f->others[i], error))
+            return false;
+    f->inside = water_around(f, f->eye);
     return true;
 }
 
@@ -154,7 +178,8 @@ lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_f
         f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
     if (f.image != NULL)
         lom_run_pool(pool, trace_rows, &f);
-    lom_free_wave_surface(&f.waves);
+    for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++)
+        lom_free_wave_surface(&f.waves[i]);
     if (f.placed)
         lom_free_placed(&f.reference);
     lom_free_pool(pool);

@@ -142,38 +142,49 @@ static bool load_sky(lom_reference *reference, lom_error *error)
     return reference->sky_faces != NULL;
 }
 
-static bool make_flow_map(lom_reference *reference, lom_error *error)
+static bool make_flow_map(lom_reference *reference, const char *normal_map, int *index, lom_error *error)
 {
-    return add_picture(reference, "", false, lom_world_made_flow(reference->world, error), &reference->flow_map, error);
+    return add_picture(reference, "", false, lom_world_made_flow(reference->world, normal_map, error), index, error);
 }
 
-static bool load_water(lom_reference *reference, lom_error *error)
+/* Where a water is, and its maps; without bounds where it is none. */
+static bool load_water(lom_reference *reference, const lom_water_params *w, struct lom_ray_water *out, lom_error *error)
 {
-    const lom_water_params *w = &reference->scene->water;
-    reference->normal_map = reference->flow_map = LOM_NO_PICTURE;
-    reference->water = (lom_reference_water){ .low = { 1, 1 }, .index = 1 };
+    out->normal_map = out->flow_map = LOM_NO_PICTURE;
+    out->at = (lom_reference_water){ .low = { 1, 1 }, .index = 1 };
     if (!w->present || !w->enabled)
         return true;
     for (int i = 0; i < 2; i++) {
-        reference->water.low[i] = w->position[i] - w->size[i] / 2;
-        reference->water.high[i] = w->position[i] + w->size[i] / 2;
+        out->at.low[i] = w->position[i] - w->size[i] / 2;
+        out->at.high[i] = w->position[i] + w->size[i] / 2;
     }
-    reference->water.lowest = reference->water.highest = w->level;
-    reference->water.roughness = w->optics.roughness;
-    reference->water.index = w->optics.index;
+    out->at.lowest = out->at.highest = w->level;
+    out->at.roughness = w->optics.roughness;
+    out->at.index = w->optics.index;
     for (int i = 0; i < 3; i++)
-        reference->water.absorption[i] = w->optics.absorption[i];
+        out->at.absorption[i] = w->optics.absorption[i];
     if (w->normal_map == NULL || !w->normals)
         return true;
-    if (w->flow && w->flow_map == NULL && !make_flow_map(reference, error))
+    if (w->flow && w->flow_map == NULL && !make_flow_map(reference, w->normal_map, &out->flow_map, error))
         return false;
-    return find_picture(reference, w->normal_map, false, &reference->normal_map, error) &&
-           (!w->flow || w->flow_map == NULL ||
-            find_picture(reference, w->flow_map, false, &reference->flow_map, error));
+    return find_picture(reference, w->normal_map, false, &out->normal_map, error) &&
+           (!w->flow || w->flow_map == NULL || find_picture(reference, w->flow_map, false, &out->flow_map, error));
+}
+
+static bool load_waters(lom_reference *reference, lom_error *error)
+{
+    struct lom_ray_water first;
+    bool done = load_water(reference, &reference->scene->water, &first, error);
+    reference->water = first.at;
+    reference->normal_map = first.normal_map;
+    reference->flow_map = first.flow_map;
+    for (size_t i = 0; done && i < reference->scene->other_water_count; i++)
+        done = load_water(reference, &reference->scene->other_waters[i], &reference->other_waters[i], error);
+    return done;
 }
 
 bool lom_load_reference(lom_reference *reference, lom_error *error)
 {
     return load_ground(reference, error) && load_materials(reference, error) && load_sky(reference, error) &&
-           load_water(reference, error) && lom_load_ray_clouds(reference, error);
+           load_waters(reference, error) && lom_load_ray_clouds(reference, error);
 }

@@ -146,7 +146,7 @@ static double find_slant(lom_vec3 to_light, double index)
     return -1 / down.y;
 }
 
-static void set_light(lom_reference *reference)
+void lom_light_reference(lom_reference *reference)
 {
     const lom_light *light = &reference->scene->light;
     const lom_water_optics *optics = &reference->scene->water.optics;
@@ -178,7 +178,7 @@ bool lom_place_reference(lom_reference *reference, double time, lom_error *error
     reference->point_count = reference->triangle_count = 0;
     if (!lom_world_at(reference->world, time, &reference->moment, error))
         return false;
-    set_light(reference);
+    lom_light_reference(reference);
     if (!allocate(reference, error) || !add_ground(reference, error))
         return false;
     add_entities(reference);

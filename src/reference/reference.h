@@ -45,6 +45,13 @@ struct lom_ray_layer {
 struct lom_wave_surface;
 struct lom_ray_cloud;
 
+struct lom_crossing;
+
+struct lom_ray_water {
+    lom_reference_water at;
+    int normal_map, flow_map;
+};
+
 struct lom_reference {
     struct lom_world *world;
     bool owns_world;
@@ -78,10 +85,26 @@ struct lom_reference {
     struct lom_ray_cloud *clouds;
     size_t cloud_count;
     const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
+    size_t number;                        /* of the water that water, maps, waves and slant are of */
+    struct lom_ray_water other_waters[LOM_MAX_OTHER_WATERS];
+    const struct lom_reference *others; /* of a frame: the same with each of the other waters */
+    size_t other_count;
 };
 
 /* The reference of a world (reference.c), which outlives it. NULL on failure. */
 lom_reference *lom_create_reference_of(struct lom_world *world, lom_error *error);
+/* The same scene, which it shares, with another of its waters in the place of the first (waters.c). */
+void lom_set_other_water(lom_reference *other, const lom_reference *reference, size_t number);
+/* Reference 0 is the one that is given, the others are those of its other waters. */
+const lom_reference *lom_reference_with(const lom_reference *reference, size_t number);
+/* That of the water over a place, else the first. */
+const lom_reference *lom_reference_around(const lom_reference *reference, lom_vec3 place, double time);
+/* lom_cross_water of all waters, or of one that the ray is in; the one that is met, NULL: none is. */
+const lom_reference *lom_cross_waters(const lom_reference *reference, const struct lom_ray *ray, double time,
+                                      const lom_reference *inside, double low, double high,
+                                      struct lom_crossing *crossing);
+/* place.c: the colour of its water and how its light comes down. */
+void lom_light_reference(lom_reference *reference);
 /* Loading (load.c): materials and pictures, what does not move. */
 bool lom_load_reference(lom_reference *reference, lom_error *error);
 /* Placing (place.c): the light and the triangles at a time. What was placed before is not freed. False on failure; what
@@ -119,9 +142,10 @@ bool lom_sun_is_open(const lom_reference *reference, lom_vec3 place, double dept
 /* What lies behind everything. */
 lom_vec3 lom_sky_light(const lom_reference *reference, lom_vec3 direction);
 
-/* Rays (trace.c): lom_trace_ray in the float state that the caller has set. */
+/* Rays (trace.c): lom_trace_ray in the float state that the caller has set; inside: the reference of the water that the
+ * ray starts in, or NULL. */
 lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, double near_distance, double time,
-                            int depth, bool in_water);
+                            int depth, const lom_reference *inside);
 
 /* Clouds (clouds.c). */
 bool lom_load_ray_clouds(lom_reference *reference, lom_error *error);

@@ -42,7 +42,7 @@ static double highlight_of(const lom_quality *quality, const struct lom_facing *
 static lom_vec3 through_water(const lom_reference *reference, const struct lom_facing *at, lom_vec3 to_lamp,
                               double distance)
 {
-    const lom_reference_water *water = &reference->water;
+    const lom_reference_water *water = &lom_reference_around(reference, at->place, reference->moment.time)->water;
     const double path = to_lamp.y > 0 ? at->depth / to_lamp.y : 1e300;
     if (!(at->depth > 0))
         return (lom_vec3){ 1, 1, 1 };

@@ -188,8 +188,9 @@ static lom_vec3 mapped_normal(const lom_reference *reference, const struct lom_r
 /* The light that comes to a place. */
 static struct lom_incident find_incident(const lom_reference *reference, lom_vec3 place, double time, double *depth)
 {
-    *depth = lom_water_above(reference, place, time);
-    struct lom_incident in = find_light(reference, *depth);
+    const lom_reference *around = lom_reference_around(reference, place, time);
+    *depth = lom_water_above(around, place, time);
+    struct lom_incident in = find_light(around, *depth);
     if (dot(in.light, in.light) > 0 && !lom_sun_is_open(reference, place, *depth, in.to_light))
         in.light = (lom_vec3){ 0, 0, 0 };
     if (reference->cloud_count > 0)

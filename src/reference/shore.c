@@ -46,9 +46,9 @@ bool lom_make_ray_shore(struct lom_wave_surface *surface, const lom_reference *r
                         lom_error *error)
 {
     const lom_scene *scene = reference->scene;
-    if (!scene->shallow.present && !(scene->surf.height > 0))
+    if (reference->number != 0 || (!scene->shallow.present && !(scene->surf.height > 0)))
         return true;
-    const struct lom_wave_site site = lom_world_wave_site(reference->world);
+    const struct lom_wave_site site = lom_world_wave_site(reference->world, reference->number);
     bool done = make_surf(surface, &site, time, error) && make_shallow(surface, &site, time, error);
     if (done && surface->surf.cells != NULL) /* its steepest front is a twentieth of a wave */
         *shortest = finer(*shortest, surface->surf.length / 20);

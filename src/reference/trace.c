@@ -7,11 +7,11 @@
 #include "reference/reference.h"
 
 struct path {
-    struct lom_ray ray; /* of unit direction */
-    double low;         /* nothing nearer than this is seen */
-    int depth;          /* crossings of water that may follow */
-    bool in_water;
-    bool by_water; /* it has met the water before, so it sees the sun's disc as well */
+    struct lom_ray ray;          /* of unit direction */
+    double low;                  /* nothing nearer than this is seen */
+    int depth;                   /* crossings of water that may follow */
+    const lom_reference *inside; /* of the water that it is in, or NULL */
+    bool by_water;               /* it has met the water before, so it sees the sun's disc as well */
 };
 
 struct tracer {
@@ -30,7 +30,7 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path);
  * the water's color states. */
 static lom_vec3 cross_medium(const struct tracer *tracer, const struct path *path, lom_vec3 beyond, double t)
 {
-    const lom_reference *reference = tracer->reference;
+    const lom_reference *reference = path->inside;
     const lom_reference_water *water = &reference->water;
     double slant = reference->slant, rate = 1 - slant * path->ray.direction.y;
     double depth = lom_water_above(reference, path->ray.origin, tracer->time);
@@ -87,14 +87,14 @@ static lom_vec3 kept_in_front(lom_vec3 d, lom_vec3 n)
 /* The ways that a path goes on after the water's surface. A normal that is turned away from the ray stands for a wave
  * that hides it: it reflects all, like the facet. What would come to lie on the wrong side of the facet is mirrored by
  * it. */
-static lom_vec3 divide(const struct tracer *tracer, const struct path *path, const struct lom_crossing *c)
+static lom_vec3 divide(const struct tracer *tracer, const struct path *path, const lom_reference *met,
+                       const struct lom_crossing *c)
 {
-    const lom_reference_water *water = &tracer->reference->water;
-    double side = path->in_water ? -1 : 1, index = path->in_water ? 1 / water->index : water->index;
+    const lom_reference_water *water = &met->water;
+    const bool in_water = path->inside != NULL;
+    double side = in_water ? -1 : 1, index = in_water ? 1 / water->index : water->index;
     lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side);
-    struct path next = {
-        .ray.origin = c->place, .depth = path->depth - 1, .in_water = path->in_water, .by_water = true
-    };
+    struct path next = { .ray.origin = c->place, .depth = path->depth - 1, .inside = path->inside, .by_water = true };
     double cosine = -dot(d, normal), share = cosine > 0 ? lom_reference_fresnel(cosine, index) : 1;
     lom_vec3 light = { 0, 0, 0 };
     if (share > 0) {
@@ -103,7 +103,7 @@ static lom_vec3 divide(const struct tracer *tracer, const struct path *path, con
     }
     if (share < 1 && lom_reference_refract(d, normal, index, &next.ray.direction)) {
         next.ray.direction = kept_in_front(next.ray.direction, scaled(facet, -1));
-        next.in_water = !path->in_water;
+        next.inside = in_water ? NULL : met;
         light = along(light, follow(tracer, &next), 1 - share);
     }
     return light;
@@ -112,7 +112,7 @@ static lom_vec3 divide(const struct tracer *tracer, const struct path *path, con
 /* Light that comes from t along the path, as it is at its origin. */
 static lom_vec3 carry(const struct tracer *tracer, const struct path *path, double t, lom_vec3 light)
 {
-    if (path->in_water)
+    if (path->inside != NULL)
         return cross_medium(tracer, path, light, t);
     light = lom_light_through_haze(tracer->reference, &path->ray, t, light);
     return lom_light_through_clouds(tracer->reference, &path->ray, t, tracer->time, light);
@@ -157,9 +157,11 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
     bool opaque = lom_hit_triangles(&reference->opaque, &path->ray, path->low, &hit);
     struct lom_crossing crossing = { .t = hit.t };
     lom_vec3 light;
-    if (path->depth > 0 &&
-        lom_cross_water(reference, &path->ray, tracer->time, path->in_water, path->low, hit.t, &crossing)) {
-        light = divide(tracer, path, &crossing);
+    const lom_reference *met = path->depth > 0 ? lom_cross_waters(reference, &path->ray, tracer->time, path->inside,
+                                                                  path->low, hit.t, &crossing)
+                                               : NULL;
+    if (met != NULL) {
+        light = divide(tracer, path, met, &crossing);
     } else if (opaque) {
         light = lom_shade_hit(reference, &path->ray, &hit, tracer->time);
     } else {
@@ -167,17 +169,17 @@ static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
         if (path->by_water)
             light = sum(light, sun_disc(reference, path->ray.direction));
     }
-    if (path->by_water && !path->in_water)
+    if (path->by_water && path->inside == NULL)
         light = sum(light, lamp_discs(reference, &path->ray, crossing.t));
     return through_layers(tracer, path, crossing.t, carry(tracer, path, crossing.t, light));
 }
 
 lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, double near_distance, double time,
-                            int depth, bool in_water)
+                            int depth, const lom_reference *inside)
 {
     struct tracer tracer = { reference, time };
     struct path path = {
-        .ray = { ray.origin, unit(ray.direction) }, .low = near_distance, .depth = depth, .in_water = in_water
+        .ray = { ray.origin, unit(ray.direction) }, .low = near_distance, .depth = depth, .inside = inside
     };
     return follow(&tracer, &path);
 }
@@ -188,7 +190,7 @@ lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_vec3 light = lom_radiance_along(reference, (struct lom_ray){ origin, direction }, near_distance, time, depth,
-                                        lom_water_above(reference, origin, time) > 0);
+                                        lom_water_above(reference, origin, time) > 0 ? reference : NULL);
     lom_leave_float_state(&state);
     return light;
 }

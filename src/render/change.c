@@ -62,6 +62,7 @@ static bool load(struct change *c, lom_error *error)
 /* Frees what one of two renderers, which share a device and perhaps textures, has of the parts. */
 static void free_parts(struct change *c, lom_renderer *owner, lom_renderer *other)
 {
+    owner->water = owner->waters;
     if (!has_new_textures(c))
         owner->textures = c->renderer->textures;
     if ((c->parts & LOM_PART_CLOUDS) != 0)
@@ -86,6 +87,7 @@ static void go_back(struct change *c)
     lom_forget_failure(r->device);
     free_parts(c, r, &c->before);
     *r = c->before;
+    r->water = r->waters;
     lom_set_device_filtering(r->device, c->scene_before->quality.filtering);
     if (!has_new_world(c))
         lom_follow_scene(r->world, c->scene_before);

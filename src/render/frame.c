@@ -21,11 +21,11 @@ static const struct stage {
     { lom_prepare_entities, "entity_shadow" },
     { lom_prepare_lamp_shadows, "lamp_shadow" },
     { lom_prepare_clouds, "cloud_light" },   /* their light */
-    { lom_prepare_water, "waves" },          /* the waves, and what they do to the light on what follows */
+    { lom_prepare_waters, "waves" },         /* the waves, and what they do to the light on what follows */
     { draw_opaque, "scene" },                /* terrain, entities and sky */
-    { lom_draw_lake, "lake" },               /* tinted or planar water over them */
-    { lom_find_surface, "sea_waves" },       /* the waves of a sea where one is seen */
-    { lom_draw_surface, "sea" },             /* or water with waves */
+    { lom_draw_lakes, "lake" },              /* tinted or planar water over them */
+    { lom_find_surfaces, "sea_waves" },      /* the waves of a sea where one is seen */
+    { lom_draw_surfaces, "sea" },            /* or water with waves */
     { lom_draw_clouds, "clouds" },           /* clouds over all */
     { lom_draw_transparent, "transparent" }, /* what entities have that is transparent */
     { lom_draw_spray, "spray" },             /* drops, nearer than most clouds */
@@ -148,6 +148,7 @@ static bool draw_stages(struct frame *f, lom_stage_time *times, lom_error *error
         done = lom_check_device(r->device, error) && done;
         add_time(&times[i], time_since(r, &before, stages[i].name));
     }
+    lom_turn_to_water(f, 0);
     f->done = (double)count / (double)(count + 1);
     lom_report_progress(f, "output");
     return done;
@@ -213,7 +214,7 @@ static void leave_abandoned(struct frame *f)
 
 static uint64_t steps_of(const lom_renderer *renderer)
 {
-    return renderer->water.waves != NULL ? lom_wave_steps(renderer->water.waves) : 0;
+    return renderer->waters[0].waves != NULL ? lom_wave_steps(renderer->waters[0].waves) : 0;
 }
 
 static bool draw_frame(struct frame *f, lom_frame *out, lom_error *error)

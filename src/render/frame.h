@@ -6,6 +6,15 @@
 #include "render/plan.h"
 #include "render/renderer.h"
 
+/* What a frame knows of a water while it is not looked at. */
+struct frame_water {
+    lom_rect seen;
+    struct lom_waves_uniform waves;
+    enum lom_waves_known known;
+    struct lom_caustics caustics;
+    bool below;
+};
+
 struct frame {
     lom_renderer *renderer;
     const lom_scene *scene;
@@ -22,7 +31,12 @@ struct frame {
     enum lom_waves_known known;     /* how much `waves` has of them: what was needed */
     uint64_t wave_steps;            /* lom_wave_steps before this frame */
     bool below;                     /* the eye is under water with waves */
-    bool shows_water;               /* its surface is drawn over the scene */
+    struct frame_water turns[1 + LOM_MAX_OTHER_WATERS]; /* of the waters that are not looked at, */
+    size_t turned, home; /* the one that is, and the one that is where none is drawn: that over the eye, or the first */
+    size_t water_order[1 + LOM_MAX_OTHER_WATERS]; /* the farthest first */
+    bool names_water;                             /* steps of the plan say whose they are */
+    bool shows_water;                             /* a surface is drawn over the scene, */
+    double divided_at;                            /* the first one at this level */
     lom_plan *plan;
     const lom_frame_desc *desc;
     double done; /* the share of the stages behind this one */

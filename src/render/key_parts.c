@@ -34,7 +34,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_WATER_MAPS, "water.normal_map water.flow_map water.flow" },
     { LOM_PART_TARGETS, "water.enabled" },
     { LOM_PART_WAVES, "water.level" },
-    { each_frame, "water.position water.size water.tile water.normal_up water.reflection water.refraction "
+    { each_frame, "water.name water.position water.size water.tile water.normal_up water.reflection water.refraction "
                   "water.projection water.normals water.fresnel water.specular "
                   "water.tint water.soft_shore water.flow_strength water.flow_speed water.reflectivity "
                   "water.fresnel_power water.shininess water.specular_strength water.color water.tint_color "
@@ -158,6 +158,7 @@ static unsigned add_made_from(unsigned parts)
         { LOM_PART_GROUND, LOM_PART_LAMP_SHADOWS },
         { LOM_PART_ENTITIES, LOM_PART_FOLLOWED | LOM_PART_LAMP_SHADOWS },
         { LOM_PART_WATER_MAPS, LOM_PART_WAVES },
+        { LOM_PART_WATER_MAPS | LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES, LOM_PART_OTHER_WATERS },
     };
     for (size_t i = 0; i < sizeof chain / sizeof *chain; i++)
         if ((parts & chain[i].part) != 0)

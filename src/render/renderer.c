@@ -40,6 +40,7 @@ lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc 
         return NULL;
     lom_enter_float_state(&state);
     renderer->scene = &renderer->moment.scene;
+    renderer->water = renderer->waters;
     lom_device_desc device = desc != NULL ? *desc : (lom_device_desc){ .threads = 0 };
     device.filtering = scene->quality.filtering;
     renderer->device = lom_open_device(&device);

@@ -28,14 +28,16 @@ struct lom_renderer {
     struct lom_ground ground; /* its blocks are NULL when the scene has no terrain */
     struct lom_ground_maps ground_maps;
     struct lom_drawn_entities entities;
-    struct lom_drawn_water water;
+    struct lom_drawn_water waters[1 + LOM_MAX_OTHER_WATERS]; /* in the scene's order, */
+    struct lom_drawn_water
+        *water; /* and the one that is looked at, whose keys `scene->water` has (lom_turn_to_water) */
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
     struct lom_drawn_lamps lamps;
     struct lom_targets targets; /* of this frame */
     struct lom_targets
         other_targets[1 + LOM_MAX_VIEWS]; /* of sizes before, the last one first: one and a view's each */
-    char loaded[128];                     /* what the last change of the scene loaded */
+    char loaded[160];                     /* what the last change of the scene loaded */
     const lom_renderer *before;           /* while a scene is changed: what rooms may share; else NULL */
 };
 

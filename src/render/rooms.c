@@ -27,6 +27,11 @@ static bool has_water(const lom_scene *scene)
     return scene->water.present;
 }
 
+static bool has_other_waters(const lom_scene *scene)
+{
+    return scene->other_water_count != 0;
+}
+
 static bool has_clouds(const lom_scene *scene)
 {
     return scene->cloud_count != 0;
@@ -50,11 +55,15 @@ const struct lom_room lom_rooms[LOM_ROOMS] = {
     { LOM_PART_GROUND_MAPS, "maps of the ground", MEMBERS(ground_maps, ground_maps), has_terrain, lom_load_ground_maps,
       lom_free_ground_maps },
     { LOM_PART_ENTITIES, "entities", MEMBERS(entities, entities), has_entities, lom_load_entities, lom_free_entities },
-    { LOM_PART_WATER_MAPS, "maps of the water", MEMBERS(water.normal_map, water.flow_map), has_water,
+    { LOM_PART_WATER_MAPS, "maps of the water", MEMBERS(waters[0].normal_map, waters[0].flow_map), has_water,
       lom_load_water_maps, lom_free_water_maps },
-    { LOM_PART_FOAM, "foam", MEMBERS(water.foam, water.foam), lom_shows_foam, lom_load_foam, lom_free_foam },
-    { LOM_PART_BED, "bed of the water", MEMBERS(water.bed, water.bed), lom_shows_caustics, lom_load_bed, lom_free_bed },
-    { LOM_PART_WAVES, "waves", MEMBERS(water.site, water.polar), lom_shows_waves, lom_load_waves, lom_free_waves },
+    { LOM_PART_FOAM, "foam", MEMBERS(waters[0].foam, waters[0].foam), lom_shows_foam, lom_load_foam, lom_free_foam },
+    { LOM_PART_BED, "bed of the water", MEMBERS(waters[0].bed, waters[0].bed), lom_shows_caustics, lom_load_bed,
+      lom_free_bed },
+    { LOM_PART_WAVES, "waves", MEMBERS(waters[0].site, waters[0].polar), lom_shows_waves, lom_load_waves,
+      lom_free_waves },
+    { LOM_PART_OTHER_WATERS, "other waters", MEMBERS(waters[1], waters[LOM_MAX_OTHER_WATERS]), has_other_waters,
+      lom_load_other_waters, lom_free_other_waters },
     { LOM_PART_CLOUDS, "clouds", MEMBERS(clouds, clouds), has_clouds, lom_load_clouds, lom_free_clouds },
     { LOM_PART_SPRAY, "spray", MEMBERS(spray, spray), has_drops, lom_load_spray, lom_free_spray },
 };

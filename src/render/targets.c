@@ -74,7 +74,7 @@ static const struct row {
 static void describe(const lom_scene *scene, const struct lom_targets *size, lom_texture_desc desc[LOM_TARGETS])
 {
     const bool needed[] = { [ALWAYS] = true,
-                            [FOR_WATER] = scene->water.present && scene->water.enabled,
+                            [FOR_WATER] = lom_has_water(scene),
                             [FOR_SPRAY] = lom_count_drops(scene) != 0,
                             [FOR_WIRES] = scene->quality.wireframe == LOM_WIREFRAME_VISIBLE };
     const double scale[] = {

@@ -8,11 +8,13 @@
 
 #include <string.h>
 
-/* The check of a table inside the root. */
+/* The check of a table inside the root; of an array of them the first. */
 static lom_key_check table_of(const lom_key_check *root, const char *key)
 {
-    const lom_toml_value *table = root->table;
-    return lom_check_of(root->reader, lom_toml_find(table, key, strlen(key)));
+    const lom_toml_value *table = root->table, *value = lom_toml_find(table, key, strlen(key));
+    if (value != NULL && value->type == LOM_TOML_ARRAY)
+        return root->element(root, key, 0);
+    return lom_check_of(root->reader, value);
 }
 
 /* ---- names ---- */
@@ -75,9 +77,7 @@ static size_t find_entity(const lom_scene *scene, const char *name)
 
 static bool check_ground(lom_scene *scene, const lom_key_check *root)
 {
-    const lom_key_check water = table_of(root, "water"), surf = table_of(root, "surf");
-    if (!water.is_given(&water, "size") && scene->terrain.present)
-        memcpy(scene->water.size, scene->terrain.size, sizeof scene->water.size);
+    const lom_key_check surf = table_of(root, "surf");
     if (scene->surf.height > 0 && !scene->terrain.present)
         return surf.fail(&surf, "height", "waves come in to a shore: there is no terrain.");
     for (size_t i = 0; i < scene->entity_count; i++)
@@ -85,6 +85,28 @@ static bool check_ground(lom_scene *scene, const lom_key_check *root)
             const lom_key_check at = root->element(root, "entity", i);
             return at.fail(&at, "on_ground", "there is no terrain to stand on.");
         }
+    return true;
+}
+
+static bool check_waters(lom_scene *scene, const lom_key_check *root)
+{
+    const size_t count = scene->other_water_count;
+    const lom_key_check first = table_of(root, "water");
+    if (count > LOM_MAX_OTHER_WATERS) {
+        const lom_key_check at = root->element(root, "water", LOM_MAX_OTHER_WATERS + 1);
+        return at.fail(&at, "", "a scene has at most 8 waters.");
+    }
+    for (size_t i = 0; i <= count; i++) {
+        lom_water_params *water = i == 0 ? &scene->water : &scene->other_waters[i - 1];
+        const lom_key_check at = i == 0 ? first : root->element(root, "water", i);
+        if (!at.is_given(&at, "size") && scene->terrain.present)
+            memcpy(water->size, scene->terrain.size, sizeof water->size);
+        for (size_t k = 0; k < i && water->name != NULL; k++) {
+            const char *other = k == 0 ? scene->water.name : scene->other_waters[k - 1].name;
+            if (other != NULL && strcmp(other, water->name) == 0)
+                return at.fail(&at, "name", "another water has this name already.");
+        }
+    }
     return true;
 }
 
@@ -190,7 +212,8 @@ static bool add_sky(lom_scene *scene, lom_reader *reader)
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
     const lom_key_check check = lom_check_of(reader, root);
-    return check_all_names(reader->scene, &check) && check_ground(reader->scene, &check) &&
-           check_shallow(reader->scene, &check) && check_followed(reader->scene, &check) &&
-           check_drops(reader->scene, &check) && check_views(reader->scene, &check) && add_sky(reader->scene, reader);
+    return check_all_names(reader->scene, &check) && check_waters(reader->scene, &check) &&
+           check_ground(reader->scene, &check) && check_shallow(reader->scene, &check) &&
+           check_followed(reader->scene, &check) && check_drops(reader->scene, &check) &&
+           check_views(reader->scene, &check) && add_sky(reader->scene, reader);
 }

@@ -79,12 +79,13 @@ static bool is_rest_same(const lom_key_table *table, const char *a, const char *
 static void compare_tables(struct comparison *c, size_t length, const lom_key_table *table, const char *a,
                            const char *b);
 
-static void compare_arrays(struct comparison *c, size_t length, const lom_key *key, const char *a, const char *b)
+static void compare_arrays(struct comparison *c, size_t length, const lom_key *key, size_t offset, const char *a,
+                           const char *b)
 {
     const char *first[2];
     size_t count[2];
-    memcpy(&first[0], a + key->offset, sizeof *first);
-    memcpy(&first[1], b + key->offset, sizeof *first);
+    memcpy(&first[0], a + offset, sizeof *first);
+    memcpy(&first[1], b + offset, sizeof *first);
     memcpy(&count[0], a + key->length_offset, sizeof *count);
     memcpy(&count[1], b + key->length_offset, sizeof *count);
     if (count[0] != count[1])
@@ -107,11 +108,13 @@ static void compare_tables(struct comparison *c, size_t length, const lom_key_ta
         bool is_text = key->type == LOM_KEY_STRING || key->type == LOM_KEY_FILE;
         assert(longer < sizeof c->path);
         if (key->type == LOM_KEY_TABLES)
-            compare_arrays(c, longer, key, a, b);
+            compare_arrays(c, longer, key, key->offset, a, b);
         else if (key->type == LOM_KEY_TABLE)
             compare_tables(c, longer, key->table, at[0], at[1]);
         else if (is_text ? !are_same_texts(key, at[0], at[1]) : memcmp(at[0], at[1], lom_key_size(key)) != 0)
             c->differs(c->context, c->path);
+        if (key->others_offset != 0)
+            compare_arrays(c, longer, key, key->others_offset, a, b);
         c->path[length] = 0;
     }
 }

@@ -151,7 +151,8 @@ static void add_table(page *out, const lom_key_table *table, const char *path)
             continue;
         char inner[128];
         const char *marks = key->type == LOM_KEY_TABLES ? "[]" : "";
-        add_format(out, "\n## `%.1s[%s%s]%s`\n", marks, path, key->name, marks[0] != 0 ? marks + 1 : "");
+        add_format(out, "\n## `%.1s[%s%s]%s`", marks, path, key->name, marks[0] != 0 ? marks + 1 : "");
+        add_format(out, key->others_offset != 0 ? " or `[[%s%s]]`\n" : "\n", path, key->name);
         snprintf(inner, sizeof inner, "%s%s.", path, key->name);
         add_table(out, key->table, inner);
     }

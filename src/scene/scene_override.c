@@ -2,6 +2,7 @@
  * places. Invariant: an override can say what the file could say and nothing else; what it says is checked where the
  * file is. */
 #include "scene/reader.h"
+#include "scene/scene_keys.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -52,9 +53,32 @@ static lom_toml_value **find_element(lom_reader *reader, lom_toml_value *array, 
     return NULL;
 }
 
+static bool is_named(const lom_toml_value *array, const lom_toml_value *part)
+{
+    for (size_t i = 0; i < array->count; i++) {
+        const char *name = element_name(array, i);
+        if (name != NULL && strcmp(name, part->key) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Where a file has an array of tables of which most have one, a key without a number is the first one's: water.level. */
+static lom_toml_value *or_first(lom_toml_value *parent, const lom_toml_value *part)
+{
+    bool may_be_one = false;
+    for (int i = 0; i < lom_scene_keys.key_count; i++)
+        may_be_one = may_be_one || (lom_scene_keys.keys[i].others_offset != 0 && parent->key != NULL &&
+                                    strcmp(lom_scene_keys.keys[i].name, parent->key) == 0);
+    const bool is_first =
+        may_be_one && parent->type == LOM_TOML_ARRAY && parent->count > 0 && !is_index(part) && !is_named(parent, part);
+    return is_first ? parent->items[0] : parent;
+}
+
 /* The value that part leads to from parent, made as an empty table when a table does not have it. */
 static lom_toml_value *step(lom_reader *reader, lom_toml_value *parent, const lom_toml_value *part)
 {
+    parent = or_first(parent, part);
     if (parent->type == LOM_TOML_ARRAY) {
         lom_toml_value **element = find_element(reader, parent, part);
         return element == NULL ? NULL : *element;
@@ -77,6 +101,7 @@ static lom_toml_value *step(lom_reader *reader, lom_toml_value *parent, const lo
 
 static bool put(lom_reader *reader, lom_toml_value *parent, const lom_toml_value *part, lom_toml_value *value)
 {
+    parent = or_first(parent, part);
     if (parent->type == LOM_TOML_TABLE)
         return lom_toml_put(reader->tree, parent, value, reader->error);
     if (parent->type != LOM_TOML_ARRAY)

@@ -220,7 +220,9 @@ static bool read_texts(lom_reader *reader, const lom_key *key, const lom_toml_va
 
 /* ---- tables ---- */
 
-static bool read_tables(lom_reader *reader, const lom_key *key, const lom_toml_value *value, void *target)
+/* The tables of an array from `first` on, to where offset and the key's length_offset say. */
+static bool read_tables(lom_reader *reader, const lom_key *key, const lom_toml_value *value, size_t first,
+                        size_t offset, void *target)
 {
     if (value->type != LOM_TOML_ARRAY)
         return fail_type(reader, key, value, "an array of tables");
@@ -228,18 +230,33 @@ static bool read_tables(lom_reader *reader, const lom_key *key, const lom_toml_v
         return lom_toml_fail(value->source, value->offset, LOM_ERROR_LIMIT, reader->error,
                              "\"%s\" has %zu tables, more than the limit of %d.", key->name, value->count,
                              LOM_SCENE_MAX_TABLES);
-    char *structs = lom_arena_take(&reader->scene->memory->arena, value->count, key->table->size, reader->error);
+    const size_t count = value->count - first, size = key->table->size;
+    char *structs = lom_arena_take(&reader->scene->memory->arena, count, size, reader->error);
     if (structs == NULL)
         return false;
-    for (size_t i = 0; i < value->count; i++) {
-        if (value->items[i]->type != LOM_TOML_TABLE)
-            return fail_type(reader, key, value->items[i], "made of tables");
-        if (!lom_read_table(reader, key->table, value->items[i], structs + i * key->table->size))
+    for (size_t i = 0; i < count; i++) {
+        if (value->items[first + i]->type != LOM_TOML_TABLE)
+            return fail_type(reader, key, value->items[first + i], "made of tables");
+        if (!lom_read_table(reader, key->table, value->items[first + i], structs + i * size))
             return false;
     }
-    memcpy(member(target, key->offset), &structs, sizeof structs);
-    memcpy(member(target, key->length_offset), &value->count, sizeof value->count);
+    memcpy(member(target, offset), &structs, sizeof structs);
+    memcpy(member(target, key->length_offset), &count, sizeof count);
     return true;
+}
+
+/* One table, or where there may be others an array of them. */
+static bool read_one_table(lom_reader *reader, const lom_key *key, const lom_toml_value *value, void *target)
+{
+    const lom_toml_value *one = value;
+    if (key->others_offset != 0 && value->type == LOM_TOML_ARRAY && value->count > 0) {
+        one = value->items[0];
+        if (!read_tables(reader, key, value, 1, key->others_offset, target))
+            return false;
+    }
+    if (one->type != LOM_TOML_TABLE)
+        return fail_type(reader, key, one, "a table");
+    return lom_read_table(reader, key->table, one, member(target, key->offset));
 }
 
 static bool read_value(lom_reader *reader, const lom_key *key, const lom_toml_value *value, void *target)
@@ -260,11 +277,9 @@ static bool read_value(lom_reader *reader, const lom_key *key, const lom_toml_va
     case LOM_KEY_CHOICE:
         return read_choice(reader, key, value, place);
     case LOM_KEY_TABLE:
-        if (value->type != LOM_TOML_TABLE)
-            return fail_type(reader, key, value, "a table");
-        return lom_read_table(reader, key->table, value, place);
+        return read_one_table(reader, key, value, target);
     case LOM_KEY_TABLES:
-        return read_tables(reader, key, value, target);
+        return read_tables(reader, key, value, 0, key->offset, target);
     }
     return false;
 }

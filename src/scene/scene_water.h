@@ -6,10 +6,12 @@
 
 #include <lom/scene.h>
 
-/* Whether the scene's water has no waves of its own, so that its normal map is its surface. */
-bool lom_is_still(const lom_scene *scene);
+/* Water 0 is the first, and there are other_water_count behind it. */
+const lom_water_params *lom_water_of(const lom_scene *scene, size_t number);
+/* Whether any of them is drawn. */
+bool lom_has_water(const lom_scene *scene);
 
-/* The site of the scene's waves over this bed; it points into the scene and the bed's heights. */
-struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, const struct lom_bed *bed);
+/* The site of the waves of a water over this bed; it points into the scene and the bed's heights. */
+struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, size_t number, const struct lom_bed *bed);
 
 #endif

@@ -9,6 +9,7 @@
 #define AT(member) offsetof(lom_water_params, member)
 
 static const lom_key keys[] = {
+    { "name", LOM_KEY_STRING, AT(name), .text = "What `lom plan` calls it, and `--set`, where there are several." },
     { "enabled", LOM_KEY_BOOL, AT(enabled), .initial = { 1 }, .text = "Whether the water is drawn at all." },
     { "level", LOM_KEY_NUMBER, AT(level), .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Height (y) of the surface." },
@@ -95,7 +96,8 @@ const lom_key_table lom_water_keys = {
     .key_count = sizeof keys / sizeof *keys,
     .text =
         "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water. "
-        "Richer "
+        "With `[[water]]` there are several, up to 8, each with its own level, extent, waves and look; `[surf]` and "
+        "`[shallow]` are the first one's, and the eye is under one of them or none (docs/water.md). Richer "
         "models (`quality.water`) read the tables inside this one, and of these keys `enabled`, `level`, `position`, "
         "`size` and `tint_color`; those of the normal and the flow map, too, where the water has no waves, whose "
         "ripples "

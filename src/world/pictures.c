@@ -10,9 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The name of the flow map that is made; no file has it. */
-static const char made_flow[] = "";
-
 static struct lom_world_picture *find(const struct lom_world *world, const char *path)
 {
     for (size_t i = 0; path != NULL && i < world->picture_count; i++)
@@ -123,18 +120,24 @@ bool lom_keep_world_picture(struct lom_world *world, const char *path, const cha
     return picture != NULL;
 }
 
-/* Made from the file: its samples may be finer than the picture's. */
-const lom_image *lom_world_made_flow(struct lom_world *world, lom_error *error)
+/* Made from the file: its samples may be finer than the picture's. Kept under a name that no file has. */
+const lom_image *lom_world_made_flow(struct lom_world *world, const char *normal_map, lom_error *error)
 {
-    const struct lom_world_picture *picture = find(world, made_flow);
-    if (picture != NULL && picture->image != NULL)
-        return picture->image;
-    const char *path = world->scene->water.normal_map;
-    lom_image *normals = lom_read_image(path, error);
-    lom_image *flow = normals == NULL ? NULL : lom_make_flow_map(normals, error);
-    bool done = keep(world, path, normals, error) != NULL;
-    picture = keep(world, made_flow, flow, error);
-    return !done || picture == NULL ? NULL : picture->image;
+    const size_t size = strlen(normal_map) + 32;
+    char *name = lom_allocate(size, 1, error);
+    if (name == NULL)
+        return NULL;
+    snprintf(name, size, "%s, its flow map", normal_map);
+    const struct lom_world_picture *picture = find(world, name);
+    if (picture == NULL || picture->image == NULL) {
+        lom_image *normals = lom_read_image(normal_map, error);
+        lom_image *flow = normals == NULL ? NULL : lom_make_flow_map(normals, error);
+        bool done = keep(world, normal_map, normals, error) != NULL;
+        picture = keep(world, name, flow, error);
+        picture = done ? picture : NULL;
+    }
+    lom_release(name);
+    return picture == NULL ? NULL : picture->image;
 }
 
 void lom_release_world_picture(struct lom_world *world, const char *path)

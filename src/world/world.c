@@ -229,7 +229,7 @@ void lom_free_world(struct lom_world *world)
     lom_release(world);
 }
 
-struct lom_wave_site lom_world_wave_site(const struct lom_world *world)
+struct lom_wave_site lom_world_wave_site(const struct lom_world *world, size_t number)
 {
-    return lom_scene_wave_site(world->scene, &world->bed);
+    return lom_scene_wave_site(world->scene, number, &world->bed);
 }

@@ -88,16 +88,16 @@ void lom_follow_scene(struct lom_world *world, const lom_scene *scene);
 /* The terrain's height map, read again when it was released; NULL without one, and on failure. */
 const lom_image *lom_world_height_map(struct lom_world *world, lom_error *error);
 
-/* The site of the scene's waves; it points into the world. */
-struct lom_wave_site lom_world_wave_site(const struct lom_world *world);
+/* The site of the waves of a water of the scene (lom_water_of); it points into the world. */
+struct lom_wave_site lom_world_wave_site(const struct lom_world *world, size_t number);
 
 /* ---- pictures (pictures.c) ---- */
 
 /* The picture of a file, decoded once: it stays the world's until it is released. NULL on failure. */
 const lom_image *lom_world_picture(struct lom_world *world, const char *path, lom_error *error);
-/* The flow map that is made from the water's normal map, for water that flows and names none. The normal map is then
+/* The flow map that is made from a water's normal map, for water that flows and names none. The normal map is then
  * decoded too. NULL on failure. */
-const lom_image *lom_world_made_flow(struct lom_world *world, lom_error *error);
+const lom_image *lom_world_made_flow(struct lom_world *world, const char *normal_map, lom_error *error);
 /* Frees what a caller has made its own; asked for again, it is decoded again. NULL and paths never asked for are
  * allowed. */
 void lom_release_world_picture(struct lom_world *world, const char *path);

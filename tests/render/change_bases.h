@@ -23,6 +23,10 @@ static const struct base more_bases[] = {
                              "caustics_texels = 16\ncaustics_size = 20\ntype = \"pure\"\n" },
     { "mirror", "quality.reflection_scale quality.water water.enabled water.flow water.normal_map water.flow_map",
       VIEW "[sky]\npattern = \"sky_%s.png\"\n[water]\nlevel = 0\nsize = 40\nnormal_map = \"normal.png\"\n" },
+    { "waters", "water.level water.size water.normal_map water.flow_speed water.waves water.foam quality.water",
+      VIEW TERRAIN "[quality]\nwater = \"displaced\"\n[[water]]\nname = \"a\"\nsize = [20, 40]\nposition = [-10, 0]\n"
+                   "[water.waves]\nkind = \"gerstner\"\ncount = 4\n[[water]]\nname = \"b\"\nlevel = 0.3\n"
+                   "size = [20, 40]\nposition = [10, 0]\nnormal_map = \"normal.png\"\n" },
     { "off", "quality.terrain_shadows quality.entity_shadows quality.ambient_occlusion clouds.shadows sky.pattern",
       "[camera]\nposition = [0, 40, 30]\ntarget = [0, 0, 0]\n[light]\nazimuth = 20\nelevation = 8\n" CLOUD
       "[terrain]\nheight_map = \"height.png\"\nsize = 40\nheight = 60\nbase = -30\n"

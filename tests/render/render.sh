@@ -17,7 +17,8 @@ one_hash() { # name: every lane width and thread count gives the same bytes
     why=
     for run in '4 1' '4 5' '8 2' '8 3' '16 1' '16 8'; do
         lanes=${run% *} threads=${run#* }
-        other=$(hash --lanes "$lanes" --threads "$threads")
+        other=$(hash --lanes "$lanes" --threads "$threads" 2>"$folder/error")
+        grep -q 'was built without' "$folder/error" && continue
         [ "$other" = "$whole" ] || why="$lanes lanes on $threads threads give $other, not $whole"
     done
     [ -n "$whole" ] || why='no hash'

@@ -1,12 +1,9 @@
 /* Proves what a world says of a scene: entities stand on the triangles of the ground, move by their keys and are the
  * same at a time whatever was asked before; an entity's material counts before its mesh's and that before the default;
  * a map that cannot be read is a warning, a picture that the scene names an error; and a file is read once. */
-#include "../image/coded_files.h"
-#include "check.h"
-#include "small_scene.h"
+#include "world_case.h"
 
 #include "geometry/terrain.h"
-#include "world/world.h"
 
 #include <fcntl.h>
 #include <stdarg.h>
@@ -44,38 +41,6 @@ int __wrap_openat(int folder, const char *path, int flags, ...)
     if (opened_count >= 0 && (flags & O_ACCMODE) == O_RDONLY && strstr(path, small_folder) != NULL)
         note_opened(path);
     return __real_openat(folder, path, flags, mode);
-}
-
-/* ---- scenes ---- */
-
-static lom_scene *scene;
-static struct lom_world *world;
-
-/* The scene of a text, and its world; NULL: the error says why. */
-static bool open_world(const char *text, lom_error *error)
-{
-    scene = lom_decode_scene(text, strlen(text), small_path("scene.toml"), NULL, 0, error);
-    world = scene == NULL ? NULL : lom_create_world(scene, error);
-    return world != NULL;
-}
-
-static void close_world(void)
-{
-    lom_free_world(world);
-    lom_free_scene(scene);
-    world = NULL;
-    scene = NULL;
-}
-
-#define LAND "[terrain]\nheight_map = 'height.png'\nsize = [40, 30]\nheight = 6\nbase = -3\n"
-#define BOX  "[[entity]]\nmesh = 'box.obj'\n"
-
-static bool open_good(const char *text)
-{
-    lom_error error = { 0 };
-    bool done = open_world(text, &error);
-    CHECK(done, "%s", error.text);
-    return done;
 }
 
 /* ---- places ---- */
@@ -120,7 +85,7 @@ static void the_bed_is_the_terrains_vertices(void)
               world->bed.size[1] == 30,
           "the map has 6 x 6 samples");
     CHECK(lom_visit_terrain(world->height_map, 40, 30, 6, 0, check_row, &world->bed, &error), "%s", error.text);
-    struct lom_wave_site site = lom_world_wave_site(world);
+    struct lom_wave_site site = lom_world_wave_site(world, 0);
     CHECK(site.bed.heights == world->bed.heights && site.waves == &scene->water.waves, "the waves stand on it");
     close_world();
     if (!open_good("[camera]\nposition = [0, 1, 5]\n"))
@@ -302,107 +267,6 @@ static void frames_read_each_file_once(void)
     }
 }
 
-static void deep_pictures_stay_deep(void)
-{
-    if (!open_good(BOX))
-        return;
-    lom_error error = { 0 };
-    const lom_image *deep = lom_world_picture(world, small_path("height.png"), &error);
-    CHECK(deep != NULL && deep->format == LOM_FORMAT_RGBA16, "%s", error.text);
-    close_world();
-}
-
-/* The normal map is asked for by the water too: it is decoded with the flow map. */
-static void the_flow_map_is_made_from_the_file(void)
-{
-    if (!open_good("[water]\nnormal_map = 'normal.png'\n"))
-        return;
-    lom_error error = { 0 };
-    lom_image *file = lom_read_image(small_path("normal.png"), &error);
-    lom_image *flow = lom_make_flow_map(file, &error), *expected = lom_convert_image(flow, LOM_FORMAT_RGBA8, &error);
-    const lom_image *made = lom_world_made_flow(world, &error);
-    CHECK(made != NULL && expected != NULL && lom_hash_image(made) == lom_hash_image(expected), "%s", error.text);
-    remove(small_path("normal.png"));
-    CHECK(lom_world_made_flow(world, &error) == made &&
-              lom_world_picture(world, small_path("normal.png"), &error) != NULL,
-          "%s", error.text);
-    lom_free_image(file);
-    lom_free_image(flow);
-    lom_free_image(expected);
-    close_world();
-    CHECK(small_picture("normal.png", 8, LOM_FORMAT_RGB8, NULL), "put back");
-}
-
-/* The last of six faces has this side; what is said of it. */
-static lom_error read_sky(int side)
-{
-    lom_error error = { 0 };
-    CHECK(small_picture("sky_back.png", side, LOM_FORMAT_RGB8, &error), "%s", error.text);
-    if (open_world("[sky]\npattern = 'sky_%s.png'\n", &error)) {
-        lom_image *faces = lom_read_sky_faces(&scene->sky, &error);
-        CHECK((faces != NULL) == (error.code == LOM_OK), "%s", error.text);
-        for (int i = 0; faces != NULL && i < 6; i++) {
-            lom_image *file = lom_read_image(scene->sky.faces[i], &error);
-            lom_image *face = lom_convert_image(file, LOM_FORMAT_RGBA8, &error);
-            CHECK(faces->depth == 6 && memcmp(lom_image_pixel(faces, 0, 0, i), face->pixels, lom_image_size(face)) == 0,
-                  "face %d", i);
-            lom_free_image(file);
-            lom_free_image(face);
-        }
-        lom_free_image(faces);
-    }
-    close_world();
-    return error;
-}
-
-static void the_faces_of_a_sky_are_squares_of_one_size(void)
-{
-    lom_error error = read_sky(4);
-    CHECK(error.code == LOM_OK, "%s", error.text);
-    error = read_sky(5);
-    CHECK(strstr(error.text, "squares of one size") != NULL && strstr(error.text, "5x5") != NULL, "%s", error.text);
-    read_sky(4);
-}
-
-/* The same six pictures in one file, as a cube in DDS. */
-static void a_sky_of_one_file_is_that_of_six(void)
-{
-    lom_error error = read_sky(4);
-    coded_file file = begin_dds(&(dds_fields){
-        .width = 4, .height = 4, .flags = 0x40, .bits = 24, .mask = { 0xff, 0xff00, 0xff0000 }, .caps = 0xfe00 });
-    static const char *const names[6] = { "right", "left", "top", "bottom", "front", "back" };
-    for (int i = 0; i < 6; i++) {
-        char name[32];
-        snprintf(name, sizeof name, "sky_%s.png", names[i]);
-        lom_image *face = lom_read_image(small_path(name), &error);
-        CHECK(face != NULL && face->format == LOM_FORMAT_RGB8 && face->width == 4, "%s", error.text);
-        append_bytes(&file, face->pixels, 48);
-        lom_free_image(face);
-    }
-    CHECK(lom_write_file(small_path("sky.dds"), file.data, file.size, &error), "%s", error.text);
-    free(file.data);
-    uint64_t hash[2] = { 0, 1 };
-    for (int i = 0; i < 2; i++) {
-        if (open_good(i == 0 ? "[sky]\npattern = 'sky_%s.png'\n" : "[sky]\ncube = 'sky.dds'\n")) {
-            lom_image *faces = lom_read_sky_faces(&scene->sky, &error);
-            CHECK(faces != NULL, "%s", error.text);
-            hash[i] = faces != NULL ? lom_hash_image(faces) : 0;
-            lom_free_image(faces);
-        }
-        close_world();
-    }
-    CHECK(hash[0] == hash[1], "another sky");
-    if (open_good("[sky]\ncube = 'color.png'\n"))
-        CHECK(lom_read_sky_faces(&scene->sky, &error) == NULL && strstr(error.text, "no cube of six faces") != NULL,
-              "%s", error.text);
-    close_world();
-    error = (lom_error){ 0 };
-    CHECK(!open_world("[sky]\ncube = 'sky.dds'\npattern = 'sky_%s.png'\n", &error) &&
-              strstr(error.text, "a cube, a pattern or faces") != NULL,
-          "%s", error.text);
-    close_world();
-}
-
 static void what_cannot_be_had_is_an_error(void)
 {
     static const struct {
@@ -435,10 +299,6 @@ int main(int argc, char **argv)
     RUN(a_map_that_cannot_be_read_is_a_warning);
     RUN(a_file_is_read_once);
     RUN(frames_read_each_file_once);
-    RUN(deep_pictures_stay_deep);
-    RUN(the_flow_map_is_made_from_the_file);
-    RUN(the_faces_of_a_sky_are_squares_of_one_size);
-    RUN(a_sky_of_one_file_is_that_of_six);
     RUN(what_cannot_be_had_is_an_error);
     remove_small_scene();
     return check_result();

@@ -215,11 +215,11 @@ bool lom_draw_transparent_over(struct frame *f, const struct lom_scene_view *vie
     return lom_end_pass(r->device);
 }
 
-/* The frame's view of what is on one side of the water's level: the eye's (1) or the other one (-1). */
+/* The frame's view of what is on one side of the level of the water that is drawn first: the eye's (1) or the other one (-1). */
 static struct lom_scene_view view_of_side(const struct frame *f, double side)
 {
     struct lom_scene_view view = f->view;
-    const double level = f->scene->water.level, up = f->view.eye.y < level ? -side : side;
+    const double level = f->divided_at, up = f->view.eye.y < level ? -side : side;
     view.plane[0] = view.plane[2] = 0;
     view.plane[1] = up;
     view.plane[3] = -up * level;

@@ -9,15 +9,15 @@
 
 static bool make_targets(lom_renderer *r, int size, lom_error *error)
 {
-    if (r->water.photons != NULL)
+    if (r->water->photons != NULL)
         return true;
-    lom_free_gathered_light(&r->water.light);
-    if (!lom_make_gathered_light(&r->water.light, size, error))
+    lom_free_gathered_light(&r->water->light);
+    if (!lom_make_gathered_light(&r->water->light, size, error))
         return false;
-    r->water.photons = lom_make_texture(
+    r->water->photons = lom_make_texture(
         r->device,
         &(lom_texture_desc){ .width = size, .height = size, .label = "photons", .format = LOM_FORMAT_RGBA32F });
-    return r->water.photons != NULL;
+    return r->water->photons != NULL;
 }
 
 /* The square that is lit: before the eye, its corner on a whole cell so that cells stand still in the world. */
@@ -44,11 +44,11 @@ static struct lom_photon_uniforms photon_uniforms(const struct frame *f, const d
     struct lom_photon_uniforms u = { .waves = f->waves,
                                      .cell = (float)cell,
                                      .eta = (float)(1 / f->scene->water.optics.index),
-                                     .bed = r->water.bed,
+                                     .bed = r->water->bed,
                                      .bed_base = (float)(t->base - f->view.eye.y) };
     u.waves.foam_threshold = 0; /* photons read no foam, which is the dearest of what is found with the slopes */
     struct lom_light_uniform light = lom_scene_light(f->scene);
-    const int texels[2] = { lom_texture_width(r->water.bed), lom_texture_height(r->water.bed) };
+    const int texels[2] = { lom_texture_width(r->water->bed), lom_texture_height(r->water->bed) };
     memcpy(u.to_light, light.to_light, sizeof u.to_light);
     const double eye[2] = { f->view.eye.x, f->view.eye.z };
     for (int i = 0; i < 2; i++) { /* vertices are the texels' centres */
@@ -64,8 +64,8 @@ static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
 {
     lom_renderer *r = f->renderer;
     lom_step *step = lom_add_step(f, "caustics", true, "where the waves send the sunlight on the bed");
-    step->width = step->height = lom_texture_width(r->water.photons);
-    lom_pass_desc pass = { .color = { r->water.photons }, .label = "photons" };
+    step->width = step->height = lom_texture_width(r->water->photons);
+    lom_pass_desc pass = { .color = { r->water->photons }, .label = "photons" };
     const lom_draw_desc draw = { .shader = &lom_photon_shader, .uniforms = u, .count = 3 };
     return lom_draw_pass(r->device, &pass, &draw, 1);
 }
@@ -73,13 +73,13 @@ static bool draw_photons(struct frame *f, const struct lom_photon_uniforms *u)
 static void gather_rows(void *context, size_t first, size_t end)
 {
     lom_renderer *r = context;
-    lom_gather_photons(&r->water.light, r->water.photons, (int)first, (int)end);
+    lom_gather_photons(&r->water->light, r->water->photons, (int)first, (int)end);
 }
 
 /* Rows for each worker, since for each range all photons are looked at. */
 static bool gather(lom_renderer *r)
 {
-    struct lom_gathered_light *light = &r->water.light;
+    struct lom_gathered_light *light = &r->water->light;
     size_t size = (size_t)light->size, workers = (size_t)lom_describe_device(r->device).threads;
     lom_share_work(r->device, size, (size + workers - 1) / workers, gather_rows, r);
     const lom_texture_desc desc = { .width = light->size,
@@ -89,7 +89,7 @@ static bool gather(lom_renderer *r)
                                     .label = "caustics",
                                     .mips = LOM_MIPS_ALL,
                                     .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } };
-    return lom_renew_texture(r->device, &r->water.caustics, &desc);
+    return lom_renew_texture(r->device, &r->water->caustics, &desc);
 }
 
 /* Why there are none; NULL: there are. */
@@ -97,7 +97,7 @@ static const char *reason_without(const struct frame *f)
 {
     if (!(f->scene->water.optics.caustics > 0))
         return "water.optics.caustics is 0";
-    if (f->renderer->water.bed == NULL)
+    if (f->renderer->water->bed == NULL)
         return "there is no terrain for them to fall on";
     if (!(f->renderer->moment.to_light.y > 0.05))
         return "the sun is too low";
@@ -122,7 +122,7 @@ bool lom_draw_caustics(struct frame *f, lom_error *error)
     if (!draw_photons(f, &u) || !gather(f->renderer))
         return false;
     double pixel_angle = 2 / f->view.projection.m[1][1] / f->height;
-    f->view.caustics = (struct lom_caustics){ .map = f->renderer->water.caustics,
+    f->view.caustics = (struct lom_caustics){ .map = f->renderer->water->caustics,
                                               .corner = { corner[0], corner[1] },
                                               .size = optics->caustics_size,
                                               .level = f->scene->water.level,

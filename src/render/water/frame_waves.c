@@ -18,7 +18,7 @@ static bool is_below(const struct frame *f)
     if ((x < 0 ? -x : x) > water->size[0] / 2 || (z < 0 ? -z : z) > water->size[1] / 2)
         return false;
     if (lom_water_models[f->scene->quality.water].form != LOM_SURFACE_QUAD)
-        level += f->known != LOM_WAVES_BOUNDED ? lom_wave_height(f->renderer->water.waves, &f->waves, eye->x, eye->z)
+        level += f->known != LOM_WAVES_BOUNDED ? lom_wave_height(f->renderer->water->waves, &f->waves, eye->x, eye->z)
                                                : (double)f->waves.highest;
     return eye->y < level;
 }
@@ -26,7 +26,7 @@ static bool is_below(const struct frame *f)
 bool lom_place_frame_waves(struct frame *f, lom_error *error)
 {
     f->known = LOM_WAVES_PLACED;
-    return lom_place_waves(f->renderer->water.waves, &f->waves, f->view.eye, f->time, error);
+    return lom_place_waves(f->renderer->water->waves, &f->waves, f->view.eye, f->time, error);
 }
 
 void lom_report_frame_waves(struct frame *f, enum lom_wave_stage stage, const char *why)
@@ -34,7 +34,7 @@ void lom_report_frame_waves(struct frame *f, enum lom_wave_stage stage, const ch
     const struct lom_wave_moment moment = { f->known, f->wave_steps, why };
     struct lom_wave_report report;
     const char *step;
-    for (int kind = 0; lom_report_waves(f->renderer->water.waves, kind, stage, &moment, &step, &report); kind++)
+    for (int kind = 0; lom_report_waves(f->renderer->water->waves, kind, stage, &moment, &step, &report); kind++)
         if (report.says)
             lom_add_step(f, step, report.runs, "%s", report.text);
 }
@@ -43,7 +43,7 @@ bool lom_fill_frame_waves(struct frame *f, lom_error *error)
 {
     lom_report_frame_waves(f, LOM_WAVES_AT_FILLING, NULL);
     f->known = LOM_WAVES_FILLED;
-    return lom_fill_waves(f->renderer->water.waves, &f->waves, f->time, error);
+    return lom_fill_waves(f->renderer->water->waves, &f->waves, f->time, error);
 }
 
 /* An eye that is above all that waves could be needs them where they are drawn, if they are. */
@@ -52,8 +52,8 @@ bool lom_prepare_water(struct frame *f, lom_error *error)
     if (!lom_has_waves(f))
         return true;
     lom_report_frame_waves(f, LOM_WAVES_AT_FIRST, NULL);
-    lom_bound_waves(f->renderer->water.waves, &f->waves, f->view.eye, f->time);
-    if (lom_waves_advance(f->renderer->water.waves) && !is_below(f))
+    lom_bound_waves(f->renderer->water->waves, &f->waves, f->view.eye, f->time);
+    if (lom_waves_advance(f->renderer->water->waves) && !is_below(f))
         return true;
     if (!lom_place_frame_waves(f, error))
         return false;

@@ -45,19 +45,19 @@ static bool load_flow_map(lom_renderer *renderer, lom_error *error)
     if (w->flow_map == NULL && !w->flow)
         return true;
     if (w->flow_map == NULL) {
-        const lom_image *made = lom_world_made_flow(renderer->world, error);
+        const lom_image *made = lom_world_made_flow(renderer->world, w->normal_map, error);
         if (made != NULL)
-            renderer->water.flow_map =
+            renderer->water->flow_map =
                 make_flow_map(renderer, made, LOM_MIPS_ALL, (lom_sampler_desc){ .anisotropy = 0 }, error);
     } else {
         const lom_image *file = lom_world_picture(renderer->world, w->flow_map, error);
         if (file != NULL)
-            renderer->water.flow_map =
+            renderer->water->flow_map =
                 make_flow_map(renderer, file, scene->quality.mipmaps ? LOM_MIPS_ALL : LOM_MIPS_NONE,
                               lom_scene_sampler(&scene->quality), error);
         lom_release_world_picture(renderer->world, w->flow_map);
     }
-    return renderer->water.flow_map != NULL;
+    return renderer->water->flow_map != NULL;
 }
 
 bool lom_load_water_maps(lom_renderer *renderer, lom_error *error)
@@ -67,8 +67,8 @@ bool lom_load_water_maps(lom_renderer *renderer, lom_error *error)
         return true;
     if (!load_flow_map(renderer, error))
         return false;
-    renderer->water.normal_map = lom_load_texture(renderer, w->normal_map, false, error);
-    return renderer->water.normal_map != NULL;
+    renderer->water->normal_map = lom_load_texture(renderer, w->normal_map, false, error);
+    return renderer->water->normal_map != NULL;
 }
 
 bool lom_shows_waves(const lom_scene *scene)
@@ -89,25 +89,30 @@ bool lom_load_foam(lom_renderer *renderer, lom_error *error)
     lom_image *pattern = lom_make_foam(256, 1, error);
     if (pattern == NULL)
         return false;
-    renderer->water.foam = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = pattern->width,
-                                                                                   .height = pattern->height,
-                                                                                   .format = LOM_FORMAT_R8,
-                                                                                   .pixels = pattern->pixels,
-                                                                                   .label = "foam",
-                                                                                   .mips = LOM_MIPS_ALL });
+    renderer->water->foam = lom_make_texture(renderer->device, &(lom_texture_desc){ .width = pattern->width,
+                                                                                    .height = pattern->height,
+                                                                                    .format = LOM_FORMAT_R8,
+                                                                                    .pixels = pattern->pixels,
+                                                                                    .label = "foam",
+                                                                                    .mips = LOM_MIPS_ALL });
     lom_free_image(pattern);
     return lom_check_device(renderer->device, error);
+}
+
+static size_t number_of(const lom_renderer *renderer)
+{
+    return (size_t)(renderer->water - renderer->waters);
 }
 
 bool lom_load_waves(lom_renderer *renderer, lom_error *error)
 {
     if (!lom_shows_waves(renderer->scene))
         return true;
-    renderer->water.site = lom_world_wave_site(renderer->world);
-    const struct lom_wave_source source = { &renderer->water.site, renderer->water.normal_map, renderer->water.flow_map,
-                                            renderer->device };
-    renderer->water.waves = lom_load_wave_field(&source, error);
-    return renderer->water.waves != NULL;
+    renderer->water->site = lom_world_wave_site(renderer->world, number_of(renderer));
+    const struct lom_wave_source source = { &renderer->water->site, renderer->water->normal_map,
+                                            renderer->water->flow_map, renderer->device };
+    renderer->water->waves = lom_load_wave_field(&source, error);
+    return renderer->water->waves != NULL;
 }
 
 bool lom_shows_caustics(const lom_scene *scene)
@@ -121,7 +126,7 @@ bool lom_load_bed(lom_renderer *renderer, lom_error *error)
     const struct lom_bed *bed = &renderer->world->bed;
     if (!lom_shows_caustics(renderer->scene))
         return true;
-    renderer->water.bed = lom_make_texture(
+    renderer->water->bed = lom_make_texture(
         renderer->device, &(lom_texture_desc){ .width = bed->columns + 1,
                                                .height = bed->rows + 1,
                                                .format = LOM_FORMAT_R32F,
@@ -135,38 +140,41 @@ bool lom_load_bed(lom_renderer *renderer, lom_error *error)
 
 void lom_free_water_maps(lom_renderer *renderer)
 {
-    lom_drop_texture(renderer, renderer->water.normal_map);
-    lom_release_texture(renderer->device, renderer->water.flow_map);
+    lom_drop_texture(renderer, renderer->water->normal_map);
+    lom_release_texture(renderer->device, renderer->water->flow_map);
 }
 
 void lom_free_foam(lom_renderer *renderer)
 {
-    lom_release_texture(renderer->device, renderer->water.foam);
+    lom_release_texture(renderer->device, renderer->water->foam);
 }
 
 void lom_free_bed(lom_renderer *renderer)
 {
-    lom_release_texture(renderer->device, renderer->water.bed);
+    lom_release_texture(renderer->device, renderer->water->bed);
 }
 
 void lom_free_waves(lom_renderer *renderer)
 {
-    lom_free_wave_field(renderer->water.waves);
-    lom_free_polar_mesh(&renderer->water.polar);
+    lom_free_wave_field(renderer->water->waves);
+    lom_free_polar_mesh(&renderer->water->polar);
 }
 
 void lom_drop_caustics(lom_renderer *renderer)
 {
-    struct lom_drawn_water *water = &renderer->water;
-    lom_release_texture(renderer->device, water->photons);
-    lom_release_texture(renderer->device, water->caustics);
-    lom_free_gathered_light(&water->light);
-    water->photons = water->caustics = NULL;
-    water->light = (struct lom_gathered_light){ .size = 0 };
+    for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++) {
+        struct lom_drawn_water *water = &renderer->waters[i];
+        lom_release_texture(renderer->device, water->photons);
+        lom_release_texture(renderer->device, water->caustics);
+        lom_free_gathered_light(&water->light);
+        water->photons = water->caustics = NULL;
+        water->light = (struct lom_gathered_light){ .size = 0 };
+    }
 }
 
 void lom_follow_water(lom_renderer *renderer)
 {
-    if (renderer->water.waves != NULL)
-        renderer->water.site = lom_world_wave_site(renderer->world);
+    for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++)
+        if (renderer->waters[i].waves != NULL)
+            renderer->waters[i].site = lom_world_wave_site(renderer->world, i);
 }

@@ -7,6 +7,11 @@
 
 extern const struct lom_window lom_whole_view;
 
+/* The stages of the water that is looked at (water.h has them of all). */
+bool lom_prepare_water(struct frame *f, lom_error *error);
+bool lom_draw_lake(struct frame *f, lom_error *error);
+bool lom_find_surface(struct frame *f, lom_error *error);
+bool lom_draw_surface(struct frame *f, lom_error *error);
 /* Sets f->water to the smallest rectangle of frame pixels in which the renderer's mask is not 0; width 0: there
  * is none. */
 void lom_find_water(struct frame *f);

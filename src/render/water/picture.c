@@ -145,7 +145,7 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->height = lom_texture_height(color);
     step->scissor = scissor;
     lom_begin_pass(r->device, &pass);
-    if (is_shown && can_copy(f, view, step))
+    if (is_shown && !f->shows_water && can_copy(f, view, step))
         copy_scene(f, view);
     const struct lom_window shown = lom_window_of(&scissor, step->width, step->height);
     struct lom_scene_view part = *view;
@@ -167,8 +167,11 @@ bool lom_skip_water(struct frame *f, const char *reason)
 
 bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface)
 {
-    if (!lom_draw_transparent_beyond(f))
-        return false;
+    if (!f->shows_water) {
+        f->divided_at = f->scene->water.level;
+        if (!lom_draw_transparent_beyond(f))
+            return false;
+    }
     f->shows_water = true;
     lom_step *step = lom_add_step(f, "water", true, "%s", text);
     step->width = f->crop.width;

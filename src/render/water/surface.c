@@ -11,7 +11,7 @@
 static bool fill_mesh(struct surface *surface, struct frame *f, lom_draw_desc *draw, lom_error *error)
 {
     struct lom_surface_uniforms *u = &surface->uniforms;
-    struct lom_polar_mesh *mesh = &f->renderer->water.polar;
+    struct lom_polar_mesh *mesh = &f->renderer->water->polar;
     struct lom_polar_mesh_desc desc = { .projection = f->view.projection,
                                         .view = f->view.view,
                                         .level = surface->level,

@@ -45,7 +45,7 @@ static void set_foam(struct lom_foam_uniform *foam, const struct frame *f)
 {
     const lom_water_foam *params = &f->scene->water.foam;
     double move = f->time / 4;
-    foam->pattern = f->renderer->water.foam;
+    foam->pattern = f->renderer->water->foam;
     foam->amount = (float)params->amount;
     foam->shore_depth = (float)params->shore_depth;
     foam->inverse_tile = (float)(1 / params->tile);

@@ -45,12 +45,18 @@ bool lom_shows_caustics(const lom_scene *scene);
 /* Whether the scene's pass leaves out what water will cover; and its depth into that pass, which has begun. */
 bool lom_hides_below(const struct frame *f);
 void lom_draw_lid(const struct frame *f);
-/* Makes the waves, and what they do to the light on what is drawn after them. */
-bool lom_prepare_water(struct frame *f, lom_error *error);
-/* Draws tinted or planar water over the scene; or finds where the scene leaves water with waves to be seen, and draws
- * it there. */
-bool lom_draw_lake(struct frame *f, lom_error *error);
-bool lom_find_surface(struct frame *f, lom_error *error);
-bool lom_draw_surface(struct frame *f, lom_error *error);
+/* waters.c: the scene's waters, each in turn, the farthest first. Looks at one of them: its keys are those of
+ * f->scene->water, and what the frame knows of it is in f. */
+void lom_turn_to_water(struct frame *f, size_t number);
+/* Makes their waves, and what they do to the light on what is drawn after them. */
+bool lom_prepare_waters(struct frame *f, lom_error *error);
+/* Draw tinted or planar water over the scene; or find where the scene leaves water with waves to be seen, and draw it
+ * there. */
+bool lom_draw_lakes(struct frame *f, lom_error *error);
+bool lom_find_surfaces(struct frame *f, lom_error *error);
+bool lom_draw_surfaces(struct frame *f, lom_error *error);
+/* All that waters beside the first load and free. */
+bool lom_load_other_waters(lom_renderer *renderer, lom_error *error);
+void lom_free_other_waters(lom_renderer *renderer);
 
 #endif
