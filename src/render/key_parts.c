@@ -53,7 +53,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_FOAM, "water.foam water.foam.amount water.foam.shore_depth" },
     { each_frame, "water.foam.threshold water.foam.window water.foam.tile" },
     { LOM_PART_WAVES, "surf surf.height surf.period surf.direction shallow.*" },
-    { each_frame, "surf.variation" },
+    { LOM_PART_SPRAY, "surf.variation" },
 
     { LOM_PART_ENTITIES,
       "entity entity.mesh entity.position entity.rotation entity.scale entity.material.* entity.two_sided "
@@ -73,8 +73,9 @@ const struct lom_key_row lom_key_rows[] = {
                   "clouds.haze_distance clouds.shadows clouds.shadow_strength clouds.wind.height clouds.wind.speed "
                   "clouds.wind.direction clouds.wind.gust clouds.wind.gust_period clouds.swell" },
 
-    { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible spray.bounce" },
-    { each_frame, "spray.name spray.seed spray.from spray.to spray.velocity spray.spread spray.spread_up spray.wind "
+    { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible spray.bounce spray.source "
+                                         "spray.from spray.to" },
+    { each_frame, "spray.name spray.seed spray.kick spray.velocity spray.spread spray.spread_up spray.wind "
                   "spray.drag spray.jets spray.jet_time spray.jet_width spray.life spray.height spray.size "
                   "spray.stretch spray.color spray.opacity spray.soft spray.forward" },
 
@@ -153,6 +154,7 @@ static unsigned add_made_from(unsigned parts)
         unsigned part, makes;
     } chain[] = {
         { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES },
+        { LOM_PART_WAVES, LOM_PART_SPRAY },
         { LOM_PART_TEXTURES, LOM_PART_SKY | LOM_PART_GROUND_MAPS | LOM_PART_ENTITIES | LOM_PART_WATER_MAPS },
         { LOM_PART_GROUND_MAPS, LOM_PART_GROUND_LAYERS },
         { LOM_PART_GROUND, LOM_PART_LAMP_SHADOWS },

@@ -162,10 +162,22 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     return true;
 }
 
+/* Each wave throws a drop's next life. */
+static bool check_source(const lom_scene *scene, const lom_spray *spray, const lom_key_check *at)
+{
+    return spray->source != LOM_SPRAY_SURF || !(scene->surf.height > 0) ||
+           spray->life + spray->jet_time <= scene->surf.period ||
+           at->fail(at, "life",
+                    "a drop's life and jet_time together end before the next wave, in surf.period seconds.");
+}
+
 static bool check_drops(lom_scene *scene, const lom_key_check *root)
 {
     size_t drops = 0;
     for (size_t i = 0; i < scene->spray_count; i++) {
+        const lom_key_check table = root->element(root, "spray", i);
+        if (!check_source(scene, &scene->sprays[i], &table))
+            return false;
         drops += (size_t)scene->sprays[i].count;
         if (drops > LOM_MAX_PARTICLES) {
             const lom_key_check at = root->element(root, "spray", i);

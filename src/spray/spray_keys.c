@@ -13,6 +13,13 @@ enum { LONGEST_BOUNCE = 60 }; /* s: every frame steps a drop from its birth on *
 static const lom_key keys[] = {
     { "name", LOM_KEY_STRING, AT(name), .text = "A name of its own, for overrides and messages." },
     { "visible", LOM_KEY_BOOL, AT(visible), .initial = { 1 }, .text = "Whether it is drawn." },
+    { "source", LOM_KEY_CHOICE, AT(source), .choices = { "segment", "surf", "river" },
+      .text =
+          "Where drops begin: on the segment; where and when waves of `[surf]` meet steep ground, or where the river "
+          "of `[water.waves]` is faster than its waves, in the rectangle that the segment spans (docs/water.md). "
+          "Without such waves there are no drops." },
+    { "kick", LOM_KEY_NUMBER, AT(kick), .maximum = 100, .initial = { 1 },
+      .text = "Surf, river: speed of the fastest drops, in parts of what the water has there; `velocity` is added." },
     { "seed", LOM_KEY_INTEGER, AT(seed), .maximum = 1e9, .initial = { 1 },
       .text = "Another seed gives other drops of the same kind." },
     { "count", LOM_KEY_INTEGER, AT(count), .maximum = LOM_MAX_PARTICLES, .initial = { 1000 },
@@ -35,7 +42,9 @@ static const lom_key keys[] = {
     { "jets", LOM_KEY_INTEGER, AT(jets), .maximum = LOM_MAX_PARTICLES,
       .text = "How many places of the segment let drops out at a time, as strands of a fall. 0: all of it." },
     { "jet_time", LOM_KEY_NUMBER, AT(jet_time), .minimum = 0.001, .maximum = 3600, .initial = { 0.3 }, .unit = "s",
-      .text = "How long a jet lasts before it begins at another place." },
+      .text = "How long a jet lasts before it begins at another place; with `source = \"surf\"` for how long after a "
+              "wave's "
+              "front drops begin." },
     { "jet_width", LOM_KEY_NUMBER, AT(jet_width), .maximum = 1000, .initial = { 0.3 }, .unit = "m",
       .text = "Width of a jet in its middle; it tapers to its ends." },
     { "life", LOM_KEY_NUMBER, AT(life), .minimum = 0.001, .maximum = 3600, .initial = { 2 }, .unit = "s",
@@ -73,6 +82,8 @@ static bool check_spray(void *members, const lom_key_check *check)
     lom_spray *spray = members;
     if (!check->is_given(check, "to"))
         memcpy(spray->to, spray->from, sizeof spray->to);
+    if (spray->source != LOM_SPRAY_SEGMENT && spray->bounce != 0)
+        return check->fail(check, "bounce", "drops that bounce begin on a segment.");
     if (!check->is_given(check, "height"))
         return spray->bounce == 0 || spray->life <= LONGEST_BOUNCE ||
                check->fail(check, "bounce", "drops that bounce live at most 60 s, and these live longer.");

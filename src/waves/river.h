@@ -10,4 +10,9 @@
  * Velocities are scaled to a mean speed of 1 over the water. An RG32F picture of vx, vz; NULL on failure. */
 lom_image *lom_make_river(const double *depth, int size, double direction, lom_error *error);
 
+/* What it is made of for a site: LOM_RIVER_CELLS a side over the bed, or without one water of 1 m everywhere. */
+enum { LOM_RIVER_CELLS = 160 };
+struct lom_wave_site;
+void lom_find_river_depths(const struct lom_wave_site *site, double *depth);
+
 #endif

@@ -4,7 +4,7 @@
 #include "waves/river.h"
 #include "waves/wave_field.h"
 
-enum { CELLS = 160 };
+enum { CELLS = LOM_RIVER_CELLS };
 
 struct state {
     const struct lom_wave_site *site;
@@ -18,8 +18,8 @@ static bool exists(const struct lom_wave_source *source)
     return source->site->waves->kind == LOM_WAVES_FLOW && source->ripples != NULL;
 }
 
-/* The depth of water over a grid: the level less the terrain's vertices; the same everywhere where there is none. */
-static void find_depths(const struct lom_wave_site *site, double *depth)
+/* The level less the terrain's vertices. */
+void lom_find_river_depths(const struct lom_wave_site *site, double *depth)
 {
     const struct lom_bed *bed = &site->bed;
     for (int y = 0; y < CELLS; y++)
@@ -37,7 +37,7 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     double *depth = lom_allocate((size_t)CELLS * CELLS, sizeof *depth, error);
     if (depth == NULL)
         return false;
-    find_depths(state->site, depth);
+    lom_find_river_depths(state->site, depth);
     lom_image *field = lom_make_river(depth, CELLS, state->site->waves->direction, error);
     lom_release(depth);
     if (field == NULL)

@@ -46,6 +46,13 @@ void lom_free_surf_map(struct lom_surf_map *map);
 /* What the shaders need at a time for places less origin (x, z), but for the textures. */
 void lom_fill_surf(struct lom_surf_uniform *out, const struct lom_surf_map *map, const lom_water_surf *surf,
                    const double origin[2], double time);
+/* Surf at a place of the world: what the maps have there; beyond them the phase goes on straight. */
+struct lom_surf_place {
+    double phase, k[2], amplitude, skew, lean;
+};
+struct lom_surf_place lom_surf_place_at(const struct lom_surf_map *map, double x, double z);
+/* By how much the wave at a place with this phase is higher than the mean, in its group, at a time of lom_fill_surf. */
+double lom_surf_size(const struct lom_surf_uniform *moment, double phase, double x, double z);
 /* Height over a place of the world, metres, in double, at a time of lom_fill_surf. */
 double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z);
 

@@ -63,26 +63,35 @@ static void look_up(const struct lom_surf_map *map, double x, double z, double v
     }
 }
 
-double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z)
+struct lom_surf_place lom_surf_place_at(const struct lom_surf_map *map, double x, double z)
 {
-    double v[6], low[2] = { map->corner[0], map->corner[1] };
+    double v[6];
     look_up(map, x, z, v);
     const double at[2] = { x, z };
     double outside = 0;
     for (int i = 0; i < 2; i++) {
-        double last = low[i] + map->spacing[i] * ((i == 0 ? map->width : map->height) - 1),
-               inside = at[i] < low[i] ? low[i]
-                        : at[i] > last ? last
-                                       : at[i];
-        outside += v[1 + i] * (at[i] - inside);
+        const double low = map->corner[i], last = low + map->spacing[i] * ((i == 0 ? map->width : map->height) - 1);
+        outside += v[1 + i] * (at[i] - (at[i] < low ? low : at[i] > last ? last : at[i]));
     }
-    const double theta = v[0] + outside, angle = (double)moment->time - theta, s = lom_double_sin(angle);
-    const double c = lom_double_cos(angle), root = lom_double_sqrt(1 - v[4] * v[4] - v[5] * v[5]);
+    return (struct lom_surf_place){ v[0] + outside, { v[1], v[2] }, v[3], v[4], v[5] };
+}
+
+double lom_surf_size(const struct lom_surf_uniform *moment, double phase, double x, double z)
+{
     double size = 1;
     for (int i = 0; i < 2; i++)
         size += (double)moment->variation * share[i] *
-                lom_double_sin((double)moment->group_time[i] - theta / group[i] +
+                lom_double_sin((double)moment->group_time[i] - phase / group[i] +
                                (double)moment->group_along[i][0] * (x - moment->origin[0]) +
                                (double)moment->group_along[i][1] * (z - moment->origin[1]));
-    return v[3] * size * root * (s + v[5] / (1 + root)) / (1 - v[4] * c + v[5] * s);
+    return size;
+}
+
+double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z)
+{
+    const struct lom_surf_place at = lom_surf_place_at(map, x, z);
+    const double angle = (double)moment->time - at.phase, s = lom_double_sin(angle), c = lom_double_cos(angle);
+    const double root = lom_double_sqrt(1 - at.skew * at.skew - at.lean * at.lean);
+    return at.amplitude * lom_surf_size(moment, at.phase, x, z) * root * (s + at.lean / (1 + root)) /
+           (1 - at.skew * c + at.lean * s);
 }

@@ -145,6 +145,9 @@ static const struct base bases[] = {
       VIEW
       "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\njets = 2\nspread = 0.3\nspread_up = 0.2\ndrag = 0.3\n"
       "size = [0.3, 0.5]\nstretch = 0.1\n" },
+    { "hits", "spray.0.source spray.0.kick spray.0.from spray.0.to spray.0.jet_time surf.variation surf.period",
+      VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\n[[spray]]\nsource = \"surf\"\nfrom = [-20, 0, -20]\n"
+                             "to = [20, 0, 20]\ncount = 40\nkick = 2\nsize = 0.4\nlife = 2\n" },
     { "falls", "spray.0.height spray.0.velocity",
       VIEW "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\nspread = 0.3\nheight = 4\n" },
     { "reference", "quality.reference water.optics light.elevation",

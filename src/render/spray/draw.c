@@ -6,10 +6,14 @@
 #include "render/frame.h"
 #include "shading/square.h"
 
-static bool is_in_view(const lom_spray *spray, const lom_emitter *emitter, const lom_frustum *frustum)
+static bool is_in_view(const lom_spray *spray, const lom_emitter *emitter, const struct lom_hits *hits,
+                       const lom_frustum *frustum)
 {
     double low[3], high[3], speed = 0;
-    lom_bound_emitter(emitter, low, high);
+    if (hits != NULL)
+        lom_bound_hits(hits, emitter, spray->kick, low, high);
+    else
+        lom_bound_emitter(emitter, low, high);
     for (int i = 0; i < 3; i++)
         speed += (high[i] - low[i]) / emitter->life; /* a mean; drag and gravity change a speed by no more than that */
     double radius = spray->size[0] > spray->size[1] ? spray->size[0] : spray->size[1];
@@ -25,7 +29,8 @@ struct moving {
     const lom_emitter *emitter;
     const struct lom_spray_view *view;
     double time;
-    const float *state; /* of drops that bounce; NULL: they fly freely */
+    const float *state;          /* of drops that bounce; NULL: they fly freely */
+    const struct lom_hits *hits; /* where they begin; NULL: on the segment */
     struct lom_sprite *sprites;
     float *depth;
     struct lom_sprite_reach *reach; /* of each piece */
@@ -46,7 +51,9 @@ static void move_piece(void *context, size_t first, size_t end)
 {
     const struct moving *m = context;
     lom_particle particles[LOM_DROPS_TOGETHER];
-    if (m->state == NULL)
+    if (m->hits != NULL)
+        lom_place_hits(m->hits, m->emitter, m->spray->kick, m->time, first, end, particles);
+    else if (m->state == NULL)
         lom_place_range(m->emitter, m->time, first, end, particles);
     else
         take_states(m, first, end, particles);
@@ -66,7 +73,9 @@ static bool move_drops(struct frame *f, const struct lom_spray_view *view, struc
     for (size_t i = 0; i < scene->spray_count; i++) {
         const lom_spray *spray = &scene->sprays[i];
         lom_emitter emitter = lom_spray_emitter(spray);
-        if (!spray->visible || emitter.count == 0 || (spray->bounce == 0 && !is_in_view(spray, &emitter, &frustum)))
+        const struct lom_hits *hits = spray->source != LOM_SPRAY_SEGMENT && m->hits != NULL ? &m->hits[i] : NULL;
+        if (!spray->visible || emitter.count == 0 || (hits != NULL && hits->count == 0) ||
+            (spray->bounce == 0 && !is_in_view(spray, &emitter, hits, &frustum)))
             continue;
         if (!lom_check_emitter(&emitter, f->time, error))
             return false;
@@ -77,6 +86,7 @@ static bool move_drops(struct frame *f, const struct lom_spray_view *view, struc
                                  .view = view,
                                  .time = f->time,
                                  .state = spray->bounce > 0 ? m->state[0] : NULL,
+                                 .hits = hits,
                                  .sprites = m->sprites + moved,
                                  .depth = m->depth + moved,
                                  .reach = m->reaches };

@@ -14,6 +14,26 @@ size_t lom_count_drops(const lom_scene *scene)
     return count;
 }
 
+/* The places of emitters with a source. Their drops are those of the first water. */
+static bool load_hits(lom_renderer *renderer, lom_error *error)
+{
+    const lom_scene *scene = renderer->scene;
+    struct lom_drawn_spray *m = &renderer->spray;
+    const struct lom_wave_site site = lom_world_wave_site(renderer->world, 0);
+    size_t sources = 0;
+    for (size_t i = 0; i < scene->spray_count; i++)
+        sources += scene->sprays[i].source != LOM_SPRAY_SEGMENT && count_of(&scene->sprays[i]) != 0;
+    if (sources == 0)
+        return true;
+    m->hits = lom_allocate(scene->spray_count, sizeof *m->hits, error);
+    m->hits_count = m->hits != NULL ? scene->spray_count : 0;
+    bool done = m->hits != NULL;
+    for (size_t i = 0; done && i < scene->spray_count; i++)
+        if (count_of(&scene->sprays[i]) != 0)
+            done = lom_find_hits(&m->hits[i], &scene->sprays[i], &site, error);
+    return done;
+}
+
 bool lom_load_spray(lom_renderer *renderer, lom_error *error)
 {
     const lom_scene *scene = renderer->scene;
@@ -34,13 +54,16 @@ bool lom_load_spray(lom_renderer *renderer, lom_error *error)
         m->state[i] = lom_allocate(bouncing, LOM_BOUNCE_FLOATS * sizeof *m->state[i], error);
     m->order = lom_allocate(m->capacity, sizeof *m->order, error);
     m->scratch = lom_allocate(m->capacity, sizeof *m->scratch, error);
-    return (bouncing == 0 || (m->state[0] != NULL && m->state[1] != NULL)) && m->reaches != NULL &&
-           m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
+    return load_hits(renderer, error) && (bouncing == 0 || (m->state[0] != NULL && m->state[1] != NULL)) &&
+           m->reaches != NULL && m->sprites != NULL && m->depth != NULL && m->order != NULL && m->scratch != NULL;
 }
 
 void lom_free_spray(lom_renderer *renderer)
 {
     struct lom_drawn_spray *m = &renderer->spray;
+    for (size_t i = 0; i < m->hits_count; i++)
+        lom_free_hits(&m->hits[i]);
+    lom_release(m->hits);
     lom_release(m->reaches);
     lom_release(m->sprites);
     lom_release(m->depth);

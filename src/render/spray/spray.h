@@ -2,7 +2,7 @@
 #ifndef LOM_RENDER_SPRAY_SPRAY_H
 #define LOM_RENDER_SPRAY_SPRAY_H
 
-#include "spray/spray.h"
+#include "spray/hits.h"
 
 #include <lom/render.h>
 
@@ -19,6 +19,8 @@ struct lom_drawn_spray {
     float *depth;
     float *state[2]; /* of drops that bounce; NULL: there are none */
     uint32_t *order, *scratch;
+    struct lom_hits *hits; /* of each emitter of the scene whose source is not its segment; NULL: of none */
+    size_t hits_count;
 };
 
 bool lom_load_spray(lom_renderer *renderer, lom_error *error);
