@@ -11,7 +11,7 @@
 #   make matrix                 one hash from every compiler and architecture
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
-#   make check-long             every float through every conversion and lane function
+#   make check-long             every float through every conversion and lane function; runs shared out among workers
 #   make docs                   all pages, lessons and the headers' comments as HTML, in build/docs
 #   make clean, make help
 #

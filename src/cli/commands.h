@@ -7,6 +7,7 @@ int lom_command_approve(int argc, char **argv);
 int lom_command_bench(int argc, char **argv);
 int lom_command_compare(int argc, char **argv);
 int lom_command_convert(int argc, char **argv);
+int lom_command_cost(int argc, char **argv);
 int lom_command_explain(int argc, char **argv);
 int lom_command_grade(int argc, char **argv);
 int lom_command_info(int argc, char **argv);

@@ -23,6 +23,7 @@ static const command commands[] = {
     { "explain", "say what made a pixel: every triangle that touched it, and why", lom_command_explain },
     { "overlay", "show what the stages did at each pixel: overdraw, mip levels, steps of rays", lom_command_overlay },
     { "render", "draw a scene", lom_command_render },
+    { "cost", "say how many frames of a run a core draws in an hour", lom_command_cost },
     { "join", "put the parts of a run together that several machines drew", lom_command_join },
     { "view", "show a scene in a window, fly through it, change it", lom_command_view },
     { "steps", "draw a scene stage by stage: a numbered picture each, and a page with a slider", lom_command_steps },

@@ -98,9 +98,10 @@ build() {
         PIC=-g0 LDFLAGS="$flags" $targets >"$folder/log" 2>&1
 }
 
-# Seconds of processor time that all that ended until now took.
-processor() {
-    times | tail -n 1 | tr 'ms' '  ' | awk '{ printf "%d", 60 * $1 + $2 + 60 * $3 + $4 }'
+# Sets `processor`: seconds of processor time of all that ended until now. (Another shell would have no children.)
+look_at_clock() {
+    times >"$root/times"
+    processor=$(tail -n 1 "$root/times" | tr 'ms' '  ' | awk '{ printf "%d", 60 * $1 + $2 + 60 * $3 + $4 }')
 }
 
 # Compares a hash with what another row gave under that name: "same", or the name; an empty one is no hash.
@@ -171,7 +172,8 @@ for row in $rows; do
     fi
     folder=$root/$shared
     mkdir -p "$folder"
-    start=$(processor)
+    look_at_clock
+    start=$processor
     widths_asked=$widths
     [ "$shared" = "$row" ] || widths=$every_width
     if ! build "$folder"; then
@@ -180,9 +182,11 @@ for row in $rows; do
         status=2
         continue
     fi
-    widths=$widths_asked built=$(($(processor) - start)) start=$(processor)
+    look_at_clock
+    widths=$widths_asked built=$((processor - start)) start=$processor
     ask "$folder"
-    printf "$format" "$row" "$selftest" "${lake[@]}" $floats $drawn $built $(($(processor) - start)) \
+    look_at_clock
+    printf "$format" "$row" "$selftest" "${lake[@]}" $floats $drawn $built $((processor - start)) \
         "${differences:+differs:$differences; see $folder/log}"
     if [ -z "$differences" ]; then
         seen="$seen $row"
