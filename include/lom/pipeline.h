@@ -370,10 +370,10 @@ typedef struct lom_pass_desc {
     bool per_sample;                                    /* of all its draws */
     int frame_width, frame_height;                      /* the whole frame; 0: the attachments' size */
     int origin_x, origin_y;                             /* the frame's pixel that the attachments' pixel (0, 0) is */
-    lom_rect viewport; /* of the frame; empty: the whole frame; at most 32768 x 32768 */
+    lom_rect viewport; /* of the frame, of draws that name none; empty: the whole frame; at most 32768 x 32768 */
     lom_rect scissor;  /* of the frame: pixels outside keep their clear value (or their content) */
     lom_clip_range clip_range;
-    float min_depth, max_depth; /* both 0: 0 and 1 */
+    float min_depth, max_depth; /* of draws that name none; both 0: 0 and 1 */
     lom_load_action color_load[LOM_MAX_COLORS], depth_load, stencil_load;
     float clear_color[LOM_MAX_COLORS][4]; /* linear light */
     float clear_depth;                    /* 0 is the far plane of reversed depth */
@@ -621,7 +621,13 @@ typedef struct lom_draw_desc {
     lom_logic logic;                  /* of all attachments, which are then not blended; OFF: none */
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
-    bool per_sample;                  /* the fragment shader runs for each sample */
+    /* Where -w <= x, y <= w lies in the frame, and which depths 0 <= z <= w has (or -w <= z: lom_clip_range), in 0..1 and in
+     * either order. Draws of one pass may have several: OpenGL 4.6, 13.8.1 "Controlling the Viewport". Triangles and lines
+     * end at its edges; of sprites, points and wide lines, too, what lies beside it is not drawn. As large and as far off as
+     * the pass's may be; a draw of another is an error. Width 0: the pass's; both depths 0: the pass's. */
+    lom_rect viewport;
+    float min_depth, max_depth;
+    bool per_sample; /* the fragment shader runs for each sample */
     /* Of a fragment the samples 0..k - 1 alone may be written, k = floor(n a + 1/2) of the pass's n samples, a the first
      * colour's alpha, clamped to 0..1 (NaN: 0). With one sample: where a is 1/2 or more. Depth is tested after the shader. */
     bool alpha_to_coverage;

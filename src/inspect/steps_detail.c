@@ -98,6 +98,7 @@ static void draw_edges(struct detail *d, const lom_triangle_record *t)
 {
     const lom_vertex_record *v = t->pieces > 0 ? t->cut : t->vertex;
     const lom_pass_desc *pass = &d->steps->chosen.desc;
+    const lom_rect *view = &t->draw->desc.viewport;
     uint64_t key = ((uint64_t)t->draw->number * 16 + (uint64_t)t->piece) << 32 | (uint64_t)t->number;
     for (int i = 0; i < d->count; i++)
         if (d->seen[i] == key)
@@ -107,8 +108,7 @@ static void draw_edges(struct detail *d, const lom_triangle_record *t)
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 2; i++)
             at[k][i] =
-                (v[k].fixed[i] / 256.0 +
-                 (i == 0 ? pass->viewport.x - pass->origin_x : pass->viewport.y - pass->origin_y) - d->place[i]) *
+                (v[k].fixed[i] / 256.0 + (i == 0 ? view->x - pass->origin_x : view->y - pass->origin_y) - d->place[i]) *
                 d->scale;
     for (int k = 0; k < 3; k++)
         for (int twice = 0; twice < 2; twice++)

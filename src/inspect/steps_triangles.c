@@ -32,7 +32,7 @@ struct all_triangles {
     uint64_t triangles, cut, made, pieces, reach[LOM_REACHES];
     double most_w, near;         /* of what is drawn; clip z, where it is the same everywhere */
     bool is_flat, has_near, any; /* flat: w is 1 everywhere */
-    bool meets_guard;            /* something is cut by the guard band */
+    int guard_width;             /* of the viewport in which something was last cut by the guard band; 0: nothing is */
     struct range range;          /* of what is cut, in clip x and w */
     struct canvas clip_space, cut_canvas, window, fates, bins;
     struct tiles tiles;
@@ -66,7 +66,8 @@ static void measure(struct all_triangles *a, const lom_told_triangle *t)
         }
         if (t->reach == LOM_REACH_BINNED && z != 0)
             a->most_w = lom_larger(a->most_w, w);
-        a->meets_guard |= t->cut && (t->code[k] & LOM_OUT_GUARD) != 0;
+        if (t->cut && (t->code[k] & LOM_OUT_GUARD) != 0)
+            a->guard_width = t->desc->viewport.width;
         if (t->cut)
             widen(&a->range, (double)t->clip[k][0], w);
     }
@@ -159,12 +160,8 @@ static void draw_cut(struct all_triangles *a, const lom_told_triangle *t)
 /* |x| = g w, GUARD_PIXELS from the middle of the view. */
 static void draw_guard(struct all_triangles *a)
 {
-    const lom_pass_desc *pass = &a->steps->chosen.desc;
-    int width = pass->viewport.width != 0 ? pass->viewport.width
-                : pass->frame_width != 0  ? pass->frame_width
-                                          : a->steps->width;
-    for (int side = -1; side <= 1 && a->meets_guard; side += 2) {
-        float reach = (float)a->range.high[1] * 2 * GUARD_PIXELS / (float)width;
+    for (int side = -1; side <= 1 && a->guard_width != 0; side += 2) {
+        float reach = (float)a->range.high[1] * 2 * GUARD_PIXELS / (float)a->guard_width;
         const float from[4] = { 0, 0, 0, 0 }, to[4] = { (float)side * reach, 0, 0, (float)a->range.high[1] };
         double at[2][2];
         place_cut(a, from, at[0]);
@@ -292,7 +289,7 @@ static void add_clip_pictures(struct all_triangles *a)
     lom_add_legend(p, &own_ink, "vertices of the mesh");
     lom_add_legend(p, &kept_ink, "what is left");
     lom_add_legend(p, &lost_ink, "what is cut off");
-    if (a->meets_guard)
+    if (a->guard_width != 0)
         lom_add_legend(p, &guard_ink, "the guard band, %d pixels beside the middle: what is further off is cut too",
                        GUARD_PIXELS);
     if (a->has_near)

@@ -17,9 +17,9 @@ struct plane { /* inside where x X + y Y + z Z + w W + constant >= 0 */
     float ratio;
 };
 
-static void list_planes(const struct lom_pass *pass, struct plane planes[PLANES])
+static void list_planes(const struct lom_pass *pass, const struct lom_draw *draw, struct plane planes[PLANES])
 {
-    struct lom_guard guard = lom_guard_of(pass);
+    struct lom_guard guard = lom_guard_of(&draw->desc.viewport);
     bool centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
     struct plane list[PLANES] = {
         { 0, 0, 0, 1, -(double)LOM_SMALLEST_W, CODE_W, 3, LOM_SMALLEST_W },
@@ -118,8 +118,8 @@ static int32_t snap(float units)
  * edge was rounded. What is exactly inside divides to no more than the edge, so that nothing holds it. */
 static void project_row(const struct lom_pass *pass, struct lom_chunk *chunk, uint32_t number)
 {
-    struct lom_projection f = lom_projection_of(pass);
-    struct lom_guard guard = lom_guard_of(pass);
+    struct lom_projection f = lom_projection_of(pass, chunk->draw);
+    struct lom_guard guard = lom_guard_of(&chunk->draw->desc.viewport);
     float *row = chunk->rows + (size_t)number * (size_t)chunk->draw->row_floats;
     const float *p = chunk->assembly->clip + (size_t)number * 4;
     float w = p[3] < LOM_SMALLEST_W ? LOM_SMALLEST_W : p[3];
@@ -146,12 +146,13 @@ enum { PIECES = 3 }; /* between near and far, before near, behind far */
 
 /* The planes that bound a piece, of those whose codes a primitive has. With depth_clamp what near and far cut off is a
  * piece, too: its depths are clamped vertex by vertex, to one value. */
-static int list_bounds(const struct lom_pass *pass, unsigned codes, int piece, struct plane bounds[PLANES])
+static int list_bounds(const struct lom_pass *pass, const struct lom_draw *draw, unsigned codes, int piece,
+                       struct plane bounds[PLANES])
 {
     static const unsigned outside[PIECES] = { 0, CODE_NEAR, CODE_FAR };
     struct plane planes[PLANES];
     int count = 0;
-    list_planes(pass, planes);
+    list_planes(pass, draw, planes);
     for (int i = 0; i < PLANES; i++) {
         bool cuts = (codes & planes[i].code) != 0;
         if (cuts && planes[i].code == outside[piece])
@@ -240,7 +241,8 @@ int lom_clip_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, cons
     int count = 0;
     for (int piece = 0; piece < PIECES; piece++)
         if (has_piece(chunk, codes, piece))
-            count += clip_piece(pass, chunk, corner, bounds, list_bounds(pass, codes, piece, bounds), fan + count);
+            count += clip_piece(pass, chunk, corner, bounds, list_bounds(pass, chunk->draw, codes, piece, bounds),
+                                fan + count);
     chunk->triangles_clipped++;
     return count;
 }
@@ -297,7 +299,8 @@ int lom_clip_line(const struct lom_pass *pass, struct lom_chunk *chunk, const ui
             continue;
         result[count][0] = end[0];
         result[count][1] = end[1];
-        count += clip_line_piece(pass, chunk, bounds, list_bounds(pass, codes, piece, bounds), result[count]);
+        count +=
+            clip_line_piece(pass, chunk, bounds, list_bounds(pass, chunk->draw, codes, piece, bounds), result[count]);
     }
     return count;
 }

@@ -128,7 +128,7 @@ static struct view find_view(const struct lom_pass *pass, const struct lom_draw 
 {
     const lom_culling *culling = &draw->desc.culling;
     const float(*m)[4] = culling->clip_from_position.m;
-    const lom_rect *v = &pass->viewport, *s = &draw->scissor;
+    const lom_rect *v = &draw->desc.viewport, *s = &draw->scissor;
     struct view view = { .count = 0 };
     double left = 2.0 * (s->x - v->x) / v->width - 1, right = 2.0 * (s->x + s->width - v->x) / v->width - 1;
     double top = 1 - 2.0 * (s->y - v->y) / v->height, bottom = 1 - 2.0 * (s->y + s->height - v->y) / v->height;

@@ -50,7 +50,7 @@ struct corners {
 /* Leaves 1/w where the fragment stage looks for it. */
 LOM_INLINE struct corners load_corners(struct lom_tile *tile, const lom_int row[3], int first)
 {
-    const lom_rect *viewport = &tile->pass->viewport;
+    const lom_rect *viewport = &tile->draw->desc.viewport;
     const int32_t x = (tile->x - viewport->x) * SUBPIXELS + SUBPIXELS / 2,
                   y = (tile->y - viewport->y) * SUBPIXELS + SUBPIXELS / 2;
     struct corners c;

@@ -54,6 +54,10 @@ void lom_end_counting(lom_device *device);
 void lom_free_queries(lom_device *device);
 /* Whether the pass's targets can take what a draw does to them, or an error; and what follows from that (draw_output.c). */
 bool lom_check_output(lom_device *device, const lom_draw_desc *desc);
+/* Whether a viewport of the frame and a range of depths are any; those of a draw, and its scissor (viewport.c). */
+bool lom_check_viewport(lom_device *device, const lom_rect *viewport, float min_depth, float max_depth);
+bool lom_check_draw_viewport(lom_device *device, const lom_draw_desc *desc);
+void lom_derive_viewport(const struct lom_pass *pass, struct lom_draw *draw);
 void lom_derive_output(const struct lom_pass *pass, struct lom_draw *draw);
 /* The runs of a draw's clusters of which something may be seen, and how many chunks they make; false without memory. */
 bool lom_find_runs(lom_device *device, struct lom_draw *draw);

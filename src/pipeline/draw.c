@@ -267,7 +267,7 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
                      shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&
                      !draw->sprites && !shader->reads_depth && !draw->two_sources && !draw->full_tests;
     draw->queues_depth = shader->reads_position || draw->late_depth || draw->full_tests;
-    draw->scissor = desc->scissor.width == 0 ? pass->scissor : lom_intersect_rects(desc->scissor, pass->scissor);
+    lom_derive_viewport(pass, draw);
     draw->rasterizes = !pass->desc.feedback_only && draw->scissor.width > 0 && draw->scissor.height > 0;
     draw->constant &= draw->rasterizes;
 }
@@ -281,9 +281,10 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
         counted.count = desc->count_from->written;
         desc = &counted;
     }
-    if (!check_shader(device, desc) || !check_geometry(device, desc) || !lom_check_stages(device, desc) ||
-        !check_sprites(device, desc) || !check_vertices(device, desc) || !check_clusters(device, desc) ||
-        !lom_check_output(device, desc) || !lom_check_stencil(device, desc) || !lom_check_queries(device, desc))
+    if (!check_shader(device, desc) || !check_geometry(device, desc) || !lom_check_draw_viewport(device, desc) ||
+        !lom_check_stages(device, desc) || !check_sprites(device, desc) || !check_vertices(device, desc) ||
+        !check_clusters(device, desc) || !lom_check_output(device, desc) || !lom_check_stencil(device, desc) ||
+        !lom_check_queries(device, desc))
         return false;
     size_t counter = desc->query != NULL ? lom_name_query(device, desc->query) : 0;
     if (!lom_meets_condition(desc))

@@ -15,8 +15,8 @@ LOM_INLINE struct lom_edges lom_find_edges(const struct lom_tile *tile, const lo
     int32_t v[3][2];
     for (int k = 0; k < 3; k++)
         memcpy(v[k], tile->chunk->rows + t->primitive.row[k], sizeof v[k]);
-    int64_t px = ((int64_t)(tile->x - tile->pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    int64_t py = ((int64_t)(tile->y - tile->pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    int64_t px = ((int64_t)(tile->x - tile->draw->desc.viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    int64_t py = ((int64_t)(tile->y - tile->draw->desc.viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
     e.dx[1] = lom_int64_of(t->step_x1);
     e.dy[1] = lom_int64_of(t->step_y1);
     e.dx[2] = lom_int64_of(t->step_x2);

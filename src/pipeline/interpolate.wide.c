@@ -192,7 +192,7 @@ static __attribute__((noinline)) void fill_facet(struct lom_tile *tile, const lo
     float *to = facet->value;
     const float *row[3], *provoking;
     lom_triangle t;
-    lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    lom_find_triangle(tile->chunk, p, &t);
     facet->primitive = p;
     facet->varies = 0;
     for (int k = 0; k < 3; k++) {

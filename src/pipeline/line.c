@@ -22,8 +22,7 @@ static struct extent bound(int32_t a, int32_t b, int width, int origin, int firs
 }
 
 /* The pixels of a line; false where it covers nothing. */
-static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, const float *from, const float *to,
-                   lom_primitive *p)
+static bool set_up(const struct lom_draw *draw, const float *from, const float *to, lom_primitive *p)
 {
     const lom_rect *s = &draw->scissor;
     int32_t a[2], b[2];
@@ -32,8 +31,8 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
     int64_t x = (int64_t)b[0] - a[0], y = (int64_t)b[1] - a[1];
     bool steep = (y < 0 ? -y : y) > (x < 0 ? -x : x);
     int width = draw->desc.line_width;
-    struct extent across = bound(a[0], b[0], steep ? width : 1, pass->viewport.x, s->x, s->x + s->width - 1);
-    struct extent down = bound(a[1], b[1], steep ? 1 : width, pass->viewport.y, s->y, s->y + s->height - 1);
+    struct extent across = bound(a[0], b[0], steep ? width : 1, draw->desc.viewport.x, s->x, s->x + s->width - 1);
+    struct extent down = bound(a[1], b[1], steep ? 1 : width, draw->desc.viewport.y, s->y, s->y + s->height - 1);
     if ((x == 0 && y == 0) || across.low > across.high || down.low > down.high)
         return false;
     p->first = (uint32_t)across.low | (uint32_t)down.low << 16;
@@ -69,7 +68,7 @@ static void add_piece(const struct lom_pass *pass, struct lom_chunk *chunk, cons
     lom_primitive p = { .row = { row[0], row[1], row[1] },
                         .state = TRIANGLE_NONE << TRIANGLE_KIND | 1u << TRIANGLE_FRONT |
                                  provoking << TRIANGLE_PROVOKING | (a | b) << TRIANGLE_CLIP };
-    const bool left = (a & b) == 0 && set_up(pass, draw, chunk->rows + row[0], chunk->rows + row[1], &p);
+    const bool left = (a & b) == 0 && set_up(draw, chunk->rows + row[0], chunk->rows + row[1], &p);
     if (pass->recorder != NULL)
         lom_record_line(chunk, end, left);
     if (left)

@@ -13,15 +13,6 @@ static lom_rect or_whole(lom_rect rect, lom_rect whole)
     return rect.width == 0 ? whole : rect;
 }
 
-lom_rect lom_intersect_rects(lom_rect a, lom_rect b)
-{
-    int64_t x0 = a.x > b.x ? a.x : b.x, y0 = a.y > b.y ? a.y : b.y;
-    int64_t ax = (int64_t)a.x + a.width, bx = (int64_t)b.x + b.width;
-    int64_t ay = (int64_t)a.y + a.height, by = (int64_t)b.y + b.height;
-    int64_t x1 = ax < bx ? ax : bx, y1 = ay < by ? ay : by;
-    return (lom_rect){ (int)x0, (int)y0, x1 > x0 ? (int)(x1 - x0) : 0, y1 > y0 ? (int)(y1 - y0) : 0 };
-}
-
 /* Whether a pass can draw there: a texture of the kind has it, and no samples are kept beside another level. */
 static bool check_slice(lom_device *device, const lom_texture *texture, lom_slice slice)
 {
@@ -126,7 +117,7 @@ static bool resolve_rects(lom_device *device)
     pass->frame_height = pass->desc.frame_height != 0 ? pass->desc.frame_height : pass->height;
     lom_rect frame = { 0, 0, pass->frame_width, pass->frame_height };
     lom_rect here = { pass->desc.origin_x, pass->desc.origin_y, pass->width, pass->height };
-    pass->viewport = or_whole(pass->desc.viewport, frame);
+    pass->desc.viewport = or_whole(pass->desc.viewport, frame);
     if (pass->desc.origin_x < 0 || pass->desc.origin_y < 0 || pass->frame_width < 1 || pass->frame_height < 1 ||
         pass->frame_width > LOM_MAX_SIZE || pass->frame_height > LOM_MAX_SIZE ||
         pass->desc.origin_x > pass->frame_width - pass->width ||
@@ -134,14 +125,8 @@ static bool resolve_rects(lom_device *device)
         return lom_fail(&device->error, LOM_ERROR_USAGE,
                         "A pass's attachments (%dx%d at %d,%d) do not lie inside its frame of %dx%d.", pass->width,
                         pass->height, pass->desc.origin_x, pass->desc.origin_y, pass->frame_width, pass->frame_height);
-    const lom_rect *v = &pass->viewport;
-    if (v->width < 1 || v->height < 1 || v->width > LOM_MAX_SIZE || v->height > LOM_MAX_SIZE || v->x < -LOM_MAX_SIZE ||
-        v->y < -LOM_MAX_SIZE || v->x > LOM_MAX_SIZE || v->y > LOM_MAX_SIZE)
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A viewport of %dx%d at %d,%d is out of range.", v->width,
-                        v->height, v->x, v->y);
     pass->scissor = lom_intersect_rects(lom_intersect_rects(or_whole(pass->desc.scissor, frame), frame), here);
-    pass->scissor = lom_intersect_rects(pass->scissor, pass->viewport);
-    return true;
+    return lom_check_viewport(device, &pass->desc.viewport, pass->desc.min_depth, pass->desc.max_depth);
 }
 
 /* The tile grid is aligned to the frame, so that a crop sees the same 2x2 quads. */
@@ -221,9 +206,6 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
         pass->width = pass->height = 1;
     if (desc->min_depth == 0 && desc->max_depth == 0)
         pass->desc.max_depth = 1;
-    if (!(pass->desc.min_depth >= 0 && pass->desc.min_depth <= 1 && pass->desc.max_depth >= 0 &&
-          pass->desc.max_depth <= 1))
-        return lom_fail(&device->error, LOM_ERROR_USAGE, "A depth range lies within 0 to 1.");
     pass->one_by_one = device->one_by_one;
     pass->streams = exceeds_caches(pass);
     return resolve_rects(device) && lay_tiles(device);

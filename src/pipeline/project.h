@@ -13,10 +13,10 @@ struct lom_guard {
     float x, y;
 };
 
-static inline struct lom_guard lom_guard_of(const struct lom_pass *pass)
+static inline struct lom_guard lom_guard_of(const lom_rect *viewport)
 {
-    return (struct lom_guard){ 2.0f * GUARD_PIXELS / (float)pass->viewport.width,
-                               2.0f * GUARD_PIXELS / (float)pass->viewport.height };
+    return (struct lom_guard){ 2.0f * GUARD_PIXELS / (float)viewport->width,
+                               2.0f * GUARD_PIXELS / (float)viewport->height };
 }
 
 /* units = clip / w * scale + offset, relative to the viewport's origin; y points down. Depth into min_depth..max_depth.
@@ -25,12 +25,13 @@ struct lom_projection {
     float x_scale, x_offset, y_scale, y_offset, z_scale, z_offset, z_low, z_high;
 };
 
-static inline struct lom_projection lom_projection_of(const struct lom_pass *pass)
+static inline struct lom_projection lom_projection_of(const struct lom_pass *pass, const struct lom_draw *draw)
 {
-    float low = pass->desc.min_depth, high = pass->desc.max_depth;
+    const lom_rect *viewport = &draw->desc.viewport;
+    float low = draw->desc.min_depth, high = draw->desc.max_depth;
     bool centred = pass->desc.clip_range == LOM_CLIP_MINUS_W_TO_W;
-    float half_w = (float)pass->viewport.width * (SUBPIXELS / 2);
-    float half_h = (float)pass->viewport.height * (SUBPIXELS / 2);
+    float half_w = (float)viewport->width * (SUBPIXELS / 2);
+    float half_h = (float)viewport->height * (SUBPIXELS / 2);
     return (struct lom_projection){ .x_scale = half_w,
                                     .x_offset = half_w,
                                     .y_scale = -half_h,

@@ -102,7 +102,7 @@ static void raster_alone(struct lom_tile *tile, int32_t number)
 {
     lom_triangle found;
     const lom_triangle *t = &found;
-    lom_find_triangle(tile->pass, tile->chunk, &tile->chunk->primitives[number], &found);
+    lom_find_triangle(tile->chunk, &tile->chunk->primitives[number], &found);
     if (tile->pass->samples > 1) {
         LOM_WIDE(lom_raster_sampled)(tile, t, number);
         return;

@@ -250,7 +250,7 @@ static struct sides find_sides(const struct lom_tile *tile, const struct lom_edg
 static struct lom_edges find_edges(const struct lom_tile *tile, const lom_primitive *p)
 {
     lom_triangle t;
-    lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    lom_find_triangle(tile->chunk, p, &t);
     return lom_find_edges(tile, &t);
 }
 

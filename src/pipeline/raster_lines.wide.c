@@ -32,7 +32,7 @@ struct line {
 
 static void find_line(const struct lom_tile *tile, const lom_triangle *t, int32_t number, struct line *g)
 {
-    const lom_rect *viewport = &tile->pass->viewport;
+    const lom_rect *viewport = &tile->draw->desc.viewport;
     int32_t a[2], b[2];
     memcpy(a, tile->chunk->rows + t->primitive.row[0], sizeof a);
     memcpy(b, tile->chunk->rows + t->primitive.row[1], sizeof b);

@@ -51,8 +51,8 @@ static void begin_sprite(const struct lom_tile *tile, const lom_primitive *p, st
     sprite->shape = shape_of(tile->draw);
     sprite->half = row[tile->draw->axis_offset];
     sprite->bounds = lom_bounds_of(p);
-    sprite->x = centre(tile->x, tile->pass->viewport.x, middle[0]);
-    sprite->y = centre(tile->y, tile->pass->viewport.y, middle[1]);
+    sprite->x = centre(tile->x, tile->draw->desc.viewport.x, middle[0]);
+    sprite->y = centre(tile->y, tile->draw->desc.viewport.y, middle[1]);
     for (int part = 0; part < PARTS; part++)
         sprite->x_away[part] = lom_to_float(lane_x(part)) + sprite->x;
     for (uint32_t reads = shader->reads & ((UINT32_C(1) << shader->varyings) - 1); reads != 0; reads &= reads - 1) {

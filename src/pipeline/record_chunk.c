@@ -8,10 +8,10 @@ struct range {
     int64_t low[2], high[2];
 };
 
-static struct range range_of(const struct lom_pass *pass, const struct record_watch *watch)
+static struct range range_of(const struct lom_draw *draw, const struct record_watch *watch)
 {
-    const int at[2] = { watch->desc.x + watch->origin_x - pass->viewport.x,
-                        watch->desc.y + watch->origin_y - pass->viewport.y };
+    const int at[2] = { watch->desc.x + watch->origin_x - draw->desc.viewport.x,
+                        watch->desc.y + watch->origin_y - draw->desc.viewport.y };
     const int size[2] = { watch->desc.width, watch->desc.height };
     struct range r;
     for (int i = 0; i < 2; i++) {
@@ -27,12 +27,13 @@ static int32_t reach_of(const struct lom_draw *draw)
     return draw->lines ? (draw->desc.line_width + 1) * (SUBPIXELS / 2) : 0;
 }
 
-/* Whether all three vertices lie beyond one side of the range, grown by a pixel and `reach`: in clip space, where that
+/* Whether all three vertices lie beyond one side of the range, grown by a pixel and the draw's reach: in clip space, where that
  * holds for every point of the triangle with w > 0. */
-static bool is_beside(const struct lom_pass *pass, const struct range *r, int32_t reach, const float clip[3][4])
+static bool is_beside(const struct lom_draw *draw, const struct range *r, const float clip[3][4])
 {
-    const int32_t more = SUBPIXELS + reach;
-    const double size[2] = { pass->viewport.width * (double)SUBPIXELS, pass->viewport.height * (double)SUBPIXELS };
+    const int32_t more = SUBPIXELS + reach_of(draw);
+    const double size[2] = { draw->desc.viewport.width * (double)SUBPIXELS,
+                             draw->desc.viewport.height * (double)SUBPIXELS };
     for (int axis = 0; axis < 2; axis++)
         for (int side = 0; side < 2; side++) {
             double at = side == 0 ? (double)(r->low[axis] - more) : (double)(r->high[axis] + more);
@@ -67,16 +68,17 @@ static void find_box(const struct lom_chunk *chunk, const uint32_t corner[3], in
 }
 
 /* Most triangles lie beside the bounds of all watches. */
-static bool box_comes_near(const struct lom_pass *pass, const int32_t low[2], const int32_t high[2])
+static bool box_comes_near(const struct lom_pass *pass, const struct lom_draw *draw, const int32_t low[2],
+                           const int32_t high[2])
 {
     const struct lom_bounds *b = &pass->recorder->bounds;
-    int64_t x = pass->viewport.x, y = pass->viewport.y, middle = SUBPIXELS / 2;
+    int64_t x = draw->desc.viewport.x, y = draw->desc.viewport.y, middle = SUBPIXELS / 2;
     if (low[0] > (b->right - x) * SUBPIXELS + middle || high[0] < (b->left - x) * SUBPIXELS + middle ||
         low[1] > (b->bottom - y) * SUBPIXELS + middle || high[1] < (b->top - y) * SUBPIXELS + middle)
         return false;
     for (size_t i = 0; i < pass->recorder->watch_count; i++) {
         const struct record_watch *watch = &pass->recorder->watch[i];
-        struct range r = range_of(pass, watch);
+        struct range r = range_of(draw, watch);
         if (watch->active && low[0] <= r.high[0] && high[0] >= r.low[0] && low[1] <= r.high[1] && high[1] >= r.low[1])
             return true;
     }
@@ -87,8 +89,8 @@ static bool clip_comes_near(const struct lom_pass *pass, const struct lom_draw *
 {
     for (size_t i = 0; i < pass->recorder->watch_count; i++) {
         const struct record_watch *watch = &pass->recorder->watch[i];
-        struct range r = range_of(pass, watch);
-        if (watch->active && !is_beside(pass, &r, reach_of(draw), clip))
+        struct range r = range_of(draw, watch);
+        if (watch->active && !is_beside(draw, &r, clip))
             return true;
     }
     return false;
@@ -121,7 +123,7 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     for (int k = 0; k < 3; k++)
         memcpy(clip[k], assembly->clip + (size_t)corner[k] * 4, sizeof clip[k]);
     if (!pass->recorder->tells &&
-        (has_box ? !box_comes_near(pass, low, high) : !clip_comes_near(pass, chunk->draw, clip)))
+        (has_box ? !box_comes_near(pass, chunk->draw, low, high) : !clip_comes_near(pass, chunk->draw, clip)))
         return false;
     struct record_candidate c = { .number = chunk->draw->expands ? lom_made_from(chunk, i) : chunk->first + i,
                                   .has_box = has_box,

@@ -65,7 +65,7 @@ static void read_corners(const struct lom_chunk *chunk, const uint32_t corner[3]
 /* Whether the ray of the pixel meets the triangle before the eye: q = sum of b_k (x, y, w)_k with all b_k >= 0. */
 static bool meets_ray(const struct joint *j, const float clip[3][4])
 {
-    const lom_rect *v = &j->device->pass.viewport;
+    const lom_rect *v = &j->chunk->draw->desc.viewport;
     double q[3] = { 2.0 * (double)j->x / (v->width * (double)SUBPIXELS) - 1,
                     1 - 2.0 * (double)j->y / (v->height * (double)SUBPIXELS), 1 };
     double b[3], determinant = 0;
@@ -226,7 +226,7 @@ static void join(const struct joint *j)
 
 static void join_pixel(struct joint *j, struct record_pixel *pixel)
 {
-    const lom_rect *v = &j->device->pass.viewport;
+    const lom_rect *v = &j->chunk->draw->desc.viewport;
     j->pixel = pixel;
     j->pass = pixel->pixel.passes;
     while (j->pass != NULL && j->pass->next != NULL)
@@ -251,7 +251,7 @@ static void cut_range(int64_t low, int64_t high, int64_t first, int *from, int *
 static void join_watch(struct joint *j, const struct record_watch *watch)
 {
     const struct record_candidate *c = j->candidate;
-    const lom_rect *v = &j->device->pass.viewport;
+    const lom_rect *v = &j->chunk->draw->desc.viewport;
     int left = 0, top = 0, right = watch->desc.width - 1, bottom = watch->desc.height - 1;
     if (c->has_box) {
         cut_range(c->low[0], c->high[0], watch->desc.x + watch->origin_x - v->x, &left, &right);

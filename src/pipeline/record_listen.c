@@ -50,9 +50,8 @@ static bool has_area(const int32_t v[3][2])
 /* Whether the box of three snapped vertices holds no pixel of the scissor at all. */
 static bool is_beside(const struct telling *t, const int32_t v[3][2])
 {
-    const struct lom_pass *pass = &t->device->pass;
-    const lom_rect *s = &t->chunk->draw->scissor;
-    const int64_t low[2] = { s->x - pass->viewport.x, s->y - pass->viewport.y };
+    const lom_rect *s = &t->chunk->draw->scissor, *view = &t->chunk->draw->desc.viewport;
+    const int64_t low[2] = { s->x - view->x, s->y - view->y };
     const int64_t high[2] = { low[0] + s->width, low[1] + s->height };
     for (int i = 0; i < 2; i++) {
         bool before = true, behind = true;
@@ -85,7 +84,7 @@ static bool is_own(const struct record_candidate *c, const float clip[4])
 
 static void tell_piece(const struct telling *t, const struct record_piece *piece, lom_told_piece *told)
 {
-    const lom_rect *view = &t->device->pass.viewport;
+    const lom_rect *view = &t->chunk->draw->desc.viewport;
     int32_t v[3][2];
     for (int k = 0; k < 3; k++) {
         const float *row = t->chunk->rows + piece->corner[k] * (size_t)t->chunk->draw->row_floats;

@@ -14,13 +14,13 @@ void lom_record_attributes(const struct lom_attributes *in, int count)
 void lom_record_row(const struct lom_pass *pass, const struct lom_draw *draw, const float *row, const float clip[4],
                     lom_vertex_record *vertex)
 {
-    struct lom_projection f = lom_projection_of(pass);
+    struct lom_projection f = lom_projection_of(pass, draw);
     const lom_shader *shader = draw->desc.shader;
     memcpy(vertex->clip, clip, sizeof vertex->clip);
     for (int i = 0; i < 3; i++)
         vertex->ndc[i] = clip[i] / clip[3];
-    vertex->window[0] = (vertex->ndc[0] * f.x_scale + f.x_offset) / SUBPIXELS + (float)pass->viewport.x;
-    vertex->window[1] = (vertex->ndc[1] * f.y_scale + f.y_offset) / SUBPIXELS + (float)pass->viewport.y;
+    vertex->window[0] = (vertex->ndc[0] * f.x_scale + f.x_offset) / SUBPIXELS + (float)draw->desc.viewport.x;
+    vertex->window[1] = (vertex->ndc[1] * f.y_scale + f.y_offset) / SUBPIXELS + (float)draw->desc.viewport.y;
     vertex->window[2] = vertex->ndc[2] * f.z_scale + f.z_offset;
     memcpy(vertex->fixed, row, sizeof vertex->fixed);
     vertex->depth = row[2];

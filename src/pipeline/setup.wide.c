@@ -115,12 +115,12 @@ LOM_INLINE void order(struct packet *p, int a, int b)
 /* The pixels of which a sample may be inside, cut by the scissor. */
 LOM_INLINE void bound(const struct lom_pass *pass, const struct lom_draw *draw, struct packet *p)
 {
-    const lom_rect *s = &draw->scissor;
+    const lom_rect *s = &draw->scissor, *viewport = &draw->desc.viewport;
     const int first = SUBPIXELS / 2 - 1 - pass->reach_high, last = SUBPIXELS / 2 + pass->reach_low;
-    lom_int left = ((p->x0 + first) >> SUBPIXEL_BITS) + pass->viewport.x;
-    lom_int top = ((p->y0 + first) >> SUBPIXEL_BITS) + pass->viewport.y;
-    lom_int right = ((p->x1 - last) >> SUBPIXEL_BITS) + pass->viewport.x;
-    lom_int bottom = ((p->y1 - last) >> SUBPIXEL_BITS) + pass->viewport.y;
+    lom_int left = ((p->x0 + first) >> SUBPIXEL_BITS) + viewport->x;
+    lom_int top = ((p->y0 + first) >> SUBPIXEL_BITS) + viewport->y;
+    lom_int right = ((p->x1 - last) >> SUBPIXEL_BITS) + viewport->x;
+    lom_int bottom = ((p->y1 - last) >> SUBPIXEL_BITS) + viewport->y;
     p->cut = (left < s->x) | (top < s->y) | (right > s->x + s->width - 1) | (bottom > s->y + s->height - 1);
     p->left = lom_max_int(left, lom_splat_int(s->x));
     p->top = lom_max_int(top, lom_splat_int(s->y));
@@ -139,11 +139,11 @@ LOM_INLINE void bound(const struct lom_pass *pass, const struct lom_draw *draw, 
 
 /* The edge functions at the centre of pixel (left & ~1, top & ~1), which lies within two pixels of the bounds: of small
  * triangles all factors are below 2^15, and of the others nobody reads the starts. */
-LOM_INLINE struct edge_lanes find_edges(const struct lom_pass *pass, const struct packet *p)
+LOM_INLINE struct edge_lanes find_edges(const lom_rect *viewport, const struct packet *p)
 {
     struct edge_lanes e;
-    lom_int px = (((p->left & ~1) - pass->viewport.x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
-    lom_int py = (((p->top & ~1) - pass->viewport.y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    lom_int px = (((p->left & ~1) - viewport->x) << SUBPIXEL_BITS) + SUBPIXELS / 2;
+    lom_int py = (((p->top & ~1) - viewport->y) << SUBPIXEL_BITS) + SUBPIXELS / 2;
     lom_mask turned = p->sign < 0;
     for (int i = 0; i < 3; i++) {
         const struct vertices *a = &p->v[i == 2 ? 0 : i + 1], *b = &p->v[i == 0 ? 2 : i - 1];
@@ -310,7 +310,7 @@ static void set_up_packet(const struct lom_pass *pass, struct lom_chunk *chunk, 
     LOM_RECORD_HOOK(lom_record_stage, chunk, corners, RECORD_IN_BOUNDS, &p.alive);
     lom_int mask = { 0 };
     if (lom_any(p.alive & (p.kind == TRIANGLE_WINDOW))) {
-        struct edge_lanes e = find_edges(pass, &p);
+        struct edge_lanes e = find_edges(&chunk->draw->desc.viewport, &p);
         mask = cover_window(&p, &e);
         p.alive &= (p.kind != TRIANGLE_WINDOW) | (mask != 0);
     }

@@ -76,9 +76,9 @@ static bool set_up(const struct lom_pass *pass, const struct lom_draw *draw, con
     memcpy(middle, row, sizeof middle);
     const float more = pass->samples > 1 ? 0.5f : 0; /* samples lie so far from centres */
     struct extent x =
-        bound(middle[0], size_of(a[0]) + size_of(b[0]) + more, pass->viewport.x, s->x, s->x + s->width - 1);
+        bound(middle[0], size_of(a[0]) + size_of(b[0]) + more, draw->desc.viewport.x, s->x, s->x + s->width - 1);
     struct extent y =
-        bound(middle[1], size_of(a[1]) + size_of(b[1]) + more, pass->viewport.y, s->y, s->y + s->height - 1);
+        bound(middle[1], size_of(a[1]) + size_of(b[1]) + more, draw->desc.viewport.y, s->y, s->y + s->height - 1);
     if (!(size_of(area) >= (draw->drawn == LOM_POINTS ? smallest_point : smallest_area)) || x.low > x.high ||
         y.low > y.high)
         return false;

@@ -68,7 +68,7 @@ struct lom_draw {
     lom_draw_desc desc;
     const void *uniforms;   /* the copy, set when the pass runs */
     size_t uniforms_offset; /* where it lies in the device's uniforms */
-    lom_rect scissor;       /* resolved, within pass and target, in frame pixels */
+    lom_rect scissor;       /* resolved, within viewport, pass and target, in frame pixels */
     int variant;
     int row_floats; /* of a vertex row: header, varyings, distances, padded to 4 */
     int distance_offset;
@@ -211,7 +211,7 @@ struct lom_pass {
     lom_pass_desc desc;
     int width, height;             /* of the attachments */
     int frame_width, frame_height; /* of the whole frame */
-    lom_rect viewport, scissor;    /* resolved; scissor within the attachments' part of the frame */
+    lom_rect scissor;              /* resolved, within the attachments' part of the frame */
     int colors;
     struct lom_color_target color[LOM_MAX_COLORS];
     lom_texture *depth;
@@ -320,8 +320,7 @@ void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 double lom_depth_offset(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_primitive *primitive);
 
 /* What a tile's stages need of a triangle or line; of a sprite or point; of a line (triangle.c, sprite.c, line.c). */
-void lom_find_triangle(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_primitive *primitive,
-                       lom_triangle *t);
+void lom_find_triangle(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t);
 void lom_find_sprite(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t);
 void lom_find_line(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t);
 

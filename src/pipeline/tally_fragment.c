@@ -174,7 +174,7 @@ static float area_of(const lom_triangle *t)
 static void find_made(const struct lom_tile *tile, const lom_primitive *p, int place, lom_tally *tally)
 {
     const struct lom_chunk *chunk = tile->chunk;
-    const lom_rect *v = &tile->pass->viewport;
+    const lom_rect *v = &tile->draw->desc.viewport;
     int x, y;
     find_pixel(tile, place, &x, &y);
     for (int k = 0; k < (tile->draw->lines ? 2 : 3); k++) {
@@ -200,7 +200,7 @@ static void store(const struct lom_tile *tile, lom_tally *tally, int place, int 
     const struct lom_packet *packet = worker->packet;
     const lom_primitive *p = &tile->chunk->primitives[packet->triangle[packet->which[lane]]];
     lom_triangle t;
-    lom_find_triangle(tile->pass, tile->chunk, p, &t);
+    lom_find_triangle(tile->chunk, p, &t);
     const lom_float l[3] = { packet->l[0], packet->l[1], packet->l[2] };
     const struct depth_plane plane = find_depth(&t);
     tally->is_stored = true;

@@ -4,9 +4,9 @@
  * Invariant: as in setup.wide.c, all is exact but what is rounded once: 1 / area from the rounded area. */
 #include "pipeline/stages.h"
 
-void lom_find_triangle(const struct lom_pass *pass, const struct lom_chunk *chunk, const lom_primitive *primitive,
-                       lom_triangle *t)
+void lom_find_triangle(const struct lom_chunk *chunk, const lom_primitive *primitive, lom_triangle *t)
 {
+    const lom_rect *viewport = &chunk->draw->desc.viewport;
     int32_t v[3][2];
     float depth[3];
     if (chunk->draw->lines) {
@@ -31,8 +31,8 @@ void lom_find_triangle(const struct lom_pass *pass, const struct lom_chunk *chun
     if (lom_kind_of(primitive) == TRIANGLE_LARGE)
         return;
     struct lom_bounds b = lom_bounds_of(primitive);
-    int64_t px = (int64_t)((b.left & ~1) - pass->viewport.x) * SUBPIXELS + SUBPIXELS / 2;
-    int64_t py = (int64_t)((b.top & ~1) - pass->viewport.y) * SUBPIXELS + SUBPIXELS / 2;
+    int64_t px = (int64_t)((b.left & ~1) - viewport->x) * SUBPIXELS + SUBPIXELS / 2;
+    int64_t py = (int64_t)((b.top & ~1) - viewport->y) * SUBPIXELS + SUBPIXELS / 2;
     t->area = (int32_t)(sign * area);
     for (int i = 0; i < 2; i++) /* both edges have vertex 0 */
         t->start[i] = (int32_t)(dx[i] * (px - v[0][0]) + dy[i] * (py - v[0][1]));

@@ -140,7 +140,7 @@ LOM_INLINE lom_mask is_wild(lom_float x)
 /* Outcodes of clip positions, as the planes of lom_clip_triangle see them. A position on the rounded edge of the guard
  * band has its code: the band's exact edge may lie before it. Those before the edge are exactly inside, and so is what
  * their quotients round to: lom_clip_triangle leaves them and their rows as they are. */
-static lom_int classify(const struct lom_pass *pass, lom_float4 p)
+static lom_int classify(const struct lom_pass *pass, const struct lom_draw *draw, lom_float4 p)
 {
     lom_float near_distance, far_distance;
     if (pass->desc.clip_range == LOM_CLIP_ZERO_TO_W) {
@@ -150,7 +150,7 @@ static lom_int classify(const struct lom_pass *pass, lom_float4 p)
         near_distance = p.z + p.w;
         far_distance = p.w - p.z;
     }
-    struct lom_guard guard = lom_guard_of(pass);
+    struct lom_guard guard = lom_guard_of(&draw->desc.viewport);
     lom_mask out = (lom_abs(p.x) >= p.w * guard.x) | (lom_abs(p.y) >= p.w * guard.y);
     return ((near_distance < 0.0f) & CODE_NEAR) | ((far_distance < 0.0f) & CODE_FAR) | (out & CODE_GUARD) |
            ((p.w < LOM_SMALLEST_W) & CODE_W) |
@@ -159,9 +159,9 @@ static lom_int classify(const struct lom_pass *pass, lom_float4 p)
 
 /* Perspective division, viewport, snapping (to nearest even) of positions that need no clipping; the rest gets zeros.
  */
-static lom_float4 project(const struct lom_pass *pass, lom_float4 p, lom_int codes)
+static lom_float4 project(const struct lom_pass *pass, const struct lom_draw *draw, lom_float4 p, lom_int codes)
 {
-    struct lom_projection f = lom_projection_of(pass);
+    struct lom_projection f = lom_projection_of(pass, draw);
     lom_mask inside = (codes & (CODE_CLIP | CODE_INVALID)) == 0;
     lom_float w = lom_select(inside, p.w, lom_splat(1.0f));
     lom_float one_over_w = 1.0f / w;
@@ -192,7 +192,7 @@ static void write_distances(const struct lom_draw *draw, lom_vertex *vertex, flo
 static void write_axes(const struct lom_pass *pass, const struct lom_draw *draw, const lom_vertex *vertex, float *row,
                        lom_int at, lom_int codes)
 {
-    struct lom_projection f = lom_projection_of(pass);
+    struct lom_projection f = lom_projection_of(pass, draw);
     lom_mask inside = (codes & (CODE_CLIP | CODE_INVALID)) == 0;
     lom_float w = lom_select(inside, vertex->position.w, lom_splat(1.0f)), side[4];
     lom_float x = vertex->position.x / w, y = vertex->position.y / w;
@@ -230,11 +230,11 @@ static void write_packet(const struct lom_pass *pass, struct lom_chunk *chunk, s
     const struct lom_draw *draw = chunk->draw;
     lom_int at = lom_lane_index() * draw->row_floats;
     float *row = chunk->rows + first * (size_t)draw->row_floats;
-    lom_int codes = classify(pass, vertex->position);
+    lom_int codes = classify(pass, draw, vertex->position);
     if (draw->clamps_points)
         codes &= ~(CODE_NEAR | CODE_FAR);
     lom_scatter_rows(chunk->assembly->clip + first * 4, lom_lane_index() * 4, vertex->position);
-    lom_scatter_rows(row, at, project(pass, vertex->position, codes));
+    lom_scatter_rows(row, at, project(pass, draw, vertex->position, codes));
     for (int v = 0; v < draw->desc.shader->varyings; v += 4)
         lom_scatter_rows(
             row + ROW_HEADER + v, at,

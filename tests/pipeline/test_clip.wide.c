@@ -1,178 +1,17 @@
-/* Proves clipping at this width (T1..T17, T20): against near, far, w > 0 and the guard band, and by clip and cull
- * distances. The oracle clips nothing: the weights of a pixel are solved from the homogeneous positions (Olano and
- * Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997), so every condition of being visible is a
- * linear function of the window position. Pixels further than a pixel's 1/256 from every zero line must agree. */
-#include "stage.h"
+/* Proves clipping at this width (T1..T12, T17, T20): against near, far, w > 0 and the guard band. */
+#include "clipping.h"
 
 #include "base/reserve.h"
 #include "pipeline/project.h"
 #include "pipeline/variants.h"
-
-enum { SIZE = 96, MAX_CONDITIONS = 13 };
-
-static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    const float *sign = uniforms;
-    out->position = in->attribute[0];
-    out->varying[0] = in->attribute[1].x;
-    for (int i = 0; i < 8; i++)
-        out->distance[i] = (&in->attribute[3 + i / 4].x)[i % 4] * sign[i];
-}
-
-static void count(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)in;
-    (void)uniforms;
-    lom_float one = lom_splat(1.0f / 255.0f);
-    out->color[0] = (lom_float4){ one, one, one, one };
-}
 
 static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     (void)uniforms;
     out->color[0] = (lom_float4){ in->varying[0], in->z, in->w, lom_splat(1.0f) };
 }
-
-LOM_SHADER(counter, place, count, .attributes = 5, .colors = 1, .uniforms_size = 32)
-LOM_SHADER(clipped, place, count, .attributes = 5, .clip_distances = 8, .colors = 1, .uniforms_size = 32)
-LOM_SHADER(culled, place, count, .attributes = 5, .cull_distances = 8, .colors = 1, .uniforms_size = 32)
 LOM_SHADER(values, place, show, .attributes = 5, .varyings = 1, .reads = 1u << 0, .reads_position = true, .colors = 1,
            .uniforms_size = 32)
-
-static const float plus[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };
-static vertex vertices[16384];
-
-static void draw_counting(stage *s, const lom_shader *shader, const float *signs, size_t triangles)
-{
-    lom_draw_desc desc = draw_of(shader, vertices, 3 * triangles);
-    desc.uniforms = signs;
-    desc.blend[0] = adding();
-    lom_draw(s->device, &desc);
-}
-
-static void put(size_t i, float x, float y, float z, float w)
-{
-    vertices[i] = (vertex){ .position = { x, y, z, w }, .distance = { 1, 1, 1, 1, 1, 1, 1, 1 } };
-}
-
-/* ---- the oracle ---- */
-
-typedef struct linear { /* x X + y Y + c of the pixel's window position; visible where >= 0 */
-    long double x, y, c;
-    long double noise; /* of float arithmetic on it */
-} linear;
-
-typedef struct oracle {
-    linear condition[MAX_CONDITIONS];
-    int conditions;
-    linear weight[3]; /* of the vertices, so that their sum weighted by w is 1 */
-    bool empty;       /* edge-on */
-} oracle;
-
-static linear combine(const oracle *o, const long double f[3])
-{
-    linear sum = { 0 };
-    for (int k = 0; k < 3; k++) {
-        sum.x += o->weight[k].x * f[k];
-        sum.y += o->weight[k].y * f[k];
-        sum.c += o->weight[k].c * f[k];
-    }
-    return sum;
-}
-
-static void add_condition(oracle *o, linear condition)
-{
-    o->condition[o->conditions++] = condition;
-}
-
-/* Rows of the inverse of the matrix of the three (x, y, w), with x and y in pixels; then near, far and distances. */
-static oracle solve(const vertex *v, int width, int height, int distances)
-{
-    oracle o = { .empty = false };
-    long double p[3][3];
-    for (int k = 0; k < 3; k++) {
-        long double w = v[k].position[3];
-        p[k][0] = (v[k].position[0] + w) * width / 2;
-        p[k][1] = (w - v[k].position[1]) * height / 2;
-        p[k][2] = w;
-    }
-    long double cross[3][3], det = 0;
-    for (int k = 0; k < 3; k++) {
-        const long double *a = p[(k + 1) % 3], *b = p[(k + 2) % 3];
-        for (int i = 0; i < 3; i++)
-            cross[k][i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-    }
-    for (int i = 0; i < 3; i++)
-        det += p[0][i] * cross[0][i];
-    o.empty = det == 0;
-    for (int k = 0; k < 3 && !o.empty; k++) {
-        o.weight[k] = (linear){ cross[k][0] / det, cross[k][1] / det, cross[k][2] / det, 0 };
-        add_condition(&o, o.weight[k]);
-    }
-    long double near[3], far[3];
-    for (int k = 0; k < 3; k++) {
-        near[k] = (long double)v[k].position[3] - v[k].position[2];
-        far[k] = v[k].position[2];
-    }
-    add_condition(&o, combine(&o, near));
-    add_condition(&o, combine(&o, far));
-    for (int i = 0; i < distances; i++) {
-        long double d[3], largest = 0;
-        for (int k = 0; k < 3; k++) {
-            d[k] = v[k].distance[i];
-            long double size = __builtin_fabsl(d[k] / v[k].position[3]);
-            largest = size > largest ? size : largest;
-        }
-        linear condition = combine(&o, d);
-        condition.noise = largest * 0x1p-21L;
-        add_condition(&o, condition);
-    }
-    return o;
-}
-
-static long double value_of(const linear *f, double x, double y)
-{
-    return f->x * x + f->y * y + f->c;
-}
-
-/* 1 visible, 0 not, -1 within `slack` pixels of a zero line that decides. */
-static int visibility(const oracle *o, double x, double y, double slack)
-{
-    int result = 1;
-    for (int i = 0; i < o->conditions; i++) {
-        const linear *f = &o->condition[i];
-        long double slope = __builtin_sqrtl(f->x * f->x + f->y * f->y);
-        long double value = value_of(f, x, y), margin = slope * slack + f->noise;
-        if (value < -margin)
-            return 0;
-        if (value <= margin)
-            result = -1;
-    }
-    return o->empty ? 0 : result;
-}
-
-/* Draws the first triangle alone and compares; how many pixels the oracle left open. */
-static int compare_triangle(stage *s, const lom_shader *shader, int distances, const char *what, int round)
-{
-    int open = 0;
-    oracle o = solve(vertices, SIZE, SIZE, distances);
-    begin(s, (lom_pass_desc){ 0 });
-    draw_counting(s, shader, plus, 1);
-    finish(s);
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++) {
-            int expected = visibility(&o, x + 0.5, y + 0.5, 1.5 / 256), hits = bytes_at(s, x, y)[0];
-            open += expected < 0;
-            CHECK(hits <= 1 && (expected < 0 || hits == expected), "%s %d: pixel %d,%d has %d hits, not %d", what,
-                  round, x, y, hits, expected);
-        }
-    return open;
-}
-
-static stage open_counting(void)
-{
-    return open_stage((lom_device_desc){ .threads = 1 }, SIZE, SIZE, LOM_FORMAT_RGBA8, LOM_FORMAT_NONE);
-}
 
 /* ---- the clip volume ---- */
 
@@ -275,9 +114,10 @@ static void clipping_leaves_vertices_inside_as_they_are(void)
     int inside = 0, outside = 0;
     draw.uniforms = plus;
     for (int round = 0; round < 20000; round++) {
-        struct lom_pass pass = { .desc = { .max_depth = 1 } };
-        pass.viewport = (lom_rect){ 0, 0, (int)random_whole(1, 4000), (int)random_whole(1, 4000) };
-        put_at_the_guard_band(lom_guard_of(&pass));
+        const struct lom_pass pass = { .samples = 1 };
+        draw.desc.viewport = (lom_rect){ 0, 0, (int)random_whole(1, 4000), (int)random_whole(1, 4000) };
+        draw.desc.max_depth = 1;
+        put_at_the_guard_band(lom_guard_of(&draw.desc.viewport));
         float before[3][8];
         uint32_t corner[3] = { 0, 1, 2 }, fan[LOM_MAX_FAN][3];
         chunk.row_count = chunk.vertex_count;
@@ -297,7 +137,7 @@ static void clipping_leaves_vertices_inside_as_they_are(void)
         for (int i = 0; i < 3 * pieces; i++)
             kept |= fan[i / 3][i % 3] == 0;
         CHECK(kept && memcmp(before, chunk.rows, 2 * sizeof before[0]) == 0, "round %d: %a, %a, w %a in %d x %d: %s",
-              round, (double)p[0], (double)p[1], (double)p[3], pass.viewport.width, pass.viewport.height,
+              round, (double)p[0], (double)p[1], (double)p[3], draw.desc.viewport.width, draw.desc.viewport.height,
               kept ? "moved" : "cut");
     }
     CHECK(inside > 5000 && outside > 5000, "%d inside, %d outside", inside, outside);
@@ -455,164 +295,6 @@ static void a_plane_under_the_camera_is_whole(void)
     close_stage(&s);
 }
 
-/* ---- clip and cull distances ---- */
-
-/* T13: each of 1 to 8 distances crosses; coverage is the intersection of the half planes. */
-static void distances_intersect(void)
-{
-    stage s = open_counting();
-    int64_t open = 0;
-    for (int round = 0; round < 300; round++) {
-        int planes = round % 8 + 1;
-        for (size_t k = 0; k < 3; k++) {
-            float w = random_float(0.5f, 2.0f);
-            put(k, random_float(-1.5f, 1.5f) * w, random_float(-1.5f, 1.5f) * w, 0.5f * w, w);
-            for (int i = 0; i < planes; i++)
-                vertices[k].distance[i] = random_float(-0.4f, 1.0f);
-        }
-        open += compare_triangle(&s, &clipped, 8, "distances", round);
-    }
-    CHECK(open < 300 * SIZE * SIZE / 50, "%lld pixels left open", (long long)open);
-    close_stage(&s);
-}
-
-/* T13 with the clip volume: distances of triangles that near, far and the guard band cut as well. */
-static void distances_intersect_the_clip_volume(void)
-{
-    stage s = open_counting();
-    for (int round = 0; round < 200; round++) {
-        float r = round % 2 ? 3.0f : 1000.0f;
-        for (size_t k = 0; k < 3; k++) {
-            put(k, random_float(-r, r), random_float(-r, r), random_float(-0.2f, 1.2f), random_float(0.2f, 1.5f));
-            for (int i = 0; i < 3; i++)
-                vertices[k].distance[i] = random_float(-0.4f, 1.0f);
-        }
-        compare_triangle(&s, &clipped, 8, "both", round);
-    }
-    close_stage(&s);
-}
-
-static size_t make_mesh(int n, int planes, int kind)
-{
-    vertex grid[17][17];
-    size_t count = 0;
-    for (int j = 0; j <= n; j++)
-        for (int i = 0; i <= n; i++) {
-            bool inner = i > 0 && j > 0 && i < n && j < n;
-            float wobble = inner ? 0.25f : 0.0f, w = random_float(0.25f, 4.0f);
-            float x = ((float)i + random_float(-wobble, wobble)) * 2.2f / (float)n - 1.1f;
-            float y = ((float)j + random_float(-wobble, wobble)) * 2.2f / (float)n - 1.1f;
-            put(0, x * w, y * w, 0.5f * w, w);
-            for (int p = 0; p < planes; p++) {
-                float d = random_float(-1, 1);
-                if (kind == 1) /* T14: exactly on the plane at many vertices */
-                    d = (float)random_whole(-1, 1);
-                if (kind == 2) /* so small that the products with 1/w vanish */
-                    d = (float)random_whole(-3, 3) * 0x1p-149f;
-                if (kind == 3)
-                    d = d * 0x1p120f;
-                vertices[0].distance[p] = d;
-            }
-            grid[j][i] = vertices[0];
-        }
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++) {
-            const vertex *quad[] = { &grid[j][i],     &grid[j + 1][i], &grid[j][i + 1],
-                                     &grid[j][i + 1], &grid[j + 1][i], &grid[j + 1][i + 1] };
-            for (int k = 0; k < 6; k++)
-                vertices[count++] = *quad[k];
-        }
-    return count / 3;
-}
-
-/* A triangle whose vertices all lie in a plane is kept by d and by -d (T14 exempts it): move it off the plane. */
-static void leave_planes(size_t triangles, int planes)
-{
-    for (size_t t = 0; t < triangles; t++)
-        for (int p = 0; p < planes; p++) {
-            vertex *v = &vertices[3 * t];
-            if (v[0].distance[p] == 0 && v[1].distance[p] == 0 && v[2].distance[p] == 0)
-                v[0].distance[p] = v[1].distance[p] = v[2].distance[p] = 1;
-        }
-}
-
-/* T15: for 1 to 8 planes, all combinations of signs share the pixels of a mesh exactly. */
-static void all_signs_of_distances_share_every_pixel(void)
-{
-    stage s = open_counting();
-    for (int kind = 0; kind < 4; kind++)
-        for (int planes = 1; planes <= 8; planes++) {
-            size_t triangles = make_mesh(6, planes, kind);
-            leave_planes(triangles, planes);
-            begin(&s, (lom_pass_desc){ 0 });
-            for (int signs = 0; signs < 1 << planes; signs++) {
-                float sign[8];
-                for (int i = 0; i < 8; i++)
-                    sign[i] = i < planes && (signs >> i & 1) ? -1.0f : 1.0f;
-                draw_counting(&s, &clipped, sign, triangles);
-            }
-            finish(&s);
-            for (int p = 0; p < SIZE * SIZE; p++)
-                CHECK(bytes_at(&s, p % SIZE, p / SIZE)[0] == 1, "kind %d, %d planes: pixel %d,%d has %d hits", kind,
-                      planes, p % SIZE, p / SIZE, bytes_at(&s, p % SIZE, p / SIZE)[0]);
-        }
-    close_stage(&s);
-}
-
-/* T14, T16: distances of 0 keep, of NaN drop the triangle, infinite ones clip like huge ones. */
-static void special_distances(void)
-{
-    const float nan = __builtin_nanf(""), inf = __builtin_inff();
-    static const int whole = -1;
-    const struct {
-        float d[3];
-        int hits; /* of every pixel; -1: between none and all */
-    } table[] = { { { 0, 0, 0 }, 1 },          { { -0.0f, -0.0f, -0.0f }, 1 }, { { 0, 0, 1 }, 1 },
-                  { { 0, 1, 1 }, 1 },          { { nan, 1, 1 }, 0 },           { { 1, 1, -nan }, 0 },
-                  { { inf, inf, inf }, 1 },    { { inf, 1, 0 }, 1 },           { { -inf, -inf, -1 }, 0 },
-                  { { -inf, inf, 1 }, whole }, { { 1, -inf, 1 }, whole } };
-    stage s = open_counting();
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
-        for (int rotation = 0; rotation < 3; rotation++) {
-            int total = 0;
-            put(0, -1, -1, 0.5f, 1);
-            put(1, 3, -1, 0.5f, 1);
-            put(2, -1, 3, 0.5f, 1);
-            for (int k = 0; k < 3; k++)
-                vertices[k].distance[rotation] = table[i].d[(k + rotation) % 3];
-            begin(&s, (lom_pass_desc){ 0 });
-            draw_counting(&s, &clipped, plus, 1);
-            finish(&s);
-            for (int p = 0; p < SIZE * SIZE; p++) {
-                int hits = bytes_at(&s, p % SIZE, p / SIZE)[0];
-                total += hits;
-                CHECK(table[i].hits < 0 || hits == table[i].hits, "case %zu: %d hits", i, hits);
-            }
-            CHECK(table[i].hits >= 0 || total < SIZE * SIZE, "case %zu: all pixels kept", i);
-        }
-    close_stage(&s);
-}
-
-/* A triangle goes when one cull distance is negative at all three vertices; otherwise all of it stays. */
-static void cull_distances_drop_whole_triangles(void)
-{
-    stage s = open_counting();
-    for (int round = 0; round < 64; round++) {
-        size_t plane = (size_t)(round / 8);
-        put(0, -1, -1, 0.5f, 1);
-        put(1, 3, -1, 0.5f, 1);
-        put(2, -1, 3, 0.5f, 1);
-        for (int k = 0; k < 3; k++)
-            vertices[k].distance[plane] = round >> k & 1 ? -0.5f : 0.0f;
-        begin(&s, (lom_pass_desc){ 0 });
-        draw_counting(&s, &culled, plus, 1);
-        finish(&s);
-        for (int p = 0; p < SIZE * SIZE; p++)
-            CHECK(bytes_at(&s, p % SIZE, p / SIZE)[0] == (round % 8 != 7), "round %d", round);
-    }
-    close_stage(&s);
-}
-
 /* T12: frames of one pixel, one row, one column. */
 static void narrow_frames(void)
 {
@@ -644,11 +326,6 @@ int main(int argc, char **argv)
     RUN(long_slivers_hit_only_their_centres);
     RUN(wild_positions_drop_their_triangle_alone);
     RUN(a_plane_under_the_camera_is_whole);
-    RUN(distances_intersect);
-    RUN(distances_intersect_the_clip_volume);
-    RUN(all_signs_of_distances_share_every_pixel);
-    RUN(special_distances);
-    RUN(cull_distances_drop_whole_triangles);
     RUN(narrow_frames);
     return check_result();
 }
