@@ -39,6 +39,8 @@ typedef struct lom_sky_box_desc {
 /* Six pictures (RGB8 sRGB; right, left, top, bottom, front, back) that belong to the caller. On failure false, and all
  * are NULL. */
 bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_error *error);
+/* The same as one picture, the cube of these faces, as a DDS file holds it; the caller's. NULL on failure. */
+lom_image *lom_make_sky_cube(const lom_sky_box_desc *desc, lom_error *error);
 
 LOM_API_END
 

@@ -4,16 +4,15 @@
 #include "base/numbers.h"
 #include "commands.h"
 #include "image/level_chart.h"
+#include "make_sky.h"
 #include "measure/dials.h"
 #include "options.h"
 #include "page.h"
 #include "paths.h"
 #include "picture_kinds.h"
-#include "sky/face_mark.h"
 
 #include <lom/cloud.h>
 #include <lom/lom.h>
-#include <lom/sky.h>
 #include <lom/water.h>
 
 #include <string.h>
@@ -96,29 +95,14 @@ static bool make_level_chart(const recipe *r, const parameters *p, const char *p
 
 static bool make_sky_box(const recipe *r, const parameters *p, const char *path, lom_error *error)
 {
-    static const char *const faces[6] = { "right", "left", "top", "bottom", "front", "back" };
     (void)r;
-    const char *mark = lom_face_mark(path);
-    if (mark == NULL)
-        return lom_fail(error, LOM_ERROR_USAGE,
-                        "%s: a sky box is six files, so its name needs one %%s for right, left, top, bottom, front and "
-                        "back.",
-                        path);
-    lom_sky_box_desc desc = { .size = p->size,
-                              .sun_azimuth = p->azimuth * lom_radians_per_degree,
-                              .sun_elevation = p->elevation * lom_radians_per_degree,
-                              .haziness = p->haziness,
-                              .cloudiness = p->cloudiness,
-                              .seed = p->seed };
-    lom_image *pictures[6];
-    bool done = lom_make_sky_box(&desc, pictures, error);
-    for (int i = 0; i < 6; i++) {
-        char *name = lom_path_print(error, "%.*s%s%s", (int)(mark - path), path, faces[i], mark + 2);
-        done = done && name != NULL && lom_write_image(name, NULL, pictures[i], error);
-        lom_free_image(pictures[i]);
-        lom_release(name);
-    }
-    return done;
+    return lom_write_sky_box(&(lom_sky_box_desc){ .size = p->size,
+                                                  .sun_azimuth = p->azimuth * lom_radians_per_degree,
+                                                  .sun_elevation = p->elevation * lom_radians_per_degree,
+                                                  .haziness = p->haziness,
+                                                  .cloudiness = p->cloudiness,
+                                                  .seed = p->seed },
+                             path, error);
 }
 
 /* The picture of a map that a mesh names, in the folder that is the first characters of path: the texture of that name,
@@ -196,6 +180,11 @@ static const recipe recipes[] = {
       "sky/gale/%s.png",
       make_sky_box,
       { .size = 512, .seed = 9, .azimuth = 300, .elevation = 30, .haziness = 3, .cloudiness = 1 } },
+    { "sky-box",
+      "evening",
+      "sky/evening.dds",
+      make_sky_box,
+      { .size = 256, .seed = 7, .azimuth = 298, .elevation = 7, .haziness = 1.2, .cloudiness = 0.8 } },
     { "entity", "boat", "entities/boat.obj", make_entity, { .seed = 1 } },
     { "entity", "jetty", "entities/jetty.obj", make_entity, { .seed = 1 } },
     { "entity", "cabin", "entities/cabin.obj", make_entity, { .seed = 1 } },
@@ -251,8 +240,8 @@ static const lom_command_line line = {
         "`lom make all -o assets` writes every asset of the project, byte for byte as it is committed; without "
         "options a\n"
         "kind is made with the parameters of the committed asset. A sky box is six files: its OUT has a %s for\n"
-        "right, left, top, bottom, front and back. `lom make list` prints the kinds and names.\n"
-        "`lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file, dial-docs that of\n"
+        "right, left, top, bottom, front and back; or one, a cube in a .dds. `lom make list` prints the kinds and\n"
+        "names. `lom make scene-docs -o docs/scene.md` writes the page of all keys of a scene file, dial-docs that of\n"
         "what trades accuracy for time, format-docs that of the kinds of picture files.",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

@@ -227,3 +227,19 @@ bool lom_make_sky_box(const lom_sky_box_desc *desc, lom_image *faces[6], lom_err
     }
     return done;
 }
+
+lom_image *lom_make_sky_cube(const lom_sky_box_desc *desc, lom_error *error)
+{
+    lom_image *faces[6], *cube = NULL;
+    if (!lom_make_sky_box(desc, faces, error))
+        return NULL;
+    cube = lom_create_image(faces[0]->width, faces[0]->height, 6, faces[0]->format, error);
+    if (cube != NULL)
+        cube->slices = LOM_SLICES_CUBE;
+    for (int i = 0; i < 6; i++) {
+        if (cube != NULL)
+            memcpy(lom_image_pixel(cube, 0, 0, i), faces[i]->pixels, lom_image_size(faces[i]));
+        lom_free_image(faces[i]);
+    }
+    return cube;
+}

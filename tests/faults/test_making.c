@@ -162,6 +162,12 @@ static bool make_sky(const char *name, uint64_t *hash, lom_error *error)
     return made;
 }
 
+static bool make_cube(const char *name, uint64_t *hash, lom_error *error)
+{
+    (void)name;
+    return hash_picture(lom_make_sky_cube(&(lom_sky_box_desc){ .size = 8 }, error), hash);
+}
+
 static bool make_blue_noise(const char *name, uint64_t *hash, lom_error *error)
 {
     (void)name;
@@ -303,6 +309,7 @@ static void making(void)
     for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++)
         fail_memory(make_picture, pictures[i], 1, 0, 4);
     fail_memory(make_sky, "sky", 6, 0, 8);
+    fail_memory(make_cube, "sky", 7, 0, 8);
     fail_memory(make_blue_noise, "blue noise", 2, 0, 0);
     fail_memory(make_volumes, "volumes", 5, 0, 0);
     fail_memory(make_sea, "sea", 10, 0, 0);

@@ -65,6 +65,22 @@ END
 done
 verdict levels_of_the_file_are_drawn "$why"
 
+# The cube in one file, and its faces in six: the same texels, so the same picture; and a cube of other make is another.
+why=
+for name in 'sky_%s.png' sky.dds; do "$lom" make sky-box evening -o "$folder/$name" || why="$name is not made"; done
+evening=assets/scenes/features/evening.toml
+sed "s|\"../../|\"$PWD/assets/|; s|^cube = .*|pattern = \"sky_%s.png\"|" $evening >"$folder/six.toml"
+one=$("$lom" render $evening --size 160x90 --quiet --hash)
+[ -n "$one" ] && [ "$one" = "$("$lom" render "$folder/six.toml" --size 160x90 --quiet --hash)" ] || why='six files draw another picture'
+cmp "$folder/sky.dds" assets/sky/evening.dds || why='the file is not the one of the assets'
+for run in '4 1' '8 3'; do
+    [ "$one" = "$("$lom" render $evening --size 160x90 --quiet --hash --lanes "${run% *}" --threads "${run#* }")" ] || why="$run differs"
+done
+"$lom" make sky-box evening --seed 8 -o "$folder/other.dds"
+sed "s|\"../../sky/evening.dds|\"$folder/other.dds|; s|\"../../|\"$PWD/assets/|" $evening >"$folder/other.toml"
+[ "$one" != "$("$lom" render "$folder/other.toml" --size 160x90 --quiet --hash)" ] || why='the cube is not looked at'
+verdict a_sky_of_one_file_is_that_of_six "$why"
+
 refused() { # the sentence, then the picture or, with --set, the setting
     words=$1
     shift

@@ -77,8 +77,25 @@ static void sun_stands_in_its_place(void)
         lom_free_image(faces[i]);
 }
 
+static void the_cube_has_the_six_faces(void)
+{
+    lom_image *faces[6];
+    lom_error error = { 0 };
+    lom_image *cube = lom_make_sky_cube(&desc, &error);
+    CHECK(lom_make_sky_box(&desc, faces, &error) && cube != NULL, "%s", error.text);
+    CHECK(cube->slices == LOM_SLICES_CUBE && cube->width == SIZE && cube->height == SIZE && cube->depth == 6,
+          "%d x %d x %d", cube->width, cube->height, cube->depth);
+    for (int i = 0; i < 6; i++) {
+        CHECK(memcmp(lom_image_pixel(cube, 0, 0, i), faces[i]->pixels, lom_image_size(faces[i])) == 0, "face %d", i);
+        lom_free_image(faces[i]);
+    }
+    lom_free_image(cube);
+}
+
 static void wrong_sizes_are_refused(void)
 {
+    lom_error refused = { 0 };
+    CHECK(lom_make_sky_cube(&(lom_sky_box_desc){ .size = 7 }, &refused) == NULL && refused.code == LOM_ERROR_USAGE);
     lom_image *faces[6];
     lom_error error = { 0 };
     CHECK(!lom_make_sky_box(&(lom_sky_box_desc){ .size = -1 }, faces, &error), "made");
@@ -89,6 +106,7 @@ int main(int argc, char **argv)
 {
     RUN(faces_meet);
     RUN(sun_stands_in_its_place);
+    RUN(the_cube_has_the_six_faces);
     RUN(wrong_sizes_are_refused);
     return check_result();
 }
