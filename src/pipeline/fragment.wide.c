@@ -215,11 +215,11 @@ static lom_mask late_depth(struct lom_tile *tile, const struct lom_places *place
     lom_float number = lom_select(depth == depth, depth, (lom_float){ 0 });
     lom_float units = lom_depth_units(tile->pass, lom_saturate(number));
     lom_float stored = lom_as_float(lom_load_places(memory, tile, places));
-    mask &= lom_compare_depth(draw->compare, units, stored);
-    LOM_RECORD_HOOK(lom_record_late, tile, &units, &stored, &mask);
+    lom_mask passed = mask & lom_compare_depth(draw->compare, units, stored);
+    LOM_RECORD_HOOK(lom_record_late, tile, &units, &stored, &mask, &passed);
     if (draw->depth_write)
-        lom_store_places(memory, tile, places, mask, lom_as_int(units));
-    return mask;
+        lom_store_places(memory, tile, places, passed, lom_as_int(units));
+    return passed;
 }
 
 /* Fragments of one packet may lie at one pixel; they land in lane order, which is submission order. What reads the

@@ -167,7 +167,9 @@ void lom_record_sprite(struct lom_tile *tile, int place, const lom_mask *covered
 void lom_record_sprite_shaded(struct lom_tile *tile, const lom_fragment *out);
 void lom_record_weights(struct lom_tile *tile, const lom_float *b1, const lom_float *b2);
 void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_fragment *out);
-void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask);
+/* A round of the packet at hand, whose lanes lie at different pixels: those of the others are left as they are. */
+void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *tested,
+                     const lom_mask *passed);
 /* The same with draw->full_tests: the lanes that are about to be tested; those that passed, and that failed for stencil. */
 void lom_record_late_begins(struct lom_tile *tile, const lom_float *depth, const lom_mask *tested);
 void lom_record_late_ends(struct lom_tile *tile, const lom_mask *passed, const lom_mask *failed);

@@ -237,16 +237,16 @@ void lom_record_shaded(struct lom_tile *tile, const lom_varyings *in, const lom_
     }
 }
 
-void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *mask)
+void lom_record_late(struct lom_tile *tile, const lom_float *units, const lom_float *stored, const lom_mask *tested,
+                     const lom_mask *passed)
 {
     for (int i = 0; i < LOM_LANES && is_watched(tile); i++) {
         size_t next = 0;
         struct record_raw *raw;
-        while ((raw = next_of_lane(tile, i, &next)) != NULL) {
+        while ((*tested)[i] != 0 && (raw = next_of_lane(tile, i, &next)) != NULL) {
             lom_fragment_record *f = &raw->fragment;
-            if (f->depth_tested || f->discarded)
-                continue;
-            f->depth_passed = (*mask)[i] != 0;
+            f->depth_tested = true;
+            f->depth_passed = (*passed)[i] != 0;
             f->depth = stored_depth(tile->pass, (*units)[i]);
             f->depth_before = stored_depth(tile->pass, (*stored)[i]);
             f->depth_written = f->depth_passed && tile->draw->depth_write;
@@ -261,6 +261,7 @@ void lom_record_late_begins(struct lom_tile *tile, const lom_float *depth, const
         size_t next = 0;
         struct record_raw *raw;
         while ((*tested)[i] != 0 && (raw = next_of_lane(tile, i, &next)) != NULL) {
+            raw->fragment.depth_tested = true;
             raw->fragment.depth_passed = false; /* unless it does */
             raw->fragment.depth = stored_depth(tile->pass, units[i]);
             raw->fragment.depth_before =
@@ -277,6 +278,7 @@ void lom_record_late_ends(struct lom_tile *tile, const lom_mask *passed, const l
         while (((*passed)[i] | (*failed)[i]) != 0 && (raw = next_of_lane(tile, i, &next)) != NULL) {
             lom_fragment_record *f = &raw->fragment;
             f->stencil_failed = (*failed)[i] != 0;
+            f->depth_tested &= !f->stencil_failed;
             f->depth_passed = (*passed)[i] != 0;
             f->depth_written = f->depth_passed && tile->draw->depth_write;
         }

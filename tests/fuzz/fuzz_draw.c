@@ -1,9 +1,8 @@
 /* Random descriptors through the public API: textures, passes, draws. Whatever is asked for, either the device holds an
  * error with a sentence, or the attachments hold numbers: no byte is read or written outside what the descriptors name
  * (under a sanitizer), no NaN is stored, and two devices of other threads and tiles draw the same bytes. */
-#include <lom/stages.h>
-
-#include "bytes.h"
+#include "draw_output.h"
+#include "draw_shaders.h"
 
 #include <stdlib.h>
 
@@ -11,138 +10,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { TEXTURES = 4, PASSES = 2, DRAWS = 3, MOST_TEXELS = 1 << 14 };
 
-struct uniforms {
-    const lom_texture *texture;
-};
-
 static void require(bool condition)
 {
     if (!condition)
         abort();
 }
-
-/* ---- shaders ---- */
-
-static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->position = in->attribute[0];
-    out->point_size = in->attribute[1].x;
-    const lom_float four[4] = { in->attribute[1].x, in->attribute[1].y, in->attribute[1].z, in->attribute[1].w };
-    for (int i = 0; i < 4; i++) {
-        out->varying[i] = four[i];
-        out->distance[i] = four[i] - lom_splat(0.25f);
-    }
-}
-
-static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->color[0] = (lom_float4){ in->varying[0], in->varying[1], in->varying[2], in->varying[3] };
-}
-
-static void lookup(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    const struct uniforms *u = uniforms;
-    lom_float lod = lom_lod(u->texture, in, 0, 1);
-    out->color[0] = lom_sample(u->texture, in->varying[0], in->varying[1], lod);
-    out->color[1] = lom_fetch(u->texture, lom_to_int(in->varying[2]), lom_to_int(in->varying[3]), 1);
-}
-
-static void everything(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)uniforms;
-    lom_float slope = lom_quad_dx(in->varying[0]) + lom_quad_dy(in->varying[1]);
-    out->color[0] = (lom_float4){ in->x, in->y, in->w, slope };
-    out->color[1] = (lom_float4){ in->z, lom_dx(in, 1), lom_dy(in, 1), in->varying[3] };
-    out->depth = in->varying[2];
-    out->discard = in->varying[3] > lom_splat(0.9f);
-}
-
-/* The axes are the varyings' numbers, so that they are as wild as the positions. */
-static void place_sprite(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    place(out, in, uniforms);
-    out->axis[0] = (lom_float4){ in->attribute[1].x, in->attribute[1].y, lom_splat(0), lom_splat(0) };
-    out->axis[1] = (lom_float4){ in->attribute[1].z, in->attribute[1].w, in->attribute[0].z, in->attribute[0].w };
-}
-
-static void show_sprite(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->color[0] = (lom_float4){ in->st[0], in->st[1], in->varying[2], in->x };
-    out->discard = in->st[0] > lom_splat(0.75f);
-}
-
-static void show_depth_behind(lom_fragment *out, const lom_varyings *in, const void *uniforms)
-{
-    (void)uniforms;
-    out->color[0] = (lom_float4){ in->target_depth, in->z, in->varying[1], in->varying[3] };
-}
-
-LOM_DEPTH_SHADER(fuzz_depth, place, .attributes = 2, .varyings = 4)
-LOM_SHADER(fuzz_show, place, show, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .flat = 1u << 3,
-           .colors = 1)
-LOM_SHADER(fuzz_clipped, place, show, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .clip_distances = 2,
-           .cull_distances = 2, .colors = 1)
-LOM_SHADER(fuzz_lookup, place, lookup, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
-           .differentiates = LOM_VARYINGS(0, 2), .colors = 2, .uniforms_size = sizeof(struct uniforms))
-LOM_SHADER(fuzz_everything, place, everything, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
-           .differentiates = 1u << 1, .reads_position = true, .discards = true, .writes_depth = true, .quads = true,
-           .colors = 2)
-LOM_SHADER(fuzz_sprite, place_sprite, show_sprite, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
-           .reads_position = true, .clip_distances = 1, .cull_distances = 1, .discards = true, .colors = 1,
-           .sprites = true)
-LOM_SHADER(fuzz_soft, place_sprite, show_depth_behind, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
-           .reads_position = true, .colors = 1, .sprites = true, .round = true, .reads_depth = true)
-
-/* ---- stages behind the vertices: levels, places and numbers of vertices as wild as the attributes ---- */
-
-static void levels_of_points(lom_levels *out, const lom_patch *in, const void *uniforms)
-{
-    (void)uniforms;
-    for (int i = 0; i < 4; i++)
-        out->outer[i] = in->point[i % in->points].varying[i] * 9.0f;
-    out->inner[0] = in->point[0].varying[1] * 9.0f;
-    out->inner[1] = in->point[in->points - 1].position.x;
-}
-
-static void mix_points(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
-{
-    (void)uniforms;
-    const lom_vertex *a = &in->patch.point[0], *b = &in->patch.point[in->patch.points - 1];
-    out->position = (lom_float4){ a->position.x + in->u * b->position.x, a->position.y + in->v * b->position.y,
-                                  a->position.z + in->w, a->position.w };
-    for (int i = 0; i < 4; i++) {
-        out->varying[i] = a->varying[i] * in->u + in->levels.inner[0];
-        out->distance[i] = in->v - lom_splat(0.25f);
-    }
-    out->point_size = b->varying[0];
-}
-
-static void scatter(lom_primitive_stream *out, const lom_geometry_input *in, const void *uniforms)
-{
-    (void)uniforms;
-    for (int i = 0; i < 9; i++) {
-        lom_vertex v = in->vertex[0];
-        v.position.x += lom_splat((float)(i % 3) * 0.2f);
-        v.position.y += lom_splat((float)(i / 3) * 0.2f);
-        lom_emit_vertex(out, &v, v.varying[0] * 9.0f > (float)i);
-        lom_end_strip(out, (in->number + i) % 4 == 0);
-    }
-}
-
-LOM_TESSELLATION(fuzz_patches, levels_of_points, mix_points, .most = 9)
-LOM_GEOMETRY(fuzz_scatter, scatter, .in = LOM_TRIANGLES, .out = LOM_TRIANGLE_STRIP, .vertices = 7)
-
-struct behind {
-    lom_tessellation tessellation;
-    lom_geometry geometry;
-    lom_feedback feedback;
-};
-
-static const lom_shader *const shaders[] = { &fuzz_show, &fuzz_depth, &fuzz_clipped, &fuzz_lookup, &fuzz_everything };
-enum { SHADERS = sizeof shaders / sizeof *shaders };
 
 /* ---- descriptors ---- */
 
@@ -164,32 +36,6 @@ static uint8_t *exact_memory(struct heap *heap, fuzz_bytes *in, size_t size)
     for (size_t i = 0; i < size; i++)
         memory[i] = run[i % sizeof run];
     return memory;
-}
-
-/* An enumerator, or a value that is none. */
-static int take_enum(fuzz_bytes *in, int count)
-{
-    unsigned byte = take_byte(in);
-    return byte == 255 ? -1 : byte == 254 ? count : (int)byte % count;
-}
-
-/* All of it, a part, or any. */
-static lom_rect take_rect(fuzz_bytes *in)
-{
-    int choice = take_choice(in, 16);
-    if (choice < 8)
-        return (lom_rect){ 0 };
-    if (choice < 15)
-        return (lom_rect){ take_choice(in, 30) - 4, take_choice(in, 30) - 4, 1 + take_choice(in, 60),
-                           1 + take_choice(in, 60) };
-    int x = take_int(in), y = take_int(in), width = take_int(in), height = take_int(in);
-    return (lom_rect){ x, y, width, height };
-}
-
-static void take_floats(fuzz_bytes *in, float *out, int count)
-{
-    for (int i = 0; i < count; i++)
-        out[i] = take_float(in);
 }
 
 static lom_sampler_desc take_sampler(fuzz_bytes *in)
@@ -251,6 +97,8 @@ static lom_texture *take_target(fuzz_bytes *in, bool depth)
                               .height = 21,
                               .format = depth ? depths[take_choice(in, 3)] : colors[take_choice(in, 7)] };
     desc.mips = !depth && take_bool(in) ? LOM_MIPS_ALL : LOM_MIPS_NONE;
+    desc.samples = take_choice(in, 4) == 3 ? 4 : 0;
+    desc.stencil = depth && desc.format != LOM_FORMAT_DEPTH16 && take_choice(in, 4) != 3;
     return lom_create_texture(&desc, NULL);
 }
 
@@ -275,6 +123,10 @@ static lom_pass_desc take_pass(fuzz_bytes *in, lom_texture *const textures[TEXTU
         pass.max_depth = take_bool(in) ? 1 - pass.min_depth : take_float(in);
     }
     pass.viewport = take_rect(in);
+    if (pass.samples == 0 && take_choice(in, 4) == 3)
+        pass.samples = 2 << take_choice(in, 2);
+    pass.stencil_load = (lom_load_action)take_enum(in, 2);
+    pass.clear_stencil = (uint8_t)take_byte(in);
     pass.scissor = take_rect(in);
     pass.feedback_only = take_choice(in, 32) == 31;
     return pass;
@@ -293,17 +145,6 @@ static lom_attribute take_attribute(fuzz_bytes *in, struct heap *heap)
     attribute.data = floats;
     attribute.size = floats != NULL ? size : 0;
     return attribute;
-}
-
-static lom_blend take_blend(fuzz_bytes *in)
-{
-    return (lom_blend){ .enabled = take_bool(in),
-                        .source_color = (lom_factor)take_enum(in, 10),
-                        .target_color = (lom_factor)take_enum(in, 10),
-                        .source_alpha = (lom_factor)take_enum(in, 10),
-                        .target_alpha = (lom_factor)take_enum(in, 10),
-                        .color_operation = (lom_blend_operation)take_enum(in, 5),
-                        .alpha_operation = (lom_blend_operation)take_enum(in, 5) };
 }
 
 static lom_draw_desc take_draw(fuzz_bytes *in, struct heap *heap, const struct uniforms *uniforms)
@@ -403,6 +244,14 @@ static void check_texture(const lom_texture *texture, uint64_t *hash)
     lom_free_image(image);
 }
 
+static void check_stencil(const lom_texture *texture, uint64_t *hash)
+{
+    lom_image *image = texture != NULL ? lom_read_stencil(texture, NULL) : NULL;
+    if (image != NULL)
+        *hash = *hash * 31 + lom_hash_image(image);
+    lom_free_image(image);
+}
+
 /* A hash of all textures, or of the error. */
 static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
 {
@@ -415,6 +264,9 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
     static const uint8_t texels[4] = { 9, 99, 200, 255 };
     lom_texture *plain = lom_make_texture(device, &(lom_texture_desc){ .width = 1, .height = 1, .pixels = texels });
     const struct uniforms uniforms = { plain };
+    lom_query *queries[QUERIES];
+    for (int i = 0; i < QUERIES; i++)
+        queries[i] = lom_make_query(device);
     int passes = 1 + take_choice(&in, PASSES);
     bool done = true;
     uint64_t fed = LOM_HASH_START;
@@ -425,6 +277,8 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
             lom_begin_pass(device, &pass);
         for (int d = take_choice(&in, DRAWS + 1); d > 0; d--) {
             lom_draw_desc draw = take_draw(&in, &heap, &uniforms);
+            if (take_bool(&in))
+                take_output(&in, queries, &draw);
             if (take_choice(&in, 4) == 3)
                 take_stages(&in, &heap, &behind[d], &draw);
             lom_draw(device, &draw);
@@ -439,9 +293,12 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
     }
     const lom_error *error = lom_device_error(device);
     require(done == (error->code == LOM_OK) && (error->code == LOM_OK) == (error->text[0] == 0));
-    uint64_t hash = (uint64_t)error->code + fed;
+    uint64_t hash = (uint64_t)error->code + fed, samples = 0;
+    for (int i = 0; done && i < QUERIES; i++)
+        hash = hash * 31 + (lom_query_result(queries[i], &samples) ? samples : 1);
     for (int i = 0; done && i < TEXTURES; i++)
         check_texture(textures[i], &hash);
+    check_stencil(textures[0], &hash);
     for (int i = 0; i < TEXTURES; i++)
         lom_free_texture(textures[i]);
     lom_close_device(device);
