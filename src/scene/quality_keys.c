@@ -233,10 +233,6 @@ static bool check_quality(void *members, const lom_key_check *check)
 {
     const lom_quality *q = members;
     const double *t = q->toon_thresholds;
-    if (q->tessellation && q->wireframe != LOM_WIREFRAME_OFF)
-        return check->fail(check, "wireframe",
-                           "edges are drawn of terrain in blocks, not of what tessellation cuts: "
-                           "either wireframe or tessellation.");
     return (t[0] <= t[1] && t[1] <= t[2]) ||
            check->fail(check, "toon_thresholds", "the thresholds of tones rise from the first to the last.");
 }

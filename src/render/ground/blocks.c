@@ -204,10 +204,11 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                              .texels = lom_allocate(vertices, 4 * sizeof(float), error),
                              .x = lom_allocate((size_t)map->width, sizeof(float), error),
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
-    bool done = loader.texels != NULL && loader.x != NULL && loader.z != NULL &&
-                lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
-                lay_out(ground, error) && lom_make_ground_patterns(ground, error) &&
-                (quality->wireframe == LOM_WIREFRAME_OFF || lom_make_ground_wires(ground, error));
+    bool done =
+        loader.texels != NULL && loader.x != NULL && loader.z != NULL &&
+        lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
+        lay_out(ground, error) && lom_make_ground_patterns(ground, error) &&
+        (quality->wireframe == LOM_WIREFRAME_OFF || quality->tessellation || lom_make_ground_wires(ground, error));
     if (done)
         fill_blocks(&loader);
     if (done && quality->tessellation)

@@ -29,6 +29,12 @@ static lom_draw_desc edge_draw(const struct frame *f, const void *uniforms)
                             .label = "wireframe" };
 }
 
+static void set_color(const struct frame *f, float color[3])
+{
+    for (int i = 0; i < 3; i++)
+        color[i] = (float)f->scene->quality.wireframe_color[i];
+}
+
 /* Places of a model less the eye, in clip space. */
 static struct lom_wire_uniforms uniforms_of(const struct frame *f, const lom_mat4 *world_from_model)
 {
@@ -38,8 +44,7 @@ static struct lom_wire_uniforms uniforms_of(const struct frame *f, const lom_mat
     offset.m[2][3] -= f->view.eye.z;
     lom_mat4 clip_from_model = lom_multiply(&clip_from_offset, &offset);
     struct lom_wire_uniforms uniforms = { lom_round_matrix(&clip_from_model), { 0 } };
-    for (int i = 0; i < 3; i++)
-        uniforms.color[i] = (float)f->scene->quality.wireframe_color[i];
+    set_color(f, uniforms.color);
     return uniforms;
 }
 
@@ -84,7 +89,7 @@ static void draw_ground(struct frame *f, const struct lom_culler *culler, bool e
     const lom_mat4 world_from_model = lom_translation((lom_vec3){ 0, f->scene->terrain.base, 0 });
     const struct lom_wire_uniforms wire = uniforms_of(f, &world_from_model);
     lom_draw_desc draw = edges ? edge_draw(f, &wire) : surface_draw(&wire);
-    for (int i = 0; ground->blocks != NULL && i < ground->across * ground->down; i++) {
+    for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
         const struct lom_ground_pattern *pattern = lom_find_ground_draw(ground, i, culler, &draw, &number);
         if (pattern != NULL && edges)
@@ -92,6 +97,27 @@ static void draw_ground(struct frame *f, const struct lom_culler *culler, bool e
         else if (pattern != NULL)
             lom_draw(f->renderer->device, &draw);
     }
+}
+
+/* Terrain in patches: a geometry function makes lines of the triangles that they were cut into. */
+static void draw_cut_ground(struct frame *f, const struct lom_culler *culler, bool edges)
+{
+    const lom_mat4 clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
+    const struct lom_view_uniform view = { .clip_from_offset = lom_round_matrix(&clip_from_offset) };
+    struct lom_cut_wire_uniforms wire = { .terrain = lom_terrain_uniforms_of(f->renderer, &view, f->view.eye) };
+    set_color(f, wire.color);
+    lom_draw_desc draw = edges ? edge_draw(f, &wire) : surface_draw(&wire);
+    draw.shader = edges ? &lom_cut_wire_shader : &lom_cut_wire_surface_shader;
+    draw.tessellation = &lom_terrain_patches;
+    draw.geometry = edges ? &lom_triangle_edges : NULL;
+    lom_draw_ground_blocks(f->renderer, culler, &draw);
+}
+
+static void draw_all(struct frame *f, const struct lom_culler *culler, bool edges)
+{
+    if (f->renderer->ground.blocks != NULL)
+        (f->renderer->ground.knot != NULL ? draw_cut_ground : draw_ground)(f, culler, edges);
+    draw_entities(f, culler, edges);
 }
 
 bool lom_draw_wires(struct frame *f)
@@ -110,11 +136,8 @@ bool lom_draw_wires(struct frame *f)
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.label = "wireframe";
     lom_begin_pass(r->device, &pass);
-    if (pass.depth != NULL) {
-        draw_ground(f, &culler, false);
-        draw_entities(f, &culler, false);
-    }
-    draw_ground(f, &culler, true);
-    draw_entities(f, &culler, true);
+    if (pass.depth != NULL)
+        draw_all(f, &culler, false);
+    draw_all(f, &culler, true);
     return lom_end_pass(r->device);
 }
