@@ -181,21 +181,24 @@ const char *lom_reach_text(lom_reach reach); /* a part of a sentence: "culled by
 /* What set-up was given: the triangle itself, or a piece that clipping left of it. */
 typedef struct lom_told_piece {
     float clip[3][4];
-    float window[3][3]; /* pixels of the frame, as they were snapped, and depth */
-    bool made[3];       /* by clipping: none of the triangle's own vertices */
-    lom_reach reach;    /* FACING or more */
+    /* Pixels of the frame, as they were snapped, and depth. Of a point or sprite: its middle, and the middles of two sides. */
+    float window[3][3];
+    bool made[3];    /* by clipping: none of the triangle's own vertices */
+    lom_reach reach; /* FACING or more */
 } lom_told_piece;
 
 enum { LOM_MAX_TOLD_PIECES = 16 };
-typedef struct lom_told_triangle {
-    size_t draw; /* in the pass */
+typedef struct lom_told_triangle { /* or a line, a point, a sprite */
+    size_t draw;                   /* in the pass */
     const lom_draw_desc *desc;
-    size_t number; /* of the draw's instance */
+    int corners;   /* 3; of a line 2, of a point or sprite 1: the last of them stands in for those that are missing */
+    bool made;     /* by the draw's stages of lom/stages.h: no vertex has an index */
+    size_t number; /* of the draw's instance; of what is made, of the patch or primitive that it was made of */
     int instance;
-    uint32_t index[3];
+    uint32_t index[3]; /* of vertices; UINT32_MAX: of none */
     float clip[3][4];
     unsigned code[3]; /* bits of lom_outcode */
-    bool cut;         /* it crossed a plane, so the pieces are not itself */
+    bool cut;         /* it crossed a plane, so the pieces are not itself; never of points and sprites */
     int pieces;       /* 0: it was outside */
     lom_told_piece piece[LOM_MAX_TOLD_PIECES];
     lom_reach reach;  /* the farthest of its pieces' */
@@ -209,15 +212,15 @@ typedef struct lom_listener {
     /* A pass begins, the number counted from 0 since lom_listen: whether its triangles are told. */
     bool (*begins)(void *context, uint64_t number, const lom_pass_desc *pass);
     void (*triangle)(void *context, const lom_told_triangle *triangle);
-    /* So many triangles went into the list of a tile (a rectangle of the frame), in a part of a draw. */
+    /* So many primitives went into the list of a tile (a rectangle of the frame), in a part of a draw. */
     void (*bin)(void *context, const lom_rect *tile, size_t triangles);
     /* Its attachments are complete and may be read. draws: how many it had; blends: one of them blends. */
     void (*ended)(void *context, uint64_t number, const lom_pass_desc *pass, size_t draws, bool blends);
 } lom_listener;
 
 /* Listens from the next pass on; NULL: nobody does. Copied. Instead of whatever was watched: a device watches or is
- * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; sprites, points,
- * what stages of lom/stages.h make, and draws of shaders that were not built at 4 lanes, are not told. False, with an error on the device: in a pass. */
+ * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; triangles and lines of
+ * shaders that were not built at 4 lanes are not told. False, with an error on the device: in a pass. */
 bool lom_listen(lom_device *device, const lom_listener *listener);
 /* Of a triangle while it is told: its vertices, by the vertex stage, with what their shader names. False: no memory. */
 bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vertex[3]);

@@ -46,6 +46,12 @@ struct made_picture {
     lom_image *image; /* NULL: the scene has none */
 };
 
+/* Primitives by their corners: [0] points and sprites, [1] lines, [2] triangles. */
+enum { CORNER_KINDS = 3, MAX_COUNTED = 96 };
+struct counted {
+    uint64_t of[CORNER_KINDS];
+};
+
 struct steps {
     lom_device *device;
     const char *pass; /* that is asked for; NULL: none */
@@ -73,7 +79,8 @@ struct steps {
     size_t plane_count, plane_capacity;
     struct read_level *levels;
     size_t level_count, level_capacity;
-    uint64_t *owner; /* of each pixel: which triangle of which draw; 0: none */
+    uint64_t *owner;           /* of each pixel: which triangle of which draw; 0: none */
+    struct counted primitives; /* of the chosen pass, as they were told */
 };
 
 /* Takes the image into the list, with a title and a text; NULL without memory, or when the image is NULL. */
@@ -96,6 +103,10 @@ bool lom_watch_target(struct steps *s, lom_rect at);
 bool lom_is_seen(const struct steps *s, const lom_triangle_record *t);
 /* Frames that lom_record_planes draws. */
 int lom_count_bands(const struct steps *s);
+
+/* "12 triangles, 5 lines and 1 point": what there is of them; "0 triangles" where nothing is. */
+bool lom_any_counted(const struct counted *counted);
+const char *lom_say_counted(const struct counted *counted, char text[MAX_COUNTED]);
 
 void lom_picture_triangles(struct steps *s);
 void lom_record_planes(struct steps *s);

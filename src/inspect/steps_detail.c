@@ -71,8 +71,8 @@ static const lom_triangle_record *find_owner(const struct steps *s, const lom_pi
 static bool is_partial(const lom_triangle_record *t)
 {
     const lom_vertex_record *v = t->pieces > 0 ? t->cut : t->vertex;
-    bool partial = false;
-    for (int i = 0; i < 3; i++) {
+    bool partial = !t->has_edges; /* a line */
+    for (int i = 0; i < 3 && t->has_edges; i++) {
         const int32_t *a = v[t->order[(i + 1) % 3]].fixed, *b = v[t->order[(i + 2) % 3]].fixed;
         int64_t x = (int64_t)b[0] - a[0], y = (int64_t)b[1] - a[1];
         partial |= t->edge[i] < ((x < 0 ? -x : x) + (y < 0 ? -y : y)) * 128;
@@ -144,16 +144,20 @@ void lom_picture_detail(struct steps *s)
                  !lom_draw_chosen(s, NULL);
     if (!s->failed) {
         draw_detail(&d);
-        lom_stage_picture *p =
-            lom_add_picture(s, "Pixels", "coverage-detail", "Coverage, closely", "src/pipeline/raster.wide.c",
-                            lom_canvas_image(&d.canvas, s->error),
-                            "The pixels from %d,%d to %d,%d. A triangle covers a pixel when its centre (the dot) lies "
-                            "inside of all three "
-                            "edges; on an edge the top-left rule decides, so a pixel at a shared edge belongs to "
-                            "exactly one. Each triangle "
-                            "has a colour of its own; %d pixels, the paler ones, are crossed by an edge of theirs.",
-                            d.place[0], d.place[1], d.place[0] + d.width - 1, d.place[1] + d.height - 1, d.partial);
-        lom_add_legend(p, &edge_ink, "edges and vertices of the triangles that are seen here: %d", d.count);
+        lom_stage_picture *p = lom_add_picture(
+            s, "Pixels", "coverage-detail", "Coverage, closely", "src/pipeline/raster.wide.c",
+            lom_canvas_image(&d.canvas, s->error),
+            "The pixels from %d,%d to %d,%d. A triangle covers a pixel when its centre (the dot) lies "
+            "inside of all three "
+            "edges; on an edge the top-left rule decides, so a pixel at a shared edge belongs to "
+            "exactly one.%s Each "
+            "has a colour of its own; %d pixels, the paler ones, are crossed by an edge of theirs.",
+            d.place[0], d.place[1], d.place[0] + d.width - 1, d.place[1] + d.height - 1,
+            s->primitives.of[1] == 0
+                ? ""
+                : " A line has the pixels whose diamonds it leaves, and as many beside each as it is wide.",
+            d.partial);
+        lom_add_legend(p, &edge_ink, "edges and vertices of what is seen here: %d", d.count);
     }
     lom_clear_canvas(&d.canvas);
 }

@@ -136,9 +136,10 @@ static void trim(struct seen_mesh *mesh)
 void lom_measure_mesh(struct meshes *m, const lom_told_triangle *t)
 {
     double place[3][PLACE];
-    struct seen_mesh *mesh = mesh_of(m, t);
+    struct seen_mesh *mesh = t->made ? NULL : mesh_of(m, t);
     if (mesh == NULL || !find_places(m, t, place))
         return;
+    m->primitives.of[t->corners - 1]++;
     take_sample(mesh, place[0]);
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < PLACE; i++) {
@@ -229,7 +230,7 @@ static struct ink ink_of(const double seen[3][PLACE], double area, const struct 
 
 void lom_draw_meshes(struct meshes *m, const lom_told_triangle *t)
 {
-    const struct seen_mesh *mesh = mesh_of(m, t);
+    const struct seen_mesh *mesh = t->made ? NULL : mesh_of(m, t);
     double place[3][PLACE], seen[3][PLACE];
     if (mesh == NULL || mesh->cell < 0 || !find_places(m, t, place))
         return;
@@ -241,7 +242,11 @@ void lom_draw_meshes(struct meshes *m, const lom_told_triangle *t)
         seen[k][2] *= cell.scale;
     }
     struct ink ink = ink_of((const double(*)[PLACE])seen, cell.area, mesh);
-    for (int k = 0; k < 3; k++)
+    if (t->corners < 3)
+        ink.cover = 0.8f;
+    if (t->corners == 1)
+        lom_draw_dot(&m->canvas, seen[0], 1.5, ink);
+    for (int k = 0; k < (t->corners == 3 ? 3 : t->corners - 1); k++)
         lom_draw_line(&m->canvas, seen[k], seen[(k + 1) % 3], ink);
 }
 
@@ -253,10 +258,7 @@ static const char *file_of(const char *label)
 
 void lom_picture_mesh(struct steps *s, struct meshes *m)
 {
-    char names[300] = "";
-    uint64_t triangles = 0;
-    for (int i = 0; i < m->count; i++)
-        triangles += m->mesh[i].triangles;
+    char names[300] = "", all[MAX_COUNTED];
     for (int cell = 0; cell < m->cells; cell++)
         for (int i = 0; i < m->count; i++) {
             size_t length = strlen(names);
@@ -266,9 +268,9 @@ void lom_picture_mesh(struct steps *s, struct meshes *m)
         }
     lom_add_picture(
         s, "Triangles", "mesh", "Meshes", "src/pipeline/chunk.c", lom_canvas_image(&m->canvas, s->error),
-        "What the vertex stage reads: each mesh in its own space, with its triangles, row by row: %s. In all "
-        "%d%s, with %llu triangles; nothing has a place in the picture yet.",
-        names, m->count, m->count == MOST_MESHES ? " or more" : "", (unsigned long long)triangles);
+        "What the vertex stage reads: each mesh in its own space, with its primitives, row by row: %s. In all "
+        "%d%s, with %s; nothing has a place in the picture yet.",
+        names, m->count, m->count == MOST_MESHES ? " or more" : "", lom_say_counted(&m->primitives, all));
 }
 
 void lom_clear_meshes(struct meshes *m)

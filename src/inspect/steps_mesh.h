@@ -30,6 +30,7 @@ struct meshes {
     size_t draw_count, draw_capacity;
     struct canvas canvas;
     int columns, rows, cells;
+    struct counted primitives; /* of all of them */
     bool failed;
 };
 

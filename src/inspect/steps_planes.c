@@ -148,8 +148,12 @@ static void add_count(struct steps *s, const char *plane, const char *name, cons
 void lom_picture_coverage(struct steps *s)
 {
     const struct plane *depth = find_count(s, "depth");
-    add_count(s, "covering", "coverage", "Coverage", "src/pipeline/raster.wide.c",
-              "How many triangles cover the centre of each pixel, those included that lie behind others.");
+    add_count(
+        s, "covering", "coverage", "Coverage", "src/pipeline/raster.wide.c",
+        s->primitives.of[1] == 0
+            ? "How many triangles cover the centre of each pixel, those included that lie behind others."
+            : "How many triangles cover the centre of each pixel and how many lines have it, those included that lie "
+              "behind others.");
     if (!s->failed)
         lom_picture_detail(s);
     add_count(

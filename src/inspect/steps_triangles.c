@@ -1,42 +1,18 @@
 /* Pictures of all triangles of a pass. In: its triangles, told twice: to measure, then to draw. Out: the meshes; clip space;
  * what clipping cut; the window; what was culled; the tiles. Invariant: places are those that the stages computed. */
-#include "inspect/steps_mesh.h"
-#include "inspect/steps_tiles.h"
+#include "inspect/steps_triangles.h"
 
 #include "base/numbers.h"
 #include "pipeline/stages.h"
 
+#include <stdio.h>
+
 static const struct ink ground = { { 0.055f, 0.065f, 0.085f }, 1 };
-static const struct ink frame_ink = { { 1.0f, 0.76f, 0.28f }, 0.95f };
 static const struct ink new_ink = { { 1.0f, 0.86f, 0.2f }, 1 };
 static const struct ink lost_ink = { { 0.95f, 0.32f, 0.3f }, 0.9f };
-static const struct ink kept_ink = { { 0.35f, 0.86f, 0.6f }, 0.9f };
 static const struct ink own_ink = { { 1, 1, 1 }, 0.95f };
 static const struct ink near_ink = { { 0.45f, 0.8f, 1 }, 0.95f };
 static const struct ink guard_ink = { { 0.7f, 0.55f, 1.0f }, 0.9f };
-static const struct ink reach_inks[LOM_REACHES] = {
-    [LOM_REACH_OUTSIDE] = { { 0.45f, 0.5f, 0.6f }, 0.8f },  [LOM_REACH_FACING] = { { 0.95f, 0.32f, 0.3f }, 0.9f },
-    [LOM_REACH_BESIDE] = { { 0.36f, 0.48f, 0.66f }, 0.7f }, [LOM_REACH_EMPTY] = { { 0.78f, 0.5f, 1.0f }, 0.9f },
-    [LOM_REACH_BINNED] = { { 0.35f, 0.86f, 0.6f }, 0.9f },
-};
-
-struct range {
-    double low[2], high[2];
-    bool any;
-};
-
-struct all_triangles {
-    struct steps *steps;
-    struct meshes meshes;
-    bool draws; /* else measures */
-    uint64_t triangles, cut, made, pieces, reach[LOM_REACHES];
-    double most_w, near;         /* of what is drawn; clip z, where it is the same everywhere */
-    bool is_flat, has_near, any; /* flat: w is 1 everywhere */
-    int guard_width;             /* of the viewport in which something was last cut by the guard band; 0: nothing is */
-    struct range range;          /* of what is cut, in clip x and w */
-    struct canvas clip_space, cut_canvas, window, fates, bins;
-    struct tiles tiles;
-};
 
 /* ---- measuring ---- */
 
@@ -52,9 +28,10 @@ static void widen(struct range *r, double x, double y)
 
 static void measure(struct all_triangles *a, const lom_told_triangle *t)
 {
-    a->triangles++;
-    a->reach[t->reach]++;
-    a->cut += t->cut;
+    a->all.of[t->corners - 1]++;
+    a->reach[t->reach].of[t->corners - 1]++;
+    a->cut.of[t->corners - 1] += t->cut;
+    a->made += t->made;
     a->pieces += t->cut ? (uint64_t)t->pieces : 0;
     for (int k = 0; k < 3; k++) {
         double w = (double)t->clip[k][3], z = (double)t->clip[k][2];
@@ -72,8 +49,8 @@ static void measure(struct all_triangles *a, const lom_told_triangle *t)
             widen(&a->range, (double)t->clip[k][0], w);
     }
     for (int i = 0; i < t->pieces && t->cut; i++)
-        for (int k = 0; k < 3; k++)
-            a->made += t->piece[i].made[k];
+        for (int k = 0; k < t->corners; k++)
+            a->new_corners += t->piece[i].made[k];
     lom_measure_mesh(&a->meshes, t);
 }
 
@@ -96,10 +73,10 @@ static struct ink fade(struct ink ink, const double a[2], const double b[2], dou
     return ink;
 }
 
-static void draw_outline(struct canvas *canvas, const double at[3][2], struct ink ink, double least)
+void lom_draw_outline(struct canvas *canvas, const double (*at)[2], int corners, struct ink ink, double least)
 {
-    for (int k = 0; k < 3; k++)
-        lom_draw_line(canvas, at[k], at[(k + 1) % 3], fade(ink, at[k], at[(k + 1) % 3], least));
+    for (int k = 0; k < (corners == 2 ? 1 : corners); k++)
+        lom_draw_line(canvas, at[k], at[(k + 1) % corners], fade(ink, at[k], at[(k + 1) % corners], least));
 }
 
 static void draw_clip_space(struct all_triangles *a, const lom_told_triangle *t)
@@ -107,8 +84,12 @@ static void draw_clip_space(struct all_triangles *a, const lom_told_triangle *t)
     double at[3][2];
     for (int k = 0; k < 3; k++)
         place_above(a, t->clip[k], at[k]);
-    struct ink ink = t->reach == LOM_REACH_BINNED ? kept_ink : reach_inks[LOM_REACH_BESIDE];
-    draw_outline(&a->clip_space, (const double(*)[2])at, ink, t->reach == LOM_REACH_BINNED ? 0.16 : 0.07);
+    struct ink ink = t->reach == LOM_REACH_BINNED ? lom_kept_ink : lom_reach_inks[LOM_REACH_BESIDE];
+    if (t->corners == 1)
+        lom_draw_dot(&a->clip_space, at[0], 1, ink);
+    else
+        lom_draw_outline(&a->clip_space, (const double(*)[2])at, t->corners, ink,
+                         t->reach == LOM_REACH_BINNED ? 0.16 : 0.07);
 }
 
 static void draw_frustum(struct all_triangles *a)
@@ -121,9 +102,9 @@ static void draw_frustum(struct all_triangles *a)
         place_above(a, a->is_flat ? box[i] : perspective[i], at[i]);
     for (int i = 0; i < 4; i++)
         for (int twice = 0; twice < 2; twice++)
-            lom_draw_line(&a->clip_space, at[i], at[(i + 1) % 4], frame_ink);
+            lom_draw_line(&a->clip_space, at[i], at[(i + 1) % 4], lom_frame_ink);
     if (!a->is_flat)
-        lom_draw_dot(&a->clip_space, at[0], 5, frame_ink);
+        lom_draw_dot(&a->clip_space, at[0], 5, lom_frame_ink);
 }
 
 /* ---- what is cut ---- */
@@ -151,7 +132,7 @@ static void draw_cut(struct all_triangles *a, const lom_told_triangle *t)
         for (int k = 0; k < 3; k++)
             place_cut(a, t->piece[i].clip[k], at[k]);
         for (int k = 0; k < 3; k++)
-            lom_draw_line(c, at[k], at[(k + 1) % 3], kept_ink);
+            lom_draw_line(c, at[k], at[(k + 1) % 3], lom_kept_ink);
         for (int k = 0; k < 3; k++)
             lom_draw_dot(c, at[k], t->piece[i].made[k] ? 4 : 2.5, t->piece[i].made[k] ? new_ink : own_ink);
     }
@@ -181,56 +162,6 @@ static void draw_near(struct all_triangles *a)
     lom_draw_line(&a->cut_canvas, from, to, near_ink);
 }
 
-/* ---- the window ---- */
-
-enum { ROOM = 3 }; /* the frame takes 1 / (1 + 2 / ROOM) of the picture's width: 60 of 100 */
-
-static void place_window(const struct all_triangles *a, const float window[3], bool whole, double at[2])
-{
-    const struct steps *s = a->steps;
-    const int origin[2] = { s->chosen.desc.origin_x, s->chosen.desc.origin_y }, size[2] = { s->width, s->height };
-    for (int i = 0; i < 2; i++) {
-        double pixel = (double)window[i] - origin[i];
-        at[i] = whole ? (pixel + (double)size[i] / ROOM) * s->zoom * ROOM / (ROOM + 2) : pixel * s->zoom;
-    }
-}
-
-/* Whether all three places lie beyond one side of a picture. */
-static bool is_off(const struct canvas *c, const double at[3][2])
-{
-    const double size[2] = { c->width, c->height };
-    for (int i = 0; i < 2; i++)
-        if ((at[0][i] < 0 && at[1][i] < 0 && at[2][i] < 0) ||
-            (at[0][i] > size[i] && at[1][i] > size[i] && at[2][i] > size[i]))
-            return true;
-    return false;
-}
-
-/* Brighter the nearer it is: by the fourth root of the reversed depth. */
-static struct ink dim(struct ink ink, const lom_told_piece *piece)
-{
-    double depth = ((double)piece->window[0][2] + (double)piece->window[1][2] + (double)piece->window[2][2]) / 3;
-    double bright = 0.3 + 1.7 * lom_double_sqrt(lom_double_sqrt(lom_larger(depth, 0)));
-    for (int c = 0; c < 3; c++)
-        ink.color[c] *= (float)lom_smaller(bright, 1);
-    return ink;
-}
-
-static void draw_window(struct all_triangles *a, const lom_told_piece *piece)
-{
-    double at[3][2], inside[3][2];
-    for (int k = 0; k < 3; k++) {
-        place_window(a, piece->window[k], true, at[k]);
-        place_window(a, piece->window[k], false, inside[k]);
-    }
-    bool is_drawn = piece->reach == LOM_REACH_BINNED, off = is_off(&a->fates, (const double(*)[2])inside);
-    draw_outline(&a->window, (const double(*)[2])at, dim(off ? reach_inks[LOM_REACH_BESIDE] : kept_ink, piece),
-                 off ? 0.12 : 0.08);
-    draw_outline(&a->fates, (const double(*)[2])inside, reach_inks[piece->reach], is_drawn ? 0.12 : 0.2);
-    if (is_drawn)
-        draw_outline(&a->bins, (const double(*)[2])inside, (struct ink){ { 0.75f, 0.8f, 0.85f }, 0.5f }, 0.1);
-}
-
 /* ---- what is told ---- */
 
 static bool is_chosen(void *context, uint64_t number, const lom_pass_desc *pass)
@@ -252,7 +183,7 @@ static void take_triangle(void *context, const lom_told_triangle *t)
     if (t->cut)
         draw_cut(a, t);
     for (int i = 0; i < t->pieces; i++)
-        draw_window(a, &t->piece[i]);
+        lom_draw_window(a, t, &t->piece[i]);
 }
 
 static void take_bin(void *context, const lom_rect *tile, size_t triangles)
@@ -267,56 +198,36 @@ static void take_bin(void *context, const lom_rect *tile, size_t triangles)
 static void add_clip_pictures(struct all_triangles *a)
 {
     struct steps *s = a->steps;
+    char all[MAX_COUNTED], drawn[MAX_COUNTED], cut[MAX_COUNTED], made[120] = "";
+    if (a->made > 0)
+        snprintf(made, sizeof made, " Stages behind the vertices made %llu of them.", (unsigned long long)a->made);
     lom_stage_picture *p = lom_add_picture(s, "Triangles", "vertex", "After the vertex shader",
                                            "src/pipeline/vertex.wide.c", lom_canvas_image(&a->clip_space, s->error),
-                                           "Clip space from above: x to the right, %s. Each vertex of %llu triangles "
+                                           "Clip space from above: x to the right, %s. Each vertex of %s "
                                            "has been multiplied by its matrices; what "
-                                           "lies within the lines (|x| <= w) can be seen.",
+                                           "lies within the lines (|x| <= w) can be seen.%s",
                                            a->is_flat ? "z upwards (1 is near); w is 1, there is no perspective"
                                                       : "w, the distance, upwards from the eye",
-                                           (unsigned long long)a->triangles);
-    lom_add_legend(p, &kept_ink, "triangles that will be drawn: %llu", (unsigned long long)a->reach[LOM_REACH_BINNED]);
-    lom_add_legend(p, &reach_inks[LOM_REACH_BESIDE], "triangles that will not");
-    lom_add_legend(p, &frame_ink, a->is_flat ? "what the picture holds" : "the eye, and what it sees");
+                                           lom_say_counted(&a->all, all), made);
+    lom_add_legend(p, &lom_kept_ink, "what will be drawn: %s", lom_say_counted(&a->reach[LOM_REACH_BINNED], drawn));
+    lom_add_legend(p, &lom_reach_inks[LOM_REACH_BESIDE], "what will not");
+    lom_add_legend(p, &lom_frame_ink, a->is_flat ? "what the picture holds" : "the eye, and what it sees");
     if (!a->range.any)
         return;
-    p = lom_add_picture(
-        s, "Triangles", "clip", "Clipped", "src/pipeline/clip.c", lom_canvas_image(&a->cut_canvas, s->error),
-        "Triangles that cross a plane: %llu, from above as before, near the eye. They are cut there; pieces left: "
-        "%llu. Both triangles at an edge get the same new vertex, so no gap opens.",
-        (unsigned long long)a->cut, (unsigned long long)a->pieces);
-    lom_add_legend(p, &new_ink, "new vertices, made by clipping: %llu corners", (unsigned long long)a->made);
+    p = lom_add_picture(s, "Triangles", "clip", "Clipped", "src/pipeline/clip.c",
+                        lom_canvas_image(&a->cut_canvas, s->error),
+                        "What crosses a plane: %s, from above as before, near the eye. It is cut there; pieces left: "
+                        "%llu. Both triangles at an edge get the same new vertex, so no gap opens.",
+                        lom_say_counted(&a->cut, cut), (unsigned long long)a->pieces);
+    lom_add_legend(p, &new_ink, "new vertices, made by clipping: %llu corners", (unsigned long long)a->new_corners);
     lom_add_legend(p, &own_ink, "vertices of the mesh");
-    lom_add_legend(p, &kept_ink, "what is left");
+    lom_add_legend(p, &lom_kept_ink, "what is left");
     lom_add_legend(p, &lost_ink, "what is cut off");
     if (a->guard_width != 0)
         lom_add_legend(p, &guard_ink, "the guard band, %d pixels beside the middle: what is further off is cut too",
                        GUARD_PIXELS);
     if (a->has_near)
         lom_add_legend(p, &near_ink, "the near plane, %g before the eye", a->near);
-}
-
-static void add_window_pictures(struct all_triangles *a)
-{
-    struct steps *s = a->steps;
-    lom_stage_picture *p = lom_add_picture(
-        s, "Triangles", "window", "Projected", "src/pipeline/project.h", lom_canvas_image(&a->window, s->error),
-        "Divided by w, moved to the window and snapped to 1/256 pixel. The frame is the rectangle; "
-        "triangles reach beyond it, for nothing is cut at its sides. Brighter is nearer.");
-    lom_add_legend(p, &frame_ink, "the frame, %d x %d pixels", s->width, s->height);
-    p = lom_add_picture(
-        s, "Triangles", "cull", "Culled", "src/pipeline/setup.wide.c", lom_canvas_image(&a->fates, s->error),
-        "What set-up leaves out before a single pixel is touched, by its exact integers: of %llu triangles "
-        "%llu are drawn.",
-        (unsigned long long)a->triangles, (unsigned long long)a->reach[LOM_REACH_BINNED]);
-    for (int i = LOM_REACHES - 1; i >= 0; i--)
-        lom_add_legend(p, &reach_inks[i], "%s: %llu%s", lom_reach_text((lom_reach)i), (unsigned long long)a->reach[i],
-                       i == LOM_REACH_OUTSIDE || i == LOM_REACH_BESIDE ? " (not in this picture)" : "");
-    lom_add_picture(
-        s, "Triangles", "bins", "Tiles", "src/pipeline/bin.c", lom_canvas_image(&a->bins, s->error),
-        "Each tile of %d x %d pixels has the list of the triangles that may touch it; the numbers say how many. "
-        "From here on a tile is drawn by one worker, alone, in memory that fits its cache.",
-        a->tiles.edge, a->tiles.edge);
 }
 
 static bool make_canvases(struct all_triangles *a)
@@ -345,10 +256,10 @@ static void draw_lines_of_the_view(struct all_triangles *a)
     const float corner[2][3] = { { (float)pass->origin_x, (float)pass->origin_y, 0 },
                                  { (float)(pass->origin_x + s->width), (float)(pass->origin_y + s->height), 0 } };
     double from[2], to[2];
-    place_window(a, corner[0], true, from);
-    place_window(a, corner[1], true, to);
+    lom_place_window(a, corner[0], true, from);
+    lom_place_window(a, corner[1], true, to);
     for (int twice = 0; twice < 2; twice++)
-        lom_draw_box(&a->window, from[0], from[1], to[0] - from[0], to[1] - from[1], frame_ink);
+        lom_draw_box(&a->window, from[0], from[1], to[0] - from[0], to[1] - from[1], lom_frame_ink);
     draw_frustum(a);
     lom_draw_tiles(s, &a->tiles, &a->bins);
 }
@@ -382,12 +293,13 @@ void lom_picture_triangles(struct steps *s)
     a->steps = s;
     a->is_flat = a->has_near = true;
     hear_twice(a);
-    if (!s->failed && a->triangles > 0) {
+    s->primitives = a->all;
+    if (!s->failed && lom_any_counted(&a->all)) {
         draw_lines_of_the_view(a);
         if (a->meshes.cells > 0)
             lom_picture_mesh(s, &a->meshes);
         add_clip_pictures(a);
-        add_window_pictures(a);
+        lom_add_window_pictures(a);
     }
     clear(a);
     lom_release(a);

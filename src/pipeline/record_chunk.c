@@ -101,16 +101,37 @@ static struct record_chunk *record_of(const struct lom_pass *pass, const struct 
     return &pass->recorder->chunks[chunk - pass->chunks];
 }
 
+/* The number of the chunk's primitive i; of points and sprites i counts those that have a vertex. */
+static size_t number_of(const struct lom_chunk *chunk, size_t i)
+{
+    const struct lom_draw *draw = chunk->draw;
+    uint32_t vertex;
+    if (draw->expands)
+        return i < chunk->count ? lom_made_from(chunk, i) : chunk->first + i;
+    if (!draw->sprites || chunk->vertex_count == chunk->count)
+        return chunk->first + i;
+    size_t place = 0;
+    while (!lom_find_vertex(&draw->desc, chunk->first + place, &vertex) || i-- > 0)
+        place++;
+    return chunk->first + place;
+}
+
+/* Points and sprites are told, but not watched: any variant will do. */
+static bool is_recorded(const struct lom_pass *pass, const struct lom_draw *draw)
+{
+    return draw->sprites ? pass->recorder->tells : draw->variant == LOM_SLOT_4_recorded;
+}
+
 bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i)
 {
     struct record_chunk *record = record_of(pass, chunk);
     struct lom_assembly *assembly = chunk->assembly;
-    const uint32_t *corner = assembly->corners + 3 * i;
+    const uint32_t point[3] = { (uint32_t)i, (uint32_t)i, (uint32_t)i };
+    const uint32_t *corner = chunk->draw->sprites ? point : assembly->corners + 3 * i;
     if (i == 0)
         record->count = record->piece_count = 0;
     assembly->candidate = NULL;
-    if (corner[0] == NO_VERTEX || (chunk->draw->expands && pass->recorder->tells) ||
-        chunk->draw->variant != LOM_SLOT_4_recorded)
+    if (corner[0] == NO_VERTEX || !is_recorded(pass, chunk->draw))
         return false;
     unsigned any = assembly->codes[corner[0]] | assembly->codes[corner[1]] | assembly->codes[corner[2]];
     bool has_box = (any & (CODE_CLIP | CODE_INVALID)) == 0;
@@ -125,7 +146,7 @@ bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, s
     if (!pass->recorder->tells &&
         (has_box ? !box_comes_near(pass, chunk->draw, low, high) : !clip_comes_near(pass, chunk->draw, clip)))
         return false;
-    struct record_candidate c = { .number = chunk->draw->expands ? lom_made_from(chunk, i) : chunk->first + i,
+    struct record_candidate c = { .number = number_of(chunk, i),
                                   .has_box = has_box,
                                   .first_piece = record->piece_count };
     for (int k = 0; k < 3; k++) {

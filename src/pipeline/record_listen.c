@@ -82,6 +82,14 @@ static bool is_own(const struct record_candidate *c, const float clip[4])
     return own;
 }
 
+/* Of a point or sprite: its half sides, from its middle. */
+static void tell_sides(const struct telling *t, const float *row, lom_told_piece *told)
+{
+    for (int k = 1; k < 3; k++)
+        for (int i = 0; i < 2; i++)
+            told->window[k][i] += row[t->chunk->draw->axis_offset + 2 * (k - 1) + i];
+}
+
 static void tell_piece(const struct telling *t, const struct record_piece *piece, lom_told_piece *told)
 {
     const lom_rect *view = &t->chunk->draw->desc.viewport;
@@ -95,6 +103,8 @@ static void tell_piece(const struct telling *t, const struct record_piece *piece
         told->window[k][2] = row[2];
         told->made[k] = !is_own(t->candidate, piece->clip[k]);
     }
+    if (t->chunk->draw->sprites)
+        tell_sides(t, t->chunk->rows + piece->corner[0] * (size_t)t->chunk->draw->row_floats, told);
     told->reach = reach_of(t, piece, v);
 }
 
@@ -106,13 +116,17 @@ static void tell(const struct telling *t)
                                .desc = &t->chunk->draw->desc,
                                .number = c->number,
                                .instance = t->chunk->instance,
+                               .corners = t->chunk->draw->sprites ? 1
+                                          : t->chunk->draw->lines ? 2
+                                                                  : 3,
+                               .made = t->chunk->draw->expands,
                                .pieces = c->pieces,
                                .reach = LOM_REACH_OUTSIDE,
                                .from = t };
     memcpy(told.index, c->index, sizeof told.index);
     memcpy(told.clip, c->clip, sizeof told.clip);
     memcpy(told.code, c->code, sizeof told.code);
-    told.cut = c->pieces > 0 && ((c->code[0] | c->code[1] | c->code[2]) & CODE_CLIP) != 0;
+    told.cut = c->pieces > 0 && told.corners > 1 && ((c->code[0] | c->code[1] | c->code[2]) & CODE_CLIP) != 0;
     for (int i = 0; i < c->pieces; i++) {
         tell_piece(t, &c->piece[i], &told.piece[i]);
         told.reach = told.piece[i].reach > told.reach ? told.piece[i].reach : told.reach;
@@ -126,6 +140,10 @@ bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vert
     const struct telling *t = triangle->from;
     for (int k = 0; k < 3; k++)
         vertex[k] = (lom_vertex_record){ .index = 0 };
+    if (triangle->made) {
+        lom_record_made_vertices(&t->device->pass, t->chunk, t->candidate, vertex);
+        return true;
+    }
     return lom_record_vertices(&t->device->pass, t->chunk, triangle->index, &t->device->recorder->told, vertex);
 }
 
@@ -154,7 +172,7 @@ void lom_record_tell(lom_device *device)
             t.candidate = &r->chunks[i].items[k];
             tell(&t);
         }
-        if (r->listener.bin != NULL && !t.chunk->draw->sprites)
+        if (r->listener.bin != NULL)
             tell_bins(device, t.chunk);
     }
 }

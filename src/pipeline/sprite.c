@@ -3,7 +3,7 @@
  * that may cover a pixel centre, in order.
  *
  * Invariant: a record is a function of its vertex alone, found by one source in single steps of float. */
-#include "pipeline/stages.h"
+#include "pipeline/record.h"
 
 /* |D| in square pixels; pixels. The smallest point has sides of 1/256. */
 static const float smallest_area = 0x1p-16f, smallest_point = 0x1p-18f, largest_side = 0x1p16f;
@@ -110,7 +110,16 @@ void lom_set_up_sprites(const struct lom_pass *pass, struct lom_chunk *chunk)
         return;
     for (size_t i = 0; i < chunk->vertex_count; i++) {
         lom_primitive p = { .row = { (uint32_t)(i * pitch) } };
-        if (chunk->assembly->codes[i] == 0 && set_up(pass, draw, chunk->rows + i * pitch, &p))
+        const bool told = pass->recorder != NULL && lom_record_triangle(pass, chunk, i);
+        const bool inside = chunk->assembly->codes[i] == 0;
+        const bool drawn = inside && set_up(pass, draw, chunk->rows + i * pitch, &p);
+        if (told) {
+            const uint32_t end[2] = { (uint32_t)i, (uint32_t)i };
+            if (inside)
+                lom_record_line(chunk, end, drawn);
+            lom_record_set_up(pass, chunk, chunk->triangle_count);
+        }
+        if (drawn)
             lom_add_primitive(pass, chunk, &p);
     }
 }

@@ -1,7 +1,6 @@
 /* Proves of records of triangles that a stage behind the vertices made: a draw whose geometry function hands its triangles on is
  * recorded as the draw without it is - fate, edges, weights, clip positions, varyings - but that its vertices have no
- * index; of a tessellated patch the number is the patch's; the bytes are those of a device that watches nothing, and a
- * listener is not told of them. */
+ * index; of a tessellated patch the number is the patch's; the bytes are those of a device that watches nothing. */
 #include <lom/record.h>
 #include <lom/stages.h>
 
@@ -141,38 +140,6 @@ static void patches_give_their_number(void)
     close_stage(&unwatched);
 }
 
-static bool begins(void *context, uint64_t number, const lom_pass_desc *pass)
-{
-    (void)context;
-    (void)number;
-    (void)pass;
-    return true;
-}
-
-static void count(void *context, const lom_told_triangle *triangle)
-{
-    (void)triangle;
-    ++*(int *)context;
-}
-
-static void a_listener_is_not_told(void)
-{
-    int told[2] = { 0, 0 };
-    make_soup();
-    for (int i = 0; i < 2; i++) {
-        stage s = open_stage((lom_device_desc){ .threads = 1 }, SIZE, SIZE, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH32F);
-        lom_draw_desc draw = draw_of(&shown, soup, 3 * TRIANGLES);
-        draw.geometry = i == 0 ? NULL : &handed_on;
-        CHECK(lom_listen(s.device, &(lom_listener){ .context = &told[i], .begins = begins, .triangle = count }), "%s",
-              lom_device_error(s.device)->text);
-        begin(&s, (lom_pass_desc){ .samples = 1 });
-        lom_draw(s.device, &draw);
-        finish(&s);
-        close_stage(&s);
-    }
-    CHECK(told[0] == TRIANGLES && told[1] == 0, "%d and %d triangles are told", told[0], told[1]);
-}
-
 int main(int argc, char **argv)
 {
     if (LOM_LANES != 4) {
@@ -181,6 +148,5 @@ int main(int argc, char **argv)
     }
     RUN(triangles_that_are_handed_on_are_recorded_as_others);
     RUN(patches_give_their_number);
-    RUN(a_listener_is_not_told);
     return check_failed_tests != 0;
 }

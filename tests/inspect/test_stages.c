@@ -100,7 +100,8 @@ static bool has_legend(const lom_stage_picture *picture, const char *text)
 static void fates_are_shown_where_the_triangles_lie(const lom_stage_pictures *pictures)
 {
     const lom_stage_picture *cull = find(pictures, "cull");
-    CHECK(has_legend(cull, "culled by their facing: 1") && has_legend(cull, "drawn: 3"), "%s", cull->legend[0].text);
+    CHECK(has_legend(cull, "culled by their facing: 1 triangle") && has_legend(cull, "drawn: 3 triangles"), "%s",
+          cull->legend[0].text);
     CHECK(cull->image->width == WIDTH * ZOOM && cull->image->height == HEIGHT * ZOOM);
     for (int k = 0; k < 3; k++)
         for (int step = 1; step < 8; step++) {
@@ -123,8 +124,8 @@ static void new_vertices_are_marked_where_the_plane_cuts(const lom_stage_picture
 {
     const lom_stage_picture *clip = find(pictures, "clip");
     CHECK(clip->image != NULL && has_legend(clip, "new vertices, made by clipping: 3 corners"));
-    CHECK(strstr(clip->text, "cross a plane: 1,") != NULL && strstr(clip->text, "pieces left: 2.") != NULL, "%s",
-          clip->text);
+    CHECK(strstr(clip->text, "crosses a plane: 1 triangle,") != NULL && strstr(clip->text, "pieces left: 2.") != NULL,
+          "%s", clip->text);
     double t = (3 - near_plane) / (3 - -2.0), x = 1 - t; /* of the way from w = 3 to w = -2; in parts of x1 */
     for (int side = -1; side <= 1; side += 2) {
         double share[2] = { (side * x + 1) / 2, (near_plane + 2) / 5 };
