@@ -621,10 +621,11 @@ typedef struct lom_draw_desc {
     lom_logic logic;                  /* of all attachments, which are then not blended; OFF: none */
     uint8_t mask_off[LOM_MAX_COLORS]; /* bit 0 red .. bit 3 alpha: not written */
     lom_rect scissor;                 /* of the frame, within the pass's; width 0: the pass's */
-    /* Where -w <= x, y <= w lies in the frame, and which depths 0 <= z <= w has (or -w <= z: lom_clip_range), in 0..1 and in
-     * either order. Draws of one pass may have several: OpenGL 4.6, 13.8.1 "Controlling the Viewport". Triangles and lines
-     * end at its edges; of sprites, points and wide lines, too, what lies beside it is not drawn. As large and as far off as
-     * the pass's may be; a draw of another is an error. Width 0: the pass's; both depths 0: the pass's. */
+    /* Where -w <= x, y <= w lies in the frame, and which depths 0 <= z <= w has (or -w <= z: lom_clip_range), in
+     * 0..1 and in either order. Draws of one pass may have several: OpenGL 4.6, 13.8.1 "Controlling the Viewport".
+     * Triangles and lines end at its edges; of sprites, points and wide lines, too, what lies beside it is not
+     * drawn. As large and as far off as the pass's may be; a draw of another is an error. Width 0: the pass's; both
+     * depths 0: the pass's. */
     lom_rect viewport;
     float min_depth, max_depth;
     bool per_sample; /* the fragment shader runs for each sample */

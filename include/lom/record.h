@@ -181,7 +181,8 @@ const char *lom_reach_text(lom_reach reach); /* a part of a sentence: "culled by
 /* What set-up was given: the triangle itself, or a piece that clipping left of it. */
 typedef struct lom_told_piece {
     float clip[3][4];
-    /* Pixels of the frame, as they were snapped, and depth. Of a point or sprite: its middle, and the middles of two sides. */
+    /* Pixels of the frame, as they were snapped, and depth. Of a point or sprite: its middle, and the middles of two
+     * sides. */
     float window[3][3];
     bool made[3];    /* by clipping: none of the triangle's own vertices */
     lom_reach reach; /* FACING or more */
@@ -219,8 +220,8 @@ typedef struct lom_listener {
 } lom_listener;
 
 /* Listens from the next pass on; NULL: nobody does. Copied. Instead of whatever was watched: a device watches or is
- * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; triangles and lines of
- * shaders that were not built at 4 lanes are not told. False, with an error on the device: in a pass. */
+ * listened to. A pass that is told is drawn as a watched one is, its clusters (lom_culling) with it; triangles and
+ * lines of shaders that were not built at 4 lanes are not told. False, with an error on the device: in a pass. */
 bool lom_listen(lom_device *device, const lom_listener *listener);
 /* Of a triangle while it is told: its vertices, by the vertex stage, with what their shader names. False: no memory. */
 bool lom_tell_vertices(const lom_told_triangle *triangle, lom_vertex_record vertex[3]);

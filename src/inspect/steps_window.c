@@ -1,5 +1,5 @@
-/* Primitives in the window. In: what is told of them. Out: the window with what lies beside the frame; what set-up left out, and
- * why; what is in the lists of tiles. Invariant: places are those that were snapped. */
+/* Primitives in the window. In: what is told of them. Out: the window with what lies beside the frame; what set-up
+ * left out, and why; what is in the lists of tiles. Invariant: places are those that were snapped. */
 #include "inspect/steps_triangles.h"
 
 #include "base/numbers.h"
@@ -50,7 +50,8 @@ static struct ink dim(struct ink ink, const lom_told_piece *piece)
     return ink;
 }
 
-/* Corners of its outline: of a point or sprite with the middle m and the half sides a, b they are m - a - b, m + a - b ... */
+/* Corners of its outline: of a point or sprite with the middle m and the half sides a, b they are m - a - b, m + a -
+ * b ... */
 static int find_outline(const lom_told_triangle *t, const lom_told_piece *piece, float corner[4][3])
 {
     static const int signs[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };

@@ -119,11 +119,13 @@ bool lom_record_end(lom_device *device);
 struct record_pixel *lom_record_next(struct lom_recorder *recorder, int x, int y, size_t *next);
 
 /* ---- record_chunk.c ---- */
-/* Whether primitive i of the chunk comes near a watched pixel, or is told: then it becomes the chunk's candidate at hand. */
+/* Whether primitive i of the chunk comes near a watched pixel, or is told: then it becomes the chunk's candidate at
+ * hand. */
 bool lom_record_triangle(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i);
 /* It has been through set-up, alone, since the chunk had `before` triangles. */
 void lom_record_set_up(const struct lom_pass *pass, struct lom_chunk *chunk, size_t before);
-/* A piece of the line at hand, or the point or sprite, both of whose ends are its row; drawn: set-up has left a record of it. */
+/* A piece of the line at hand, or the point or sprite, both of whose ends are its row; drawn: set-up has left a
+ * record of it. */
 void lom_record_line(struct lom_chunk *chunk, const uint32_t end[2], bool drawn);
 void lom_record_stage(struct lom_chunk *chunk, const uint32_t *corners, int stage, const lom_mask *alive);
 

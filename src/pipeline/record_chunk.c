@@ -27,8 +27,8 @@ static int32_t reach_of(const struct lom_draw *draw)
     return draw->lines ? (draw->desc.line_width + 1) * (SUBPIXELS / 2) : 0;
 }
 
-/* Whether all three vertices lie beyond one side of the range, grown by a pixel and the draw's reach: in clip space, where that
- * holds for every point of the triangle with w > 0. */
+/* Whether all three vertices lie beyond one side of the range, grown by a pixel and the draw's reach: in clip space,
+ * where that holds for every point of the triangle with w > 0. */
 static bool is_beside(const struct lom_draw *draw, const struct range *r, const float clip[3][4])
 {
     const int32_t more = SUBPIXELS + reach_of(draw);

@@ -1,6 +1,6 @@
-/* Where a draw is laid on the frame. In: the viewports, depth ranges and scissors that passes and draws name. Out: those
- * of each draw, resolved. Invariant: a pixel that a draw may change lies in the attachments, its viewport and both scissors;
- * numbers in its chunks are from the corner of its own viewport. */
+/* Where a draw is laid on the frame. In: the viewports, depth ranges and scissors that passes and draws name. Out:
+ * those of each draw, resolved. Invariant: a pixel that a draw may change lies in the attachments, its viewport and
+ * both scissors; numbers in its chunks are from the corner of its own viewport. */
 #include "pipeline/device.h"
 
 lom_rect lom_intersect_rects(lom_rect a, lom_rect b)

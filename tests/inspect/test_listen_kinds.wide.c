@@ -1,6 +1,6 @@
-/* Proves that whoever listens is told of lines, points and sprites, and of what tessellation and geometry functions made, as
- * of triangles: how far each came, where it lies, of what it was made; and that the captions of `lom steps` count each by
- * its name. */
+/* Proves that whoever listens is told of lines, points and sprites, and of what tessellation and geometry functions
+ * made, as of triangles: how far each came, where it lies, of what it was made; and that the captions of `lom steps`
+ * count each by its name. */
 #include <lom/inspect.h>
 #include <lom/stages.h>
 

@@ -1,6 +1,6 @@
-/* Proves what is recorded of the tests of fragments: where several fragments of a packet lie at one pixel, each is told what
- * was there when its turn came, of tests before and behind the shader; who fails the stencil test is told so, apart from
- * who fails for depth, and `lom explain` has a sentence of it. */
+/* Proves what is recorded of the tests of fragments: where several fragments of a packet lie at one pixel, each is
+ * told what was there when its turn came, of tests before and behind the shader; who fails the stencil test is told
+ * so, apart from who fails for depth, and `lom explain` has a sentence of it. */
 #include <lom/inspect.h>
 
 #include "../pipeline/stage.h"
@@ -113,8 +113,8 @@ static void fragments_at_one_pixel_are_told_their_turn(void)
 
 /* ---- stencil ---- */
 
-/* Of a target that begins with the code 7: draw 0 replaces it by itself; 1 passes; 2 asks for another code; 3 asks for it
- * behind what is stored, and 4 asks for the right one there; 5 fails by the one bit that it reads. */
+/* Of a target that begins with the code 7: draw 0 replaces it by itself; 1 passes; 2 asks for another code; 3 asks
+ * for it behind what is stored, and 4 asks for the right one there; 5 fails by the one bit that it reads. */
 static const struct tried {
     uint8_t reference, read_off;
     float depth;

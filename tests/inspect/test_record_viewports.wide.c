@@ -1,5 +1,5 @@
-/* Proves that draws which share a pass and have viewports of their own are recorded, told and tallied as they are in passes
- * that have these viewports: edges, areas, places, fates. */
+/* Proves that draws which share a pass and have viewports of their own are recorded, told and tallied as they are in
+ * passes that have these viewports: edges, areas, places, fates. */
 #include <lom/record.h>
 
 #include "../pipeline/stage.h"

@@ -1,7 +1,7 @@
-/* What the tests of clipping share: shaders that count, and the oracle. It clips nothing: the weights of a pixel are solved
- * from the homogeneous positions (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997), so
- * every condition of being visible is a linear function of the window position. Pixels further than a pixel's 1/256 from
- * every zero line must agree. */
+/* What the tests of clipping share: shaders that count, and the oracle. It clips nothing: the weights of a pixel are
+ * solved from the homogeneous positions (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates,
+ * 1997), so every condition of being visible is a linear function of the window position. Pixels further than a
+ * pixel's 1/256 from every zero line must agree. */
 #ifndef LOM_TESTS_CLIPPING_H
 #define LOM_TESTS_CLIPPING_H
 

@@ -1,6 +1,6 @@
-/* Proves that draws of one pass may have several viewports at this width: their pixels are those of as many passes with a
- * viewport each, bit for bit, whatever is drawn, with any samples, tiles and threads, and in any crop; each ends at the
- * edges of its own viewport and has its own range of depths; what is no viewport is refused. */
+/* Proves that draws of one pass may have several viewports at this width: their pixels are those of as many passes
+ * with a viewport each, bit for bit, whatever is drawn, with any samples, tiles and threads, and in any crop; each
+ * ends at the edges of its own viewport and has its own range of depths; what is no viewport is refused. */
 #include "stage.h"
 
 enum { WIDTH = 150, HEIGHT = 110, VERTICES = 240, DRAWS = 5 };

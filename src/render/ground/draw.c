@@ -178,6 +178,22 @@ void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, 
                                              .front_clockwise = view->mirrored });
 }
 
+void lom_draw_cut_wires(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                        const lom_draw_desc *how, const float color[3])
+{
+    const lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
+    const struct lom_view_uniform places = { .clip_from_offset = lom_round_matrix(&clip_from_offset) };
+    struct lom_cut_wire_uniforms wire = { .terrain = lom_terrain_uniforms_of(renderer, &places, view->eye) };
+    lom_draw_desc draw = *how;
+    if (color != NULL)
+        memcpy(wire.color, color, sizeof wire.color);
+    draw.uniforms = &wire;
+    draw.shader = color != NULL ? &lom_cut_wire_shader : &lom_cut_wire_surface_shader;
+    draw.tessellation = &lom_terrain_patches;
+    draw.geometry = color != NULL ? &lom_triangle_edges : NULL;
+    lom_draw_ground_blocks(renderer, culler, &draw);
+}
+
 bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler)
 {
     for (int i = 0; i < ground->across * ground->down; i++)

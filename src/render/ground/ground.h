@@ -84,6 +84,9 @@ bool lom_prepare_ground(struct frame *f, lom_error *error);
 /* Draws what a pass sees of it. */
 void lom_draw_ground(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
                      const struct lom_view_uniform *uniform);
+/* The patches once more, as `how` says: the edges of their triangles in this colour, or, NULL, depth alone. */
+void lom_draw_cut_wires(lom_renderer *renderer, const struct lom_scene_view *view, const struct lom_culler *culler,
+                        const lom_draw_desc *how, const float color[3]);
 void lom_free_ground(lom_renderer *renderer);
 /* The scene's pictures of it. */
 bool lom_load_ground_maps(lom_renderer *renderer, lom_error *error);

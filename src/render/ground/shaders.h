@@ -65,4 +65,15 @@ void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culle
 extern const lom_shader lom_terrain_cut_phong, lom_terrain_cut_gouraud, lom_terrain_cut_flat;
 extern const lom_tessellation lom_terrain_patches, lom_terrain_lit_patches;
 
+/* Wires of patches: what cuts them sees the first member. */
+struct lom_cut_wire_uniforms {
+    struct lom_terrain_uniforms terrain;
+    float color[3];
+};
+
+extern const lom_shader lom_cut_wire_shader, lom_cut_wire_surface_shader;
+extern const lom_geometry
+    lom_triangle_edges; /* the three edges of each triangle, from the smaller position to the greater:
+                                                 two triangles draw an edge that they share at the same pixels */
+
 #endif

@@ -99,18 +99,12 @@ static void draw_ground(struct frame *f, const struct lom_culler *culler, bool e
     }
 }
 
-/* Terrain in patches: a geometry function makes lines of the triangles that they were cut into. */
 static void draw_cut_ground(struct frame *f, const struct lom_culler *culler, bool edges)
 {
-    const lom_mat4 clip_from_offset = lom_clip_from_offset(&f->view.projection, &f->view.view);
-    const struct lom_view_uniform view = { .clip_from_offset = lom_round_matrix(&clip_from_offset) };
-    struct lom_cut_wire_uniforms wire = { .terrain = lom_terrain_uniforms_of(f->renderer, &view, f->view.eye) };
-    set_color(f, wire.color);
-    lom_draw_desc draw = edges ? edge_draw(f, &wire) : surface_draw(&wire);
-    draw.shader = edges ? &lom_cut_wire_shader : &lom_cut_wire_surface_shader;
-    draw.tessellation = &lom_terrain_patches;
-    draw.geometry = edges ? &lom_triangle_edges : NULL;
-    lom_draw_ground_blocks(f->renderer, culler, &draw);
+    const lom_draw_desc draw = edges ? edge_draw(f, NULL) : surface_draw(NULL);
+    float color[3];
+    set_color(f, color);
+    lom_draw_cut_wires(f->renderer, &f->view, culler, &draw, edges ? color : NULL);
 }
 
 static void draw_all(struct frame *f, const struct lom_culler *culler, bool edges)
