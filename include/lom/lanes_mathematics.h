@@ -52,10 +52,12 @@ LOM_INLINE lom_double lom_select_double(lom_long mask, lom_double a, lom_double 
 LOM_INLINE lom_double lom_splat_double(double value)
 {
     typedef double lom_half_double __attribute__((vector_size(LOM_LANES * 4)));
+    const lom_half_double zero = { 0 };
     union {
         lom_half_double half[2];
         lom_double whole;
-    } both = { .half = { value - (lom_half_double){ 0 }, value - (lom_half_double){ 0 } } };
+    } both;
+    both.half[0] = both.half[1] = value - zero;
     return both.whole;
 }
 

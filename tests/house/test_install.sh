@@ -39,8 +39,10 @@ lom-cc -c triangle.c -o triangle.o || fail lom_cc_builds_all_widths "lom-cc fail
 $CC triangle.o $archive -o triangle || fail lom_cc_builds_all_widths "linking fails"
 all=$(./triangle) || fail lom_cc_builds_all_widths "the program fails"
 [ -s triangle.png ] || fail lom_cc_builds_all_widths "no picture is written"
-lom-cc -c mirror.c -o mirror.o && $CC mirror.o $archive -o mirror || fail lom_cc_builds_all_widths "mirror.c"
-mirrored=$(./mirror) && [ -s mirror.png ] || fail lom_cc_builds_all_widths "mirror.c draws nothing"
+for example in mirror viewports; do
+    lom-cc -c $example.c -o $example.o && $CC $example.o $archive -o $example || fail lom_cc_builds_all_widths "$example.c"
+    ./$example >$example.all && [ -s $example.png ] || fail lom_cc_builds_all_widths "$example.c draws nothing"
+done
 echo "PASS lom_cc_builds_all_widths"
 
 lom-cc -c fountain.c -o fountain.o || fail stages_are_built_at_all_widths "lom-cc fails"
@@ -54,9 +56,11 @@ $CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi triangle.c $
     fail one_width_is_enough "cc fails"
 one=$(./single)
 [ "$one" = "$all" ] || fail one_width_is_enough "$one is not $all"
-$CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi mirror.c $archive -o single ||
-    fail one_width_is_enough "cc fails on mirror.c"
-[ "$(./single)" = "$mirrored" ] || fail one_width_is_enough "$(./single) is not $mirrored"
+for example in mirror viewports; do
+    $CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi $example.c $archive -o single ||
+        fail one_width_is_enough "cc fails on $example.c"
+    [ "$(./single)" = "$(cat $example.all)" ] || fail one_width_is_enough "$(./single) is not $(cat $example.all)"
+done
 echo "PASS one_width_is_enough"
 
 if [ -n "$sanitize" ]; then
