@@ -339,6 +339,20 @@ bool lom_sample_position(int samples, int i, int position[2]);
  *   (the upper one of two); sRGB codes are decoded, and the mean is encoded, each rounded to nearest; floats are added in
  *   pairs, (s0 + s1) + (s2 + s3) and so on, and rounded to the format. The depth is that of sample 0. */
 
+/* ---- edges ---- */
+
+/* The other way to smooth edges, beside samples: what a pass draws with one sample a pixel says where its triangles end
+ * (lom_pass_desc.edges), and lom_smooth_edges mixes each pixel with what lies beyond. After Malan, "Edge Anti-aliasing by
+ * Post-Processing" (GPU Pro, 2010), and Persson's geometric anti-aliasing (2011).
+ *
+ * Where the fragment that a pixel shows belongs to a triangle, its texel of `edges` says how far the triangle reaches from
+ * the pixel's centre to the right (red), left (green), down (blue) and up (alpha), along the row and the column of centres:
+ * a distance of d pixels is the number d / (1 + d), rounded to nearest in 255 steps, so that none is too long and those
+ * below a pixel are known to 1/255 to 4/255 of it. d is the least l / -s of the triangle's weights l, s what they change by a pixel
+ * that way, those below 0, and of the sums of clip distances that cut the triangle. 1 is nothing: of clear values, and of
+ * sprites, points and lines. Draws that write depth write it, under the same tests and discards as their colours; others
+ * leave it. */
+
 /* ---- passes ---- */
 
 typedef struct lom_rect {
@@ -365,6 +379,8 @@ typedef struct lom_pass_desc {
     lom_texture *color
         [LOM_MAX_COLORS]; /* 2D textures, arrays or cubes, made without pixels; NULL from the first unused one on */
     lom_texture *depth;   /* depth format; NULL: no depth test */
+    lom_texture
+        *edges; /* 2D, RGBA8, at least one colour unused; 1 sample: where triangles end, above; NULL: not kept */
     lom_slice color_slice[LOM_MAX_COLORS], depth_slice; /* all of one size; zero: level 0 of the first layer */
     int samples;                                        /* of a pixel, lom_sample_position; 0: 1 */
     bool per_sample;                                    /* of all its draws */
@@ -375,6 +391,7 @@ typedef struct lom_pass_desc {
     lom_clip_range clip_range;
     float min_depth, max_depth; /* of draws that name none; both 0: 0 and 1 */
     lom_load_action color_load[LOM_MAX_COLORS], depth_load, stencil_load;
+    lom_load_action edges_load;           /* cleared, edges are 1 */
     float clear_color[LOM_MAX_COLORS][4]; /* linear light */
     float clear_depth;                    /* 0 is the far plane of reversed depth */
     uint8_t clear_stencil;                /* of depth attachments that have a stencil */
@@ -648,6 +665,19 @@ typedef struct lom_draw_desc {
 
 /* Adds a draw to the pass. A bad descriptor is an error on the device and draws nothing. */
 void lom_draw(lom_device *device, const lom_draw_desc *desc);
+
+/* What a pass with `edges` has left, of one size: level 0 of 2D textures. */
+typedef struct lom_edge_filter {
+    const lom_texture *color, *edges, *depth; /* the depth reversed: 0 is the farthest */
+    int origin_x, origin_y;                   /* the frame's pixel that pixel (0, 0) of these is */
+} lom_edge_filter;
+
+/* Adds a draw to the pass at hand, into another texture, of whose pixels each gets the filter's colour with the light of its
+ * four neighbours, by the part of the pixel that lies beyond an edge between the two: exactly, for one straight edge of a
+ * known triangle before something farther. An edge is where depths of neighbours jump by more than 1/64 of the nearer one
+ * and by more than twice the lesser of the slopes on either side; of all other pixels the colour is the filter's. A pixel depends on those that are
+ * up to two pixels away. The filter is not copied: its textures live until lom_end_pass. Formulas: docs/samples.md. */
+void lom_smooth_edges(lom_device *device, const lom_edge_filter *filter);
 
 #pragma GCC diagnostic pop
 LOM_API_END

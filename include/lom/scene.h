@@ -24,6 +24,9 @@ typedef enum lom_output_format { LOM_OUTPUT_RGB8, LOM_OUTPUT_RGB16, LOM_OUTPUT_R
 /* From linear light to the light of the picture: cut off at 1 (not in RGB32F), or a curve that bends towards 1. */
 typedef enum lom_curve { LOM_CURVE_CLAMP, LOM_CURVE_REINHARD, LOM_CURVE_FILMIC, LOM_CURVE_ACES } lom_curve;
 
+/* Edges as one sample a pixel draws them, or mixed with what lies beyond them (lom_smooth_edges). */
+typedef enum lom_output_edges { LOM_EDGES_SHARP, LOM_EDGES_SMOOTH } lom_output_edges;
+
 typedef struct lom_output {
     bool present;
     int width, height;        /* pixels, 1..LOM_MAX_SIZE */
@@ -33,6 +36,7 @@ typedef struct lom_output {
     double fps;               /* frame n shows the time n / fps, in seconds */
     int samples;              /* a pixel: 1, 2, 4, 8, 16 (lom/pipeline.h); 0: 1 */
     bool sample_shading;      /* each of them is shaded */
+    lom_output_edges edges;   /* with one sample */
     double exposure;          /* stops, -10..10: light is multiplied by 2 to this power, before the curve */
     lom_curve curve;
     double white; /* what LOM_CURVE_REINHARD and LOM_CURVE_FILMIC show as 1, from 1, exposure applied */

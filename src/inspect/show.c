@@ -28,10 +28,25 @@ static lom_image *read_floats(const lom_texture *texture, lom_format format, con
     return floats;
 }
 
+/* Of a picture of the drawn part, which is freed, what was asked for. */
+static lom_image *take_asked(const lom_renderer *r, lom_image *drawn, lom_error *error)
+{
+    const lom_rect *asked = &r->targets.asked;
+    if (drawn == NULL || (drawn->width == asked->width && drawn->height == asked->height))
+        return drawn;
+    lom_image *image = lom_create_image(asked->width, asked->height, 1, drawn->format, error);
+    const size_t bytes = (size_t)asked->width * lom_format_size(drawn->format);
+    for (int y = 0; image != NULL && y < asked->height; y++)
+        memcpy(lom_image_pixel(image, 0, y, 0), lom_image_pixel(drawn, asked->x, asked->y + y, 0), bytes);
+    lom_free_image(drawn);
+    return image;
+}
+
 static lom_image *show_picture(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
     (void)desc;
-    return read_floats(r->targets.of[LOM_TARGET_COLOR], LOM_FORMAT_RGB32F, "picture", error);
+    lom_image *drawn = read_floats(r->targets.of[LOM_TARGET_COLOR], LOM_FORMAT_RGB32F, "picture", error);
+    return take_asked(r, drawn, error);
 }
 
 static lom_image *show_reflection(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
@@ -59,7 +74,7 @@ static lom_image *read_distance(lom_renderer *r, enum lom_target target, const c
 static lom_image *show_depth(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
     (void)desc;
-    return read_distance(r, LOM_TARGET_DEPTH, "depth", error);
+    return take_asked(r, read_distance(r, LOM_TARGET_DEPTH, "depth", error), error);
 }
 
 static lom_image *show_refraction_depth(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)

@@ -258,6 +258,7 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     draw->depth_write = depth && !desc->depth_write_off;
     draw->late_depth = shader->discards || shader->writes_depth || desc->alpha_to_coverage;
     draw->biased = pass->depth != NULL && (desc->depth_bias != 0 || desc->depth_bias_slope != 0);
+    draw->marks_edges = pass->edges != 0 && draw->depth_write;
     lom_derive_output(pass, draw);
     lom_resolve_stencil_state(&desc->stencil);
     draw->full_tests = desc->stencil.enabled || desc->query != NULL;
@@ -265,7 +266,8 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     draw->sampled = pass->samples > 1 || desc->alpha_to_coverage || (draw->full_tests && draw->late_depth);
     draw->constant = !pass->is_recorded && pass->samples == 1 && shader->fragment[draw->variant] != NULL &&
                      shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&
-                     !draw->sprites && !shader->reads_depth && !draw->two_sources && !draw->full_tests;
+                     !draw->sprites && !shader->reads_depth && !draw->two_sources && !draw->full_tests &&
+                     !draw->marks_edges;
     draw->queues_depth = shader->reads_position || draw->late_depth || draw->full_tests;
     lom_derive_viewport(pass, draw);
     draw->rasterizes = !pass->desc.feedback_only && draw->scissor.width > 0 && draw->scissor.height > 0;

@@ -9,13 +9,12 @@
 
 enum { ALL_LANES = (1 << LOM_LANES) - 1 };
 
-/* d / w of the three vertices, scaled by a power of two so that the largest is in 1..2: no product with a weight
- * overflows, and none that could decide alone vanishes. */
-static void scale_distances(const struct lom_chunk *chunk, const lom_triangle *t, int offset, float d[3])
+/* No product with a weight overflows, and none that could decide alone vanishes. */
+void LOM_WIDE(lom_scale_distances)(const struct lom_chunk *chunk, const lom_primitive *p, int offset, float d[3])
 {
     double product[3], largest = 0, scale;
     for (int k = 0; k < 3; k++) {
-        const float *row = chunk->rows + t->primitive.row[k];
+        const float *row = chunk->rows + p->row[k];
         product[k] = (double)row[offset] * row[ROW_HEADER - 1]; /* exact */
         double size = product[k] < 0 ? -product[k] : product[k];
         largest = size > largest ? size : largest;
@@ -37,7 +36,7 @@ void LOM_WIDE(lom_test_distances)(const struct lom_tile *tile, const lom_triangl
     double x1 = t->step_x1, y1 = t->step_y1, x2 = t->step_x2, y2 = t->step_y2;
     for (uint32_t clip = t->primitive.state >> TRIANGLE_CLIP; clip != 0; clip &= clip - 1) {
         float d[3];
-        scale_distances(tile->chunk, t, tile->draw->distance_offset + __builtin_ctz(clip), d);
+        LOM_WIDE(lom_scale_distances)(tile->chunk, &t->primitive, tile->draw->distance_offset + __builtin_ctz(clip), d);
         lom_float sum = l[0] * d[0] + l[1] * d[1] + l[2] * d[2];
         double gx = -(x1 + x2) * d[0] + x1 * d[1] + x2 * d[2], gy = -(y1 + y2) * d[0] + y1 * d[1] + y2 * d[2];
         bool keeps_zero = gx > 0 || (gx == 0 && gy >= 0);

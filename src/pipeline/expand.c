@@ -7,7 +7,7 @@
 #include "lanes/variants.h"
 #include "pipeline/variants.h"
 
-enum { MOST_LANES = 16, PACKET = 16, VERTEX_FLOATS = sizeof(lom_vertex) / LOM_LANES / sizeof(float) };
+enum { PACKET = 16, VERTEX_FLOATS = sizeof(lom_vertex) / LOM_LANES / sizeof(float) };
 
 /* Room for whole packets behind what there is. */
 static bool reserve_rows(const struct lom_draw *draw, struct lom_stage_rows *rows, size_t count)

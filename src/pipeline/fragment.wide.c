@@ -4,6 +4,7 @@
  *
  * Invariant: a lane's values do not depend on which fragments share its packet; a packet of one triangle broadcasts its
  * rows where a mixed one picks them, with the same arithmetic. */
+#include "pipeline/mark_edges.h"
 #include "pipeline/run_shader.h"
 
 #include <lom/lanes_mathematics.h>
@@ -242,6 +243,21 @@ void LOM_WIDE(lom_write_in_order)(struct lom_tile *tile, const struct lom_places
     }
 }
 
+/* With draw->marks_edges. */
+static __attribute__((noinline)) void mark_edges(struct lom_tile *tile, const struct lom_packet *packet)
+{
+    const lom_shader *shader = tile->draw->desc.shader;
+    struct rows rows;
+    lom_float4 step;
+    if (tile->draw->lines) {
+        LOM_WIDE(lom_mark_no_edges)(tile);
+        return;
+    }
+    find_rows(tile->chunk, packet, &rows);
+    find_steps(&rows, &step);
+    LOM_WIDE(lom_mark_edges)(tile, packet, &step, shader->clip_distances != 0);
+}
+
 static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const struct lom_packet *packet)
 {
     const struct lom_chunk *chunk = tile->chunk;
@@ -263,6 +279,8 @@ static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const
             find_position(tile, packet, &p, &in);
         LOM_RECORD_HOOK(lom_record_weights, tile, &p.b1, &p.b2);
     }
+    if (tile->draw->marks_edges)
+        mark_edges(tile, packet);
     lom_run_shader(tile, packet, &in);
 }
 

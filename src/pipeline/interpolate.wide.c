@@ -4,6 +4,7 @@
  * for the packets of one triangle: fragment.wide.c, which is plainer, finds it again for each packet.
  *
  * Invariant: varyings are those of fragment.wide.c, by the same arithmetic. */
+#include "pipeline/mark_edges.h"
 #include "pipeline/run_shader.h"
 #include "pipeline/slots.h"
 
@@ -124,6 +125,18 @@ LOM_INLINE void find_varyings(const struct values *v, const lom_shader *shader, 
     }
 }
 
+/* With draw->marks_edges. */
+static __attribute__((noinline)) void mark_edges(struct lom_tile *tile, const struct values *v,
+                                                 const struct lom_packet *packet, bool is_cut)
+{
+    const lom_float4 step = { load_value(v, STEPS), load_value(v, STEPS + 1), load_value(v, STEPS + 2),
+                              load_value(v, STEPS + 3) };
+    if (tile->draw->lines)
+        LOM_WIDE(lom_mark_no_edges)(tile);
+    else
+        LOM_WIDE(lom_mark_edges)(tile, packet, &step, is_cut);
+}
+
 /* ---- one triangle ---- */
 
 static float lesser(float a, float b)
@@ -145,13 +158,16 @@ static bool is_negative_zero(float x)
 
 /* What the slopes of the weights are made of. Where all 1/w are 1 the sums are 0, and k - b 0 is k: b is finite where a
  * pixel is covered, and k is not -0. */
-static void fill_slopes(struct lom_facet *facet, const lom_triangle *t, const float one_over_w[3])
+static void fill_slopes(struct lom_facet *facet, const lom_triangle *t)
 {
+    const float *one_over_w = facet->value + ONE_OVER_W;
     const float step[2][2] = { { t->step_x1 * t->inverse_area, t->step_x2 * t->inverse_area },
                                { t->step_y1 * t->inverse_area, t->step_y2 * t->inverse_area } };
     facet->level = one_over_w[0] == 1 && one_over_w[1] == 1 && one_over_w[2] == 1;
     for (int axis = 0; axis < 2; axis++) {
         float *k = facet->slope[axis];
+        facet->value[STEPS + axis] = step[axis][0];
+        facet->value[STEPS + 2 + axis] = step[axis][1];
         k[0] = step[axis][0] * one_over_w[1];
         k[1] = step[axis][1] * one_over_w[2];
         k[2] = k[0] + k[1] - (step[axis][0] + step[axis][1]) * one_over_w[0];
@@ -201,7 +217,7 @@ static __attribute__((noinline)) void fill_facet(struct lom_tile *tile, const lo
     }
     provoking = row[p->state >> TRIANGLE_PROVOKING & 3];
     in->front = lom_splat_int(-(int32_t)(p->state >> TRIANGLE_FRONT & 1));
-    fill_slopes(facet, &t, to + ONE_OVER_W);
+    fill_slopes(facet, &t);
     to += VALUES;
     uint32_t declared = (UINT32_C(1) << shader->varyings) - 1;
     for (uint32_t reads = shader->reads & declared; reads != 0; reads &= reads - 1, to += VALUE_WORDS) {
@@ -225,6 +241,8 @@ LOM_INLINE void shade_with_facet(struct lom_tile *tile, const struct lom_packet 
         find_varyings(&values, shader, packet, shader->quads, in);
     if (shader->reads_position)
         lom_find_position(tile, &packet->places, in);
+    if (tile->draw->marks_edges)
+        mark_edges(tile, &values, packet, tile->facet.primitive->state >> TRIANGLE_CLIP != 0);
     lom_run_shader(tile, packet, in);
 }
 
@@ -333,7 +351,7 @@ static void fill_packet(struct lom_tile *tile, int slot)
     lom_int state = lom_as_int(last.w), provoking = state >> TRIANGLE_PROVOKING & 3;
     v.provoking = lom_select_int(provoking == 0, v.row[0], lom_select_int(provoking == 1, v.row[1], v.row[2]));
     store_value(list, FACING, slot, lom_as_float(-(state >> TRIANGLE_FRONT & 1)));
-    if (tile->draw->desc.shader->differentiates != 0)
+    if (tile->draw->desc.shader->differentiates != 0 || tile->draw->marks_edges)
         fill_steps(list, slot);
     fill_varyings(tile, &v, slot);
 }
@@ -354,6 +372,8 @@ void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, co
         in.x = lom_to_float((p->code >> CODE_X & 63) + tile->x) + 0.5f;
         in.y = lom_to_float((p->code >> CODE_Y & 63) + tile->y) + 0.5f;
     }
+    if (tile->draw->marks_edges) /* what clip distances cut is in no slot */
+        mark_edges(tile, &values, packet, false);
     lom_run_shader(tile, packet, &in);
 }
 

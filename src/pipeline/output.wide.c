@@ -275,12 +275,22 @@ void LOM_WIDE(lom_write_color)(struct lom_tile *tile, const struct lom_places *p
     }
 }
 
+static void write_edges(struct lom_tile *tile, const struct lom_places *places, lom_mask mask)
+{
+    const lom_float4 reach = { lom_load(tile->reach[0]), lom_load(tile->reach[1]), lom_load(tile->reach[2]),
+                               lom_load(tile->reach[3]) };
+    lom_store_places(tile->color[tile->pass->edges], tile, places, mask, join(quantise(&reach)));
+}
+
 static __attribute__((noinline)) void write_all(struct lom_tile *tile, const struct lom_places *places,
                                                 const lom_mask *mask, const lom_float4 *color)
 {
-    int outputs = tile->draw->desc.shader->colors;
-    for (int i = 0; i < tile->pass->colors && i < outputs; i++)
+    const struct lom_pass *pass = tile->pass;
+    int outputs = tile->draw->desc.shader->colors, targets = pass->edges != 0 ? pass->edges : pass->colors;
+    for (int i = 0; i < targets && i < outputs; i++)
         LOM_WIDE(lom_write_color)(tile, places, mask, &color[i], i);
+    if (tile->draw->marks_edges)
+        write_edges(tile, places, *mask);
 }
 
 void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *places, lom_mask *mask,

@@ -77,23 +77,39 @@ static uint32_t pack_clear(const struct lom_color_target *target)
     return packed;
 }
 
-static bool add_color(lom_device *device, int i)
+static bool add_color(lom_device *device, lom_texture *texture, lom_slice slice, lom_load_action load,
+                      const float clear[4])
 {
     struct lom_pass *pass = &device->pass;
-    lom_texture *texture = pass->desc.color[i];
-    struct lom_color_target *target = &pass->color[i];
-    if (!check_attachment(device, texture, pass->desc.color_slice[i], false))
+    struct lom_color_target *target = &pass->color[pass->colors];
+    if (!check_attachment(device, texture, slice, false))
         return false;
-    *target = (struct lom_color_target){ .texture = texture,
-                                         .slice = pass->desc.color_slice[i],
-                                         .format = texture->format,
-                                         .keep = pass->desc.color_load[i] == LOM_LOAD_KEEP };
+    *target = (struct lom_color_target){
+        .texture = texture, .slice = slice, .format = texture->format, .keep = load == LOM_LOAD_KEEP
+    };
     target->kind = texture->storage != LOM_STORAGE_RGBA8 ? COLOR_FLOAT : texture->srgb ? COLOR_SRGB8 : COLOR_UNORM8;
     for (int c = 0; c < 4; c++)
-        target->clear[c] = round_to_format(texture->format, pass->desc.clear_color[i][c]);
+        target->clear[c] = round_to_format(texture->format, clear[c]);
     target->clear_bytes = target->kind == COLOR_FLOAT ? 0 : pack_clear(target);
-    pass->colors = i + 1;
+    pass->colors++;
     return true;
+}
+
+/* Where triangles end is one more colour attachment, which no shader knows of. */
+static bool add_edges(lom_device *device, lom_texture *texture)
+{
+    static const float nothing[4] = { 1, 1, 1, 1 };
+    struct lom_pass *pass = &device->pass;
+    if (pass->colors == 0 || pass->colors == LOM_MAX_COLORS || pass->samples > 1)
+        return lom_fail(&device->error, LOM_ERROR_USAGE,
+                        "A pass that keeps edges has 1 to %d colour attachments and one sample a pixel, not %d and %d.",
+                        LOM_MAX_COLORS - 1, pass->colors, pass->samples);
+    pass->edges = pass->colors;
+    if (!add_color(device, texture, (lom_slice){ 0, 0 }, pass->desc.edges_load, nothing))
+        return false;
+    return (texture->format == LOM_FORMAT_RGBA8 && texture->kind == LOM_TEXTURE_2D) ||
+           lom_fail(&device->error, LOM_ERROR_USAGE, "The edges of a pass are kept in a 2D texture of %s, not of %s.",
+                    lom_describe_format(LOM_FORMAT_RGBA8)->name, lom_describe_format(texture->format)->name);
 }
 
 static void add_depth(struct lom_pass *pass)
@@ -192,8 +208,10 @@ static bool prepare_pass(lom_device *device, const lom_pass_desc *desc)
     if (!choose_samples(device, pass))
         return false;
     for (int i = 0; i < LOM_MAX_COLORS && desc->color[i] != NULL; i++)
-        if (!add_color(device, i))
+        if (!add_color(device, desc->color[i], desc->color_slice[i], desc->color_load[i], desc->clear_color[i]))
             return false;
+    if (desc->edges != NULL && !add_edges(device, desc->edges))
+        return false;
     if (desc->depth != NULL) {
         if (!check_attachment(device, desc->depth, desc->depth_slice, true))
             return false;

@@ -3,6 +3,7 @@
  *
  * Invariant: s and t at a pixel are fl(fl(dx ds/dx) + fl(dy ds/dy)) of its exact distance to the middle, whatever tile
  * or part of a window it lies in. What a point covers follows from that distance itself. */
+#include "pipeline/mark_edges.h"
 #include "pipeline/record.h"
 #include "pipeline/sample_depth.h"
 #include "pipeline/sample_tests.h"
@@ -134,6 +135,8 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
     shader->fragment[draw->variant](&out, in, draw->uniforms);
     LOM_RECORD_HOOK(lom_record_sprite_shaded, tile, &out);
     tile->packets++;
+    if (draw->marks_edges)
+        LOM_WIDE(lom_mark_no_edges)(tile);
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;
     if (draw->desc.alpha_to_coverage)
         mask &= out.color[0].w >= 0.5f;

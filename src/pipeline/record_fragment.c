@@ -298,7 +298,8 @@ static void read_target(const struct lom_tile *tile, int target, int place, floa
 static int count_written(const struct lom_tile *tile)
 {
     int outputs = tile->draw->desc.shader->colors;
-    return outputs < tile->pass->colors ? outputs : tile->pass->colors;
+    int targets = tile->pass->edges != 0 ? tile->pass->edges : tile->pass->colors;
+    return outputs < targets ? outputs : targets;
 }
 
 void lom_record_write_begins(struct lom_tile *tile, const struct lom_places *places, const lom_mask *mask)

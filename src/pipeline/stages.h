@@ -83,6 +83,7 @@ struct lom_draw {
     bool rare_factors; /* it blends by a constant or by a second source */
     bool two_sources;  /* by the latter */
     bool sampled;      /* several samples a pixel, alpha as coverage, or full_tests after the shader */
+    bool marks_edges;  /* it says where its triangles end */
     bool full_tests;   /* a stencil test or a query besides the depth test: sample_tests.wide.c */
     size_t counter;    /* with a query: which of the pass's */
     lom_output_kind output;
@@ -213,6 +214,7 @@ struct lom_pass {
     int frame_width, frame_height; /* of the whole frame */
     lom_rect scissor;              /* resolved, within the attachments' part of the frame */
     int colors;
+    int edges; /* which of them keeps where triangles end, the last one; 0: none */
     struct lom_color_target color[LOM_MAX_COLORS];
     lom_texture *depth;
     lom_slice depth_slice;

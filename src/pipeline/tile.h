@@ -13,7 +13,7 @@ struct lom_draw;
 struct lom_pass;
 
 /* Fragments on their way into packets; all of one draw and chunk. Entry i of every array is one fragment. */
-enum { QUEUE_SIZE = 64, QUEUE_ROOM = QUEUE_SIZE + 2 * 16 };
+enum { MOST_LANES = 16, QUEUE_SIZE = 64, QUEUE_ROOM = QUEUE_SIZE + 2 * MOST_LANES };
 struct lom_queue {
     float l[3][QUEUE_ROOM];       /* screen-space barycentric weights */
     float depth[QUEUE_ROOM];      /* only with draw->queues_depth */
@@ -92,7 +92,9 @@ struct lom_tile {
     struct lom_queue queue;
     struct lom_list list;
     struct lom_facet facet;
-    uint8_t owner[64 * 64]; /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
+    float reach[4][MOST_LANES]; /* of the packet at hand, with draw->marks_edges: how far its triangles reach to the
+                                       right, left, down, up, as the texture of edges has it (mark_edges.h) */
+    uint8_t owner[64 * 64];     /* scratch: which lane of a packet comes first to a pixel; last, so that what workers
                                  write often lies far apart */
     /* Where pixels have several samples (samples.c): depth is of samples, side by side. A block of 2x2 pixels has one colour for
      * all samples, in the image color, unless its flag is set: then they are in sample_color, codes side by side, floats in

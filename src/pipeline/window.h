@@ -86,6 +86,9 @@ void LOM_WIDE(lom_shade_window)(struct lom_tile *tile, int32_t number, int base,
  * fragment stage (early.wide.c). */
 void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_float l[3],
                         bool alone);
+/* d / w of a triangle's three vertices, d the clip distance at `offset` of their rows, scaled by a power of two so that the
+ * largest is in 1..2. */
+void LOM_WIDE(lom_scale_distances)(const struct lom_chunk *chunk, const lom_primitive *p, int offset, float d[3]);
 /* Leaves the lanes inside the clip distances that change sign in the triangle; gives depths the draw's bias. */
 void LOM_WIDE(lom_test_distances)(const struct lom_tile *tile, const lom_triangle *t, const lom_float l[3],
                                   lom_mask *inside);

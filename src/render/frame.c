@@ -26,6 +26,7 @@ static const struct stage {
     { lom_draw_lakes, "lake" },              /* tinted or planar water over them */
     { lom_find_surfaces, "sea_waves" },      /* the waves of a sea where one is seen */
     { lom_draw_surfaces, "sea" },            /* or water with waves */
+    { lom_smooth_frame, "edges" },           /* the edges of all that, smoothed */
     { lom_draw_clouds, "clouds" },           /* clouds over all */
     { lom_draw_transparent, "transparent" }, /* what entities have that is transparent */
     { lom_draw_spray, "spray" },             /* drops, nearer than most clouds */
@@ -77,7 +78,8 @@ static bool draw_opaque(struct frame *f, lom_error *error)
                                   lom_hides_below(f) ? "; nothing of them below the waves, which cover it" : "");
     step->width = f->crop.width;
     step->height = f->crop.height;
-    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[f->target]);
+    pass.edges = f->smooths ? r->targets.of[LOM_TARGET_EDGES] : NULL;
     pass.label = "scene";
     const struct lom_window shown = lom_window_of(&f->crop, f->width, f->height);
     struct lom_scene_view part = f->view;
@@ -140,6 +142,7 @@ static bool draw_stages(struct frame *f, lom_stage_time *times, lom_error *error
     if (!lom_make_targets(r, f->width, f->height, f->crop.width, f->crop.height, error))
         return false;
     bool done = true;
+    r->targets.asked = f->asked;
     struct moment before = look_at_clock(r);
     const size_t count = sizeof stages / sizeof stages[0];
     for (size_t i = 0; done && i < count; i++) {
@@ -170,17 +173,17 @@ bool lom_check_frame(const lom_scene *scene, const lom_frame_desc *desc, lom_err
 static bool put_out(struct frame *f, bool drawn, lom_image *traced, lom_frame *out, lom_error *error)
 {
     const lom_frame_desc *desc = f->desc;
-    const lom_texture *color = f->renderer->targets.of[LOM_TARGET_COLOR];
+    const struct lom_targets *targets = &f->renderer->targets;
     if (!drawn && traced == NULL)
         return false;
     if (desc->pixels == NULL) {
-        out->image = drawn ? lom_output_target(f->scene, f->renderer->device, color, error)
+        out->image = drawn ? lom_output_target(f->scene, f->renderer->device, targets, error)
                            : lom_output_image(f->scene, traced, error);
         return out->image != NULL;
     }
     if (!drawn)
         return lom_output_traced(f->scene, traced, desc->order, desc->pixels, desc->pitch, error);
-    lom_output_rows(f->scene, f->renderer->device, color, desc->order, desc->pixels, desc->pitch);
+    lom_output_rows(f->scene, f->renderer->device, targets, desc->order, desc->pixels, desc->pitch);
     return true;
 }
 
@@ -198,9 +201,9 @@ static void mirror_rows(struct frame *f, lom_frame *out)
 {
     const lom_frame_desc *desc = f->desc;
     const size_t pixel = lom_pixel_bytes(f->scene, out->image != NULL ? LOM_ORDER_OUTPUT : desc->order);
-    const size_t width = (size_t)f->crop.width, pitch = out->image != NULL ? width * pixel : desc->pitch;
+    const size_t width = (size_t)f->asked.width, pitch = out->image != NULL ? width * pixel : desc->pitch;
     uint8_t *row = out->image != NULL ? out->image->pixels : desc->pixels;
-    for (int y = 0; y < f->crop.height; y++, row += pitch)
+    for (int y = 0; y < f->asked.height; y++, row += pitch)
         for (size_t x = 0; x < width / 2; x++)
             exchange_pixels(row + x * pixel, row + (width - 1 - x) * pixel, pixel);
 }
@@ -253,7 +256,11 @@ bool lom_draw_part(lom_renderer *renderer, const lom_frame_desc *desc, lom_frame
                        .time = desc->has_time ? desc->time : desc->frame / renderer->scene->output.fps,
                        .impostors = &out->impostors,
                        .spray = &spray };
-    bool drawn = lom_find_frame_sizes(&f, error) && draw_frame(&f, out, error);
+    bool drawn = lom_find_frame_sizes(&f, error);
+    if (drawn) {
+        lom_begin_edges(&f);
+        drawn = draw_frame(&f, out, error);
+    }
     out->spray.moved += spray.moved;
     out->spray.drawn += spray.drawn;
     return drawn;

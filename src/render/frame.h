@@ -20,12 +20,15 @@ struct frame {
     const lom_scene *scene;
     int width, height;             /* of the whole frame */
     lom_rect crop;                 /* the part of it that is drawn: what the targets color, depth and mask hold */
+    lom_rect asked;                /* the part of that which is asked for, from its corner */
     int number;                    /* of the frame */
     double time;                   /* seconds */
     const lom_picture_view *shown; /* of the scene's views; NULL: the picture of [camera] */
     lom_camera_view camera;
     struct lom_scene_view view;     /* the camera's, with the sky and no clip plane */
     bool parallel;                  /* the camera's rays are */
+    bool smooths;                   /* edges, after the scene and its water are drawn: lom_smooth_frame */
+    enum lom_target target;         /* where what is drawn now goes: the picture, or what is smoothed to be it */
     lom_rect water;                 /* where a surface of water is seen, in frame pixels; width 0: nowhere */
     struct lom_waves_uniform waves; /* of water with waves, at this time */
     enum lom_waves_known known;     /* how much `waves` has of them: what was needed */
@@ -62,6 +65,14 @@ bool lom_find_view(const lom_scene *scene, const char *name, const lom_picture_v
 /* A pass over the drawn part of the frame: this colour target and the frame's depth, both cleared unless the caller
  * asks to keep them. */
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color);
+
+/* edges.c: grows the drawn part by what smoothing looks at, where edges are smoothed; the stage that smooths the frame's. */
+void lom_begin_edges(struct frame *f);
+bool lom_smooth_frame(struct frame *f, lom_error *error);
+/* The same of the pass of what water mirrors, which draws its sharp picture; and from that the one in `color`, within the
+ * scissor, which the pass is of then. */
+void lom_begin_smooth_picture(struct frame *f, lom_pass_desc *pass);
+bool lom_smooth_picture(struct frame *f, lom_pass_desc *pass, lom_texture *color, lom_rect scissor);
 
 /* A pass of these draws alone. */
 bool lom_draw_pass(lom_device *device, const lom_pass_desc *pass, const lom_draw_desc *draws, size_t count);

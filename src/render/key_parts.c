@@ -13,7 +13,7 @@ enum { each_frame = 0 };
 const struct lom_key_row lom_key_rows[] = {
     { each_frame, "title output output.width output.height output.frames output.fps output.sample_shading output.white "
                   "camera.* view.* light.* lamp.* haze.*" },
-    { LOM_PART_TARGETS, "output.format output.samples output.exposure output.curve" },
+    { LOM_PART_TARGETS, "output.format output.samples output.edges output.exposure output.curve" },
     { LOM_PART_TEXTURES | LOM_PART_TARGETS, "output.transfer" },
 
     { LOM_PART_SKY, "sky sky.pattern sky.faces sky.cube" },

@@ -100,6 +100,7 @@ static void copy_row(const uint32_t *restrict from, int count, lom_pixel_order o
 struct writing {
     struct encoding encoding;
     const lom_texture *drawn;
+    lom_rect asked;
     uint8_t *pixels;
     size_t pitch;
 };
@@ -107,10 +108,10 @@ struct writing {
 static void write_rows(void *context, size_t first, size_t end)
 {
     const struct writing *w = context;
-    const int width = lom_texture_width(w->drawn);
+    const int width = w->asked.width;
     const bool floats = w->encoding.output->format != LOM_OUTPUT_RGB8 || w->encoding.is_toned;
     for (size_t y = first; y < end; y++) {
-        const void *from = lom_texel(w->drawn, 0, 0, (int)y, 0);
+        const void *from = lom_texel(w->drawn, 0, w->asked.x, w->asked.y + (int)y, 0);
         if (floats)
             encode_row(&w->encoding, from, 4, width, w->pixels + y * w->pitch);
         else
@@ -118,20 +119,22 @@ static void write_rows(void *context, size_t first, size_t end)
     }
 }
 
-void lom_output_rows(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_pixel_order order,
-                     void *pixels, size_t pitch)
+void lom_output_rows(const lom_scene *scene, lom_device *device, const struct lom_targets *targets,
+                     lom_pixel_order order, void *pixels, size_t pitch)
 {
     enum { ROWS = 16 };
-    struct writing writing = { encoding_of(&scene->output, order), drawn, pixels, pitch };
-    lom_share_work(device, (size_t)lom_texture_height(drawn), ROWS, write_rows, &writing);
+    struct writing writing = { encoding_of(&scene->output, order), targets->of[LOM_TARGET_COLOR], targets->asked,
+                               pixels, pitch };
+    lom_share_work(device, (size_t)targets->asked.height, ROWS, write_rows, &writing);
 }
 
-lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const lom_texture *drawn, lom_error *error)
+lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const struct lom_targets *targets,
+                             lom_error *error)
 {
     const lom_format format = lom_format_of_output(&scene->output);
-    lom_image *image = lom_create_image(lom_texture_width(drawn), lom_texture_height(drawn), 1, format, error);
+    lom_image *image = lom_create_image(targets->asked.width, targets->asked.height, 1, format, error);
     if (image != NULL)
-        lom_output_rows(scene, device, drawn, LOM_ORDER_OUTPUT, image->pixels,
+        lom_output_rows(scene, device, targets, LOM_ORDER_OUTPUT, image->pixels,
                         (size_t)image->width * lom_format_size(format));
     return image;
 }

@@ -7,9 +7,9 @@
 
 #include <string.h>
 
-enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES };
+enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES, FOR_EDGES, FOR_MIRRORED_EDGES };
 enum size { DRAWN, REFLECTED, REFRACTED }; /* of the part that is drawn; of the frame, scaled as quality says */
-enum kind { COLOR, DEPTH, MASK, LAYER };
+enum kind { COLOR, DEPTH, MASK, LAYER, MARKS };
 
 static int scaled(int size, double scale)
 {
@@ -68,13 +68,25 @@ static const struct row {
     [LOM_TARGET_MASK] = { "mask", FOR_WATER, DRAWN, MASK, has_bytes, LOM_TARGET_REFRACTION, .keeps = false },
     [LOM_TARGET_SPRAY] = { "spray", FOR_SPRAY, DRAWN, LAYER, .keeps = false },
     [LOM_TARGET_WIRE_DEPTH] = { "wireframe depth", FOR_WIRES, DRAWN, DEPTH, .keeps = false },
+    [LOM_TARGET_SHARP] = { "sharp picture", FOR_EDGES, DRAWN, COLOR, .keeps = false },
+    [LOM_TARGET_EDGES] = { "edges", FOR_EDGES, DRAWN, MARKS, .keeps = false },
+    [LOM_TARGET_REFLECTION_SHARP] = { "sharp reflection", FOR_MIRRORED_EDGES, REFLECTED, COLOR, .keeps = false },
+    [LOM_TARGET_REFLECTION_EDGES] = { "edges of the reflection", FOR_MIRRORED_EDGES, REFLECTED, MARKS, .keeps = false },
 };
+
+bool lom_smooths_edges(const lom_scene *scene)
+{
+    return scene->output.edges == LOM_EDGES_SMOOTH && scene->output.samples <= 1;
+}
 
 /* What each target is to be for a frame of this size; width 0: the scene needs none. */
 static void describe(const lom_scene *scene, const struct lom_targets *size, lom_texture_desc desc[LOM_TARGETS])
 {
+    const bool has_water = lom_has_water(scene), smooths = lom_smooths_edges(scene);
     const bool needed[] = { [ALWAYS] = true,
-                            [FOR_WATER] = lom_has_water(scene),
+                            [FOR_WATER] = has_water,
+                            [FOR_EDGES] = smooths,
+                            [FOR_MIRRORED_EDGES] = smooths && has_water,
                             [FOR_SPRAY] = lom_count_drops(scene) != 0,
                             [FOR_WIRES] = scene->quality.wireframe == LOM_WIREFRAME_VISIBLE };
     const double scale[] = {
@@ -83,7 +95,8 @@ static void describe(const lom_scene *scene, const struct lom_targets *size, lom
     const lom_format format[] = { [COLOR] = color_format(scene),
                                   [DEPTH] = LOM_FORMAT_DEPTH32F,
                                   [MASK] = LOM_FORMAT_R8,
-                                  [LAYER] = LOM_FORMAT_RGBA32F };
+                                  [LAYER] = LOM_FORMAT_RGBA32F,
+                                  [MARKS] = LOM_FORMAT_RGBA8 };
     for (int i = 0; i < LOM_TARGETS; i++) {
         const struct row *row = &rows[i];
         desc[i] = (lom_texture_desc){ .label = row->label,

@@ -39,6 +39,12 @@ static const lom_key output[] = {
       .dial = &(const lom_key_dial){ .approximates = "the mean of the light over a pixel's area, within surfaces too",
                                      .settings = "false true",
                                      .needs = "output.samples=2|4|8|16" } },
+    { "edges", LOM_KEY_CHOICE, AT(lom_output, edges), .choices = { "sharp", "smooth" },
+      .text = "With one sample a pixel: `smooth` mixes the pixels along the edge of what is nearer with what lies "
+              "beyond it, by the part of the pixel on either side, in linear light (docs/samples.md).",
+      .dial = &(const lom_key_dial){ .approximates = "the mean over a pixel's area, along edges",
+                                     .settings = "sharp smooth",
+                                     .needs = "output.samples=1" } },
     { "exposure", LOM_KEY_NUMBER, AT(lom_output, exposure), .minimum = -10, .maximum = 10, .unit = "stops",
       .text = "The light is multiplied by 2 to this power, before the curve; in `rgb32f` too (docs/exposure.md)." },
     { "curve", LOM_KEY_CHOICE, AT(lom_output, curve), .choices = { "clamp", "reinhard", "filmic", "aces" },

@@ -86,6 +86,11 @@ static const struct frame_scene {
       "[water]\nnormal_map = 'normal.png'\n[quality]\nwater = 'planar'\n",
       "output.samples=4",
       150 },
+    { "smooth edges of a lake, clouds and spray",
+      { camera, land, clouds, spray },
+      "[water]\nnormal_map = 'normal.png'\n[quality]\nwater = 'planar'\n",
+      "output.edges='smooth'",
+      150 },
     { "lamps and maps of materials, heights too",
       { camera, land, lamps },
       "[[entity]]\nmesh = 'box.obj'\n[entity.material]\nemissive = 1\nemissive_map = 'color.png'\nspecular_map = "

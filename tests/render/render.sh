@@ -12,7 +12,7 @@ verdict() { # name, why (empty: passed)
 }
 hash() { draw --hash "$@" | cut -d' ' -f1; }
 
-one_hash() { # name: every lane width and thread count gives the same bytes
+one_hash() { # name: every lane width that is built and every thread count gives the same bytes
     whole=$(hash)
     why=
     for run in '4 1' '4 5' '8 2' '8 3' '16 1' '16 8'; do

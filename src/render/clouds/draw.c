@@ -111,8 +111,8 @@ bool lom_draw_clouds(struct frame *f, lom_error *error)
     }
     lom_impostor_counters before = *f->impostors;
     size_t count;
-    if (!lom_draw_clouds_over(f, &f->view, lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]),
-                              r->targets.of[LOM_TARGET_DEPTH], &count, error))
+    if (!lom_draw_clouds_over(f, &f->view, lom_frame_pass(f, r->targets.of[f->target]), r->targets.of[LOM_TARGET_DEPTH],
+                              &count, error))
         return false;
     lom_step *step = add_cloud_step(f, count, &before);
     if (count != 0)

@@ -237,7 +237,7 @@ static bool draw_part(struct frame *f, const struct lom_scene_view *view, const 
     lom_step *step = lom_add_step(f, "transparent", true, "%s", text);
     step->width = f->crop.width;
     step->height = f->crop.height;
-    return lom_draw_transparent_over(f, &part, lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]));
+    return lom_draw_transparent_over(f, &part, lom_frame_pass(f, r->targets.of[f->target]));
 }
 
 bool lom_draw_transparent_beyond(struct frame *f)

@@ -154,7 +154,7 @@ static bool draw_sprites(struct frame *f, const struct lom_spray_view *view, con
     if (!lom_draw_pass(r->device, &pass, &draw, 1))
         return false;
     struct lom_spray_layer_uniforms layer = { { (float)f->crop.x, (float)f->crop.y }, r->targets.of[LOM_TARGET_SPRAY] };
-    pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
+    pass = lom_frame_pass(f, r->targets.of[f->target]);
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.scissor = reach;

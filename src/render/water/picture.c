@@ -110,7 +110,7 @@ static void copy_scene(struct frame *f, const struct lom_scene_view *view)
                                                .margin = (float)margin,
                                                .eye = lom_find_eye(&view->projection, &view->view, 0),
                                                .origin = { (float)f->crop.x, (float)f->crop.y },
-                                               .color = r->targets.of[LOM_TARGET_COLOR],
+                                               .color = r->targets.of[f->target],
                                                .depth = r->targets.of[LOM_TARGET_DEPTH] };
     lom_draw(r->device, &(lom_draw_desc){ .shader = &lom_scene_copy_shader,
                                           .uniforms = &u,
@@ -144,16 +144,20 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     step->width = lom_texture_width(color);
     step->height = lom_texture_height(color);
     step->scissor = scissor;
+    const bool smooths = f->smooths && view->mirrored;
+    if (smooths)
+        lom_begin_smooth_picture(f, &pass);
     lom_begin_pass(r->device, &pass);
     if (is_shown && !f->shows_water && can_copy(f, view, step))
         copy_scene(f, view);
-    const struct lom_window shown = lom_window_of(&scissor, step->width, step->height);
+    const struct lom_window shown = lom_window_of(&pass.scissor, step->width, step->height);
     struct lom_scene_view part = *view;
     part.window = &shown;
     lom_draw_scene(r, &part);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
     size_t seen;
-    return lom_end_pass(r->device) && (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error)) &&
+    return lom_end_pass(r->device) && (!smooths || lom_smooth_picture(f, &pass, color, scissor)) &&
+           (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error)) &&
            lom_draw_transparent_over(f, &part, pass);
 }
 
@@ -177,10 +181,14 @@ bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc 
     step->width = f->crop.width;
     step->height = f->crop.height;
     step->scissor = f->water;
-    lom_pass_desc pass = lom_frame_pass(f, f->renderer->targets.of[LOM_TARGET_COLOR]);
+    lom_pass_desc pass = lom_frame_pass(f, f->renderer->targets.of[f->target]);
     pass.color_load[0] = pass.depth_load = LOM_LOAD_KEEP;
     pass.scissor = f->water;
     pass.label = "water";
+    if (f->smooths && !surface->depth_write_off) {
+        pass.edges = f->renderer->targets.of[LOM_TARGET_EDGES];
+        pass.edges_load = LOM_LOAD_KEEP;
+    }
     lom_draw_desc labelled = *surface;
     labelled.label = "water";
     labelled.object = LOM_OBJECT_WATER;

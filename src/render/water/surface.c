@@ -81,7 +81,7 @@ static bool draw_underwater(const struct surface *surface, struct frame *f)
     lom_step *step = lom_add_step(f, "underwater", true, "the water between the eye and all that is drawn");
     step->width = f->crop.width;
     step->height = f->crop.height;
-    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[f->target]);
     pass.depth = NULL;
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.label = "underwater";

@@ -125,7 +125,7 @@ bool lom_draw_wires(struct frame *f)
     step->width = f->crop.width;
     step->height = f->crop.height;
     struct lom_culler culler = lom_culler_of(&f->view, NULL);
-    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[LOM_TARGET_COLOR]);
+    lom_pass_desc pass = lom_frame_pass(f, r->targets.of[f->target]);
     pass.depth = kind == LOM_WIREFRAME_ALL ? NULL : r->targets.of[LOM_TARGET_WIRE_DEPTH];
     pass.color_load[0] = LOM_LOAD_KEEP;
     pass.label = "wireframe";

@@ -1,0 +1,149 @@
+/* The filter of lom_smooth_edges. In: a picture of one sample a pixel, the depths of it, and where the triangles that it
+ * shows end (lom/pipeline.h, "edges"). Out: each pixel with the light of its four neighbours by the part of it that lies
+ * beyond an edge.
+ *
+ * Two neighbours are told apart where their depths are: of the two the nearer one's triangle ends between their centres,
+ * since the other one is seen behind it. Along the row or column the end is d pixels from the nearer centre, across it o, so
+ * that the edge is the line x + r y = d with r = d / o, x towards the other pixel. For 0 <= r <= 1 the part of a pixel
+ * beyond the line, d from its centre, is
+ *
+ *   1/2 - d                        for d <= (1 - r) / 2, where the line leaves it through two opposite sides,
+ *   ((1 + r) / 2 - d)^2 / (2 r)    up to (1 + r) / 2, where it cuts a corner off,
+ *   0                              from there on
+ *
+ * (the areas of a trapezium and of a triangle). Of the nearer pixel it shows the other one's light; of the farther one, from
+ * whose centre the line is 1 - d away, the nearer one's. With r > 1 (of columns, r >= 1) the edge is the
+ * other axis' own, where that has one.
+ *
+ * Invariant: a pixel beside which no depth jumps is the picture's, bit for bit. */
+#include "shading/smooth_edges.h"
+
+#include <lom/lanes_components.h>
+
+enum { NEIGHBOURS = 4, FAR = 1024 }; /* to the right, left, down, up; what ends farther away does not end */
+
+/* An end between two centres, by its distance from the one: as rounded as the texture has it. */
+static const float between = 1 + 1.0f / 64;
+
+static const int across[NEIGHBOURS] = { 1, -1, 0, 0 }, down[NEIGHBOURS] = { 0, 0, 1, -1 };
+
+static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    (void)uniforms;
+    lom_float s = lom_to_float(in->vertex & 1), t = lom_to_float(in->vertex >> 1);
+    out->position = (lom_float4){ 2.0f * s - 1.0f, 1.0f - 2.0f * t, { 0 }, lom_splat(1.0f) };
+}
+
+/* The part of a pixel beyond the line, as above; d >= 0, 0 <= r <= 1. */
+LOM_INLINE lom_float part_beyond(lom_float d, lom_float r)
+{
+    const lom_float zero = { 0 }, corner = lom_max((1.0f + r) * 0.5f - d, zero);
+    return lom_select(d <= (1.0f - r) * 0.5f, 0.5f - d, corner * corner / (2.0f * lom_max(r, lom_splat(1.0f / FAR))));
+}
+
+/* Pixels from the centre, from the number that the texture has. */
+LOM_INLINE lom_float distance_of(lom_float code)
+{
+    return code / lom_max(1.0f - code, lom_splat(1.0f / FAR));
+}
+
+/* What is around a pixel. */
+struct place {
+    lom_int x, y;
+    lom_float depth, beside[NEIGHBOURS];
+    lom_mask ends[NEIGHBOURS]; /* the depth jumps there */
+};
+
+/* Depth at a place that may lie outside of the picture: there, as far from `near` as that is from `far`, behind it. */
+static lom_float find_depth(const lom_texture *depth, lom_int x, lom_int y, lom_float near, lom_float far)
+{
+    const lom_mask inside = (x >= 0) & (y >= 0) & (x < lom_texture_width(depth)) & (y < lom_texture_height(depth));
+    return lom_select(inside, lom_fetch(depth, x, y, 0).x, near + (near - far));
+}
+
+/* Whether the depths of neighbours belong to different surfaces: they differ by more than a part of the nearer one, and
+ * by more than what lies on either side of them would let expect. */
+LOM_INLINE lom_mask jumps(lom_float depth, lom_float next, lom_float before, lom_float after)
+{
+    const lom_float gap = lom_abs(depth - next);
+    const lom_float slope = lom_min(lom_abs(depth - before), lom_abs(after - next));
+    return (gap > lom_max(depth, next) * LOM_EDGE_GAP) & (gap > LOM_EDGE_SLOPES * slope);
+}
+
+static void look_around(const struct lom_smooth_uniforms *u, struct place *p)
+{
+    p->depth = lom_fetch(u->depth, p->x, p->y, 0).x;
+    for (int i = 0; i < NEIGHBOURS; i++)
+        p->beside[i] = lom_fetch(u->depth, p->x + across[i], p->y + down[i], 0).x;
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        const lom_int x = p->x + across[i], y = p->y + down[i];
+        const lom_float before = find_depth(u->depth, p->x - across[i], p->y - down[i], p->depth, p->beside[i]);
+        const lom_float after = find_depth(u->depth, x + across[i], y + down[i], p->beside[i], p->depth);
+        p->ends[i] = jumps(p->depth, p->beside[i], before, after);
+    }
+}
+
+/* Distances to the right, left, down, up of what pixel (x, y) shows. */
+static void find_reach(const lom_texture *edges, lom_int x, lom_int y, lom_float reach[NEIGHBOURS])
+{
+    const lom_float4 code = lom_fetch(edges, x, y, 0);
+    reach[0] = distance_of(code.x);
+    reach[1] = distance_of(code.y);
+    reach[2] = distance_of(code.z);
+    reach[3] = distance_of(code.w);
+}
+
+/* Where the surface ends whose triangle ends d pixels ahead of a centre and `back` pixels behind it. A triangle that is
+ * longer than a pixel is taken for the last one; of one that is shorter, others of its surface may follow, whose centres
+ * were missed: the shorter it is, the nearer to the middle of all places that are left. So what is thinner than a pixel
+ * keeps its light on average. */
+LOM_INLINE lom_float end_of_surface(lom_float d, lom_float back)
+{
+    const lom_float zero = { 0 };
+    return d + lom_max(1.0f - d - back, zero) * lom_max(1.0f - d, zero) * 0.5f;
+}
+
+/* The part that has the light of neighbour i. */
+static lom_float part_of(const struct lom_smooth_uniforms *u, const struct place *p, const lom_float own[NEIGHBOURS],
+                         int i)
+{
+    const lom_float zero = { 0 };
+    const lom_mask is_nearer = p->depth > p->beside[i];
+    const int side = (i ^ 2) & 2; /* the first of the two directions across */
+    lom_float other[NEIGHBOURS];
+    find_reach(u->edges, p->x + across[i], p->y + down[i], other);
+    const lom_float d = lom_select(is_nearer, own[i], other[i ^ 1]), back = lom_select(is_nearer, own[i ^ 1], other[i]);
+    const lom_float o = lom_select(is_nearer, lom_min(own[side], own[side + 1]), lom_min(other[side], other[side + 1]));
+    const lom_float end = end_of_surface(d, back);
+    const lom_float from = lom_select(is_nearer, end, lom_max(1.0f - end, zero));
+    const lom_mask steep = side == 0 ? d >= o : d > o, taken = steep & (p->ends[side] | p->ends[side + 1]);
+    const lom_float r = lom_select(steep, zero, d / lom_max(o, lom_splat(1.0f / FAR)));
+    return lom_select(p->ends[i] & ~taken & (d <= between), part_beyond(from, r), zero);
+}
+
+static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_smooth_uniforms *u = uniforms;
+    struct place p = { .x = lom_to_int(in->x - u->origin[0]), .y = lom_to_int(in->y - u->origin[1]) };
+    lom_float4 color = lom_fetch(u->color, p.x, p.y, 0);
+    lom_float own[NEIGHBOURS], part[NEIGHBOURS], sum = { 0 };
+    look_around(u, &p);
+    out->color[0] = color;
+    if (!lom_any(p.ends[0] | p.ends[1] | p.ends[2] | p.ends[3]))
+        return;
+    find_reach(u->edges, p.x, p.y, own);
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        part[i] = part_of(u, &p, own, i);
+        sum += part[i];
+    }
+    const lom_float scale = 1.0f / lom_max(sum, lom_splat(1.0f));
+    color = lom_scale4(color, 1.0f - sum * scale);
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        const lom_float4 beyond = lom_fetch(u->color, p.x + across[i], p.y + down[i], 0);
+        color = lom_add4(color, lom_scale4(beyond, part[i] * scale));
+    }
+    out->color[0] = color;
+}
+
+LOM_SHADER(lom_smooth_shader, vertex, fragment, .reads_position = true, .colors = 1,
+           .uniforms_size = sizeof(struct lom_smooth_uniforms))
