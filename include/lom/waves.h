@@ -50,6 +50,7 @@ typedef struct lom_water_foam {
     double amount;      /* 0: no foam .. 1 */
     double threshold;   /* Jacobian below which waves break */
     double window;      /* seconds that foam lasts: it is the decaying sum of what broke in them */
+    bool carried;       /* it goes with the water: that of surf to and fro, that of shallow water where it flows */
     double shore_depth; /* metres of water that the shore's foam reaches to; 0: none */
     double tile;        /* metres of one repetition of its pattern */
 } lom_water_foam;

@@ -51,7 +51,8 @@ const struct lom_key_row lom_key_rows[] = {
                   "water.optics.scatter water.optics.roughness water.optics.glitter water.optics.reach "
                   "water.optics.steps water.optics.caustics_size water.optics.opacity" },
     { LOM_PART_FOAM, "water.foam water.foam.amount water.foam.shore_depth" },
-    { each_frame, "water.foam.threshold water.foam.window water.foam.tile" },
+    { LOM_PART_WAVES, "water.foam.carried water.foam.window" },
+    { each_frame, "water.foam.threshold water.foam.tile" },
     { LOM_PART_WAVES, "surf surf.height surf.period surf.direction shallow.*" },
     { LOM_PART_SPRAY, "surf.variation" },
 

@@ -10,25 +10,6 @@ static const double gravity = 9.80665;
 static const double ahead = 2.5, least_rise = 1.1;      /* metres: ground that is steep rises so much within that way */
 static const double least_amplitude = 0.02, froude = 1; /* metres; speed in parts of sqrt(g d) */
 
-static double bed_height(const struct lom_bed *bed, double x, double z)
-{
-    const double place[2] = { (x / bed->size[0] + 0.5) * bed->columns, (z / bed->size[1] + 0.5) * bed->rows };
-    const int last[2] = { bed->columns - 1, bed->rows - 1 };
-    int cell[2];
-    double part[2], sum = 0;
-    for (int i = 0; i < 2; i++) {
-        const double at = lom_larger(0, lom_smaller(place[i], last[i] + 1));
-        cell[i] = lom_int_of(lom_smaller(lom_double_floor(at), last[i]));
-        part[i] = at - cell[i];
-    }
-    for (int k = 0; k < 4; k++) {
-        const int dx = k & 1, dz = k >> 1;
-        const size_t vertex = (size_t)(cell[1] + dz) * ((size_t)bed->columns + 1) + (size_t)(cell[0] + dx);
-        sum += (double)bed->heights[vertex] * (dx ? part[0] : 1 - part[0]) * (dz ? part[1] : 1 - part[1]);
-    }
-    return bed->base + sum;
-}
-
 static bool add(struct lom_hits *hits, const struct lom_hit_place *place, lom_error *error)
 {
     const size_t count = hits->count + 1;
@@ -65,8 +46,7 @@ static void find_range(const lom_spray *spray, const double size[2], const int s
 static bool meets(const struct lom_hits *hits, const struct lom_wave_site *site, double x, double z, double step,
                   struct lom_hit_place *out)
 {
-    const struct lom_bed *bed = &site->bed;
-    if (bed_height(bed, x, z) >= site->level)
+    if (lom_bed_over_level(site, x, z) >= 0)
         return false;
     const struct lom_surf_place here = lom_surf_place_at(&hits->map, x, z);
     const double number = lom_double_sqrt(here.k[0] * here.k[0] + here.k[1] * here.k[1]);
@@ -76,13 +56,13 @@ static bool meets(const struct lom_hits *hits, const struct lom_wave_site *site,
     /* Behind an island waves from both sides meet: what has turned back is no front. */
     if (!(way[0] * lom_double_cos(site->surf->direction) + way[1] * lom_double_sin(site->surf->direction) > 0))
         return false;
-    if (bed_height(bed, x + way[0] * step, z + way[1] * step) < site->level ||
-        bed_height(bed, x + way[0] * ahead, z + way[1] * ahead) - site->level < least_rise)
+    if (lom_bed_over_level(site, x + way[0] * step, z + way[1] * step) < 0 ||
+        lom_bed_over_level(site, x + way[0] * ahead, z + way[1] * ahead) < least_rise)
         return false;
     /* The wave as it comes, before the bed of the wall makes it break in the maps. */
     const double before[2] = { x - 2 * step * way[0], z - 2 * step * way[1] };
     const struct lom_surf_place wave = lom_surf_place_at(&hits->map, before[0], before[1]);
-    const double depth = lom_larger(site->level - bed_height(bed, before[0], before[1]), 0.05);
+    const double depth = lom_larger(-lom_bed_over_level(site, before[0], before[1]), 0.05);
     if (!(wave.amplitude > least_amplitude))
         return false;
     const double frequency = lom_two_pi / hits->period;

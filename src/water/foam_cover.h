@@ -88,8 +88,8 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
     }
     if (!lom_any((cover > 0.0f) | shore))
         return (lom_float){ 0 };
-    lom_float s = p->offset.x * foam->inverse_tile + foam->shift[0];
-    lom_float t = p->offset.z * foam->inverse_tile + foam->shift[1];
+    lom_float s = (p->offset.x - p->slopes.drift_x) * foam->inverse_tile + foam->shift[0];
+    lom_float t = (p->offset.z - p->slopes.drift_z) * foam->inverse_tile + foam->shift[1];
     lom_float lod = lom_wave_lod(foam->pattern, f, foam->inverse_tile);
     lom_float grain = lom_sample(foam->pattern, s, t, lod).x;
     if (!lom_any(shore))

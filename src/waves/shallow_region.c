@@ -3,10 +3,11 @@
 #include "base/numbers.h"
 #include "waves/wave_site.h"
 
+#include <string.h>
+
 enum { MOST_STEPS = 10000000 };
 
-/* The height of the terrain between its vertices over the water's level; deep below it where there is none. */
-static double bed_at(const struct lom_wave_site *site, double x, double z)
+double lom_bed_over_level(const struct lom_wave_site *site, double x, double z)
 {
     const struct lom_bed *bed = &site->bed;
     const double *size = bed->size;
@@ -43,9 +44,17 @@ bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom
     size_t cells = (size_t)region->columns * (size_t)region->rows;
     double *height = lom_allocate(cells, sizeof *height, error);
     for (size_t i = 0; height != NULL && i < cells; i++) {
-        height[i] = bed_at(site, region->corner[0] + ((double)(i % (size_t)region->columns) + 0.5) * cell,
-                           region->corner[1] + ((double)(i / (size_t)region->columns) + 0.5) * cell);
+        height[i] = lom_bed_over_level(site, region->corner[0] + ((double)(i % (size_t)region->columns) + 0.5) * cell,
+                                       region->corner[1] + ((double)(i / (size_t)region->columns) + 0.5) * cell);
         region->lowest = height[i] < region->lowest ? height[i] : region->lowest;
+    }
+    if (site->foam->carried) {
+        region->foam = lom_allocate(cells, sizeof *region->foam, error);
+        region->foam_after = lom_allocate(cells, sizeof *region->foam_after, error);
+        if (region->foam == NULL || region->foam_after == NULL) {
+            lom_release(height);
+            return false;
+        }
     }
     lom_shallow_desc desc = { .columns = region->columns,
                               .rows = region->rows,
@@ -113,7 +122,15 @@ static bool run_step(struct lom_shallow_region *region, const struct lom_wave_si
     for (size_t i = 0; i < w->body_count; i++)
         bodies[i] = place_body(site, &w->bodies[i], region->corner, time);
     region->run++;
-    return lom_step_shallow(region->now, sources, (int)w->spring_count, bodies, (int)w->body_count, error);
+    if (!lom_step_shallow(region->now, sources, (int)w->spring_count, bodies, (int)w->body_count, error))
+        return false;
+    if (region->foam != NULL) {
+        lom_shallow_obstacle before[LOM_SHALLOW_OBSTACLES];
+        for (size_t i = 0; i < w->body_count; i++)
+            before[i] = place_body(site, &w->bodies[i], region->corner, time - w->step);
+        lom_carry_shallow_foam(region, site, bodies, before);
+    }
+    return true;
 }
 
 /* To the step before the time; a thousandth of a step is rounding. */
@@ -131,8 +148,11 @@ bool lom_advance_shallow_region(struct lom_shallow_region *region, const struct 
         lom_free_shallow(region->now);
         region->now = NULL;
     }
-    if (region->now == NULL)
+    if (region->now == NULL) {
         region->now = lom_copy_shallow(region->first, error);
+        if (region->foam != NULL)
+            memset(region->foam, 0, (size_t)region->columns * (size_t)region->rows * sizeof *region->foam);
+    }
     bool done = region->now != NULL;
     for (int64_t i = done ? lom_view_shallow(region->now).steps : 0; done && i < lom_int64_of(steps); i++)
         done = run_step(region, site, start + (double)i * step, error);
@@ -143,4 +163,6 @@ void lom_close_shallow_region(struct lom_shallow_region *region)
 {
     lom_free_shallow(region->first);
     lom_free_shallow(region->now);
+    lom_release(region->foam);
+    lom_release(region->foam_after);
 }

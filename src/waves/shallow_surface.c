@@ -50,8 +50,9 @@ static double slope(const lom_shallow_view *v, size_t before, size_t at, size_t 
     return steps > 0 ? (to - from) / (steps * v->cell) : 0;
 }
 
-static double foam_of(const lom_shallow_view *v, int x, int z, double depth)
+double lom_shallow_froude_foam(const lom_shallow_view *v, int x, int z)
 {
+    const double depth = v->depth[cell_of(v, x, z)];
     size_t columns = (size_t)v->columns, row = (size_t)z * (columns + 1) + (size_t)x;
     double qx = (v->flow_x[row] + v->flow_x[row + 1]) / 2;
     double qz = (v->flow_z[(size_t)z * columns + (size_t)x] + v->flow_z[(size_t)(z + 1) * columns + (size_t)x]) / 2;
@@ -68,8 +69,8 @@ static double fade_of(const lom_shallow_view *v, int x, int z)
     return t * t * (3 - 2 * t);
 }
 
-int lom_fill_shallow_surface(const lom_shallow_view *v, double level, bool fades, float (*surface)[4],
-                             float (*moments)[4], float bounds[2])
+int lom_fill_shallow_surface(const lom_shallow_view *v, double level, bool fades, const float *carried,
+                             float (*surface)[4], float (*moments)[4], float bounds[2])
 {
     int wet = 0;
     bounds[0] = bounds[1] = 0;
@@ -88,7 +89,8 @@ int lom_fill_shallow_surface(const lom_shallow_view *v, double level, bool fades
             s[0] = (float)height;
             s[1] = (float)sx;
             s[2] = (float)sz;
-            s[3] = here ? (float)(foam_of(v, x, z, v->depth[at]) * share) : 0;
+            s[3] =
+                here ? (float)((carried != NULL ? (double)carried[at] : lom_shallow_froude_foam(v, x, z)) * share) : 0;
             m[0] = s[1] * s[1];
             m[1] = s[2] * s[2];
             m[2] = s[1] * s[2];

@@ -72,8 +72,8 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
     if (!lom_advance_shallow_region(&state->region, state->site, time, error))
         return false;
     lom_shallow_view view = lom_view_shallow(region->now);
-    state->wet = lom_fill_shallow_surface(&view, 0, state->site->shallow->edge == LOM_SHALLOW_OPEN, state->surface,
-                                          state->moments, bounds);
+    state->wet = lom_fill_shallow_surface(&view, 0, state->site->shallow->edge == LOM_SHALLOW_OPEN, region->foam,
+                                          state->surface, state->moments, bounds);
     const void *const pixels[2] = { state->surface, state->moments };
     for (int i = 0; i < 2; i++)
         if (!fill_map(state, &state->map[i], i == 0 ? "shallow water" : "moments of shallow water", pixels[i]))

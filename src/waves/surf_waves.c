@@ -1,5 +1,6 @@
 /* Waves of [surf] as shaders look them up. In: a site. Out: textures of its maps, made once; what shaders need of them
  * at a time. Invariant: closed in time. */
+#include "base/numbers.h"
 #include "pipeline/check_device.h"
 #include "waves/wave_field.h"
 
@@ -68,6 +69,8 @@ static void bound(const void *memory, struct lom_waves_uniform *out, double time
     lom_fill_surf(&out->surf, &state->map, surf, (double[2]){ out->origin[0], out->origin[2] }, time);
     out->surf.waves = state->texture[0];
     out->surf.shapes = state->texture[1];
+    const double rate = lom_two_pi / surf->period;
+    out->surf.swing = state->site->foam->carried ? (float)(9.80665 / (rate * rate)) : 0;
     float most = (float)(state->map.highest * (1 + surf->variation) * 1.0001);
     out->highest += most;
     out->lowest -= most;

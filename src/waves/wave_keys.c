@@ -117,6 +117,10 @@ static const lom_key foam[] = {
       .text = "A wave breaks where the Jacobian of its displacement, 1 at rest, is below this." },
     { "window", LOM_KEY_NUMBER, AT(window), .flags = LOM_KEY_ABOVE, .maximum = 60, .initial = { 3 }, .unit = "s",
       .text = "How long foam lasts." },
+    { "carried", LOM_KEY_BOOL, AT(carried),
+      .text =
+          "Foam goes with the water that it lies on: surf moves it to and fro, and shallow water carries it from where "
+          "it broke, fading by 1/e in `window`; bodies that move leave it behind them." },
     { "shore_depth", LOM_KEY_NUMBER, AT(shore_depth), .maximum = 100, .unit = "m",
       .text = "Depth of water that the shore's foam reaches to; 0 is none.", .untraced = "0" },
     { "tile", LOM_KEY_NUMBER, AT(tile), .flags = LOM_KEY_ABOVE, .maximum = 1e4, .initial = { 6 }, .unit = "m",

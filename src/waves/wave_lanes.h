@@ -62,6 +62,7 @@ struct lom_surf_uniform {
     float corner[2], last[2];  /* x and z of the first and of the last cell */
     float scale[2], half[2];   /* a place is at (x - corner) scale + half */
     float time, rate;          /* w t in radians, less whole turns; w in rad/s */
+    float swing;               /* g / w^2, where the water takes foam along; else 0 */
     float variation, group_time[2], group_rate[2], group_share[2], group_along[2][2];
     double origin[2]; /* of the places */
 };
@@ -106,8 +107,9 @@ struct lom_footprint {
 
 struct lom_wave_slopes {
     lom_float sx, sz, xx, zz, xz;
-    lom_float vxx, vzz, vxz; /* covariance of the slopes that are too small to be seen */
-    lom_float foam;          /* 0 none .. 1 */
+    lom_float vxx, vzz, vxz;    /* covariance of the slopes that are too small to be seen */
+    lom_float foam;             /* 0 none .. 1 */
+    lom_float drift_x, drift_z; /* metres that the water there has come, with the foam on it */
 };
 
 /* The level of a texture of `scale` repetitions a metre for a footprint. */

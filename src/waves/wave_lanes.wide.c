@@ -215,6 +215,16 @@ static void add_shallow_slopes(const struct lom_shallow_uniform *u, lom_float x,
     w->foam = w->foam + lom_select(at.inside, d.w, zero);
 }
 
+/* Water under a wave of amplitude a moves by u = a w / tanh(kd) sin t, at most by c = w / k; its integral is to and fro by
+ * a / tanh(kd) = a g k / w^2, at most by 1 / k. */
+static void add_surf_drift(const struct lom_surf_uniform *u, const struct surf_wave *wave, struct lom_wave_slopes *w)
+{
+    lom_float square = lom_max(wave->kx * wave->kx + wave->kz * wave->kz, lom_splat(1e-12f));
+    lom_float way = lom_min(wave->amplitude * u->swing, 1.0f / square) * -lom_cos(wave->angle);
+    w->drift_x = w->drift_x + way * wave->kx;
+    w->drift_z = w->drift_z + way * wave->kz;
+}
+
 static void add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                             const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
@@ -227,6 +237,8 @@ static void add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, 
     w->vzz = w->vzz + lost * wave.kz * wave.kz;
     w->vxz = w->vxz + lost * wave.kx * wave.kz;
     w->foam = w->foam + surf_foam(&waves->surf, &wave, waves->foam_window);
+    if (waves->surf.swing > 0)
+        add_surf_drift(&waves->surf, &wave, w);
 }
 
 /* What the map's levels average away shortens its normals to l: (1 - l) / l is its variance (Toksvig 2005). */

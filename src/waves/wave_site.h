@@ -32,6 +32,9 @@ struct lom_wave_site {
     const void *scene;
 };
 
+/* The height of the terrain between its vertices over the water's level; deep below it where there is none. */
+double lom_bed_over_level(const struct lom_wave_site *site, double x, double z);
+
 /* ---- surf ---- */
 
 /* The maps of its surf over the bed, placed in the world; without cells where it has none. Freed with
@@ -45,13 +48,18 @@ struct lom_shallow_region {
     double corner[2], cell;   /* x and z of its corner, metres */
     double lowest;            /* of its bed, metres from the level, or 0 */
     int columns, rows;
-    uint64_t run; /* steps, in all */
+    uint64_t run;             /* steps, in all */
+    float *foam, *foam_after; /* of each cell, carried up to `now`; NULL: it is not carried */
 };
 
 /* The region before its first step; nothing where the site has none. What has been made is freed with
  * lom_close_shallow_region, also after a failure. */
 bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom_wave_site *site, lom_error *error);
 void lom_close_shallow_region(struct lom_shallow_region *region);
+/* shallow_foam.c: what a step does to the foam, after it: the water takes it along, it fades, and it is made where water is
+ * faster than its waves and where a body has moved from place to place. */
+void lom_carry_shallow_foam(struct lom_shallow_region *region, const struct lom_wave_site *site,
+                            const lom_shallow_obstacle *bodies, const lom_shallow_obstacle *before);
 /* Runs the steps from the start of [shallow] to a time: on from the last time, or from the beginning when that was
  * later. The state is that after all of them, so any moment alone is that of a run. */
 bool lom_advance_shallow_region(struct lom_shallow_region *region, const struct lom_wave_site *site, double time,

@@ -27,6 +27,10 @@ static const struct base more_bases[] = {
       VIEW TERRAIN "[quality]\nwater = \"displaced\"\n[[water]]\nname = \"a\"\nsize = [20, 40]\nposition = [-10, 0]\n"
                    "[water.waves]\nkind = \"gerstner\"\ncount = 4\n[[water]]\nname = \"b\"\nlevel = 0.3\n"
                    "size = [20, 40]\nposition = [10, 0]\nnormal_map = \"normal.png\"\n" },
+    { "carried", "water.foam.carried water.foam.window water.foam.amount surf.height",
+      VIEW TERRAIN DISPLACED "[water.foam]\namount = 2\ncarried = true\nwindow = 0.5\n[surf]\nheight = 0.4\n"
+                             "[shallow]\ncells = 16\nsize = 20\nstart = -1\n[[shallow.spring]]\n"
+                             "position = [1, 1]\nrate = 40\n" },
     { "off", "quality.terrain_shadows quality.entity_shadows quality.ambient_occlusion clouds.shadows sky.pattern",
       "[camera]\nposition = [0, 40, 30]\ntarget = [0, 0, 0]\n[light]\nazimuth = 20\nelevation = 8\n" CLOUD
       "[terrain]\nheight_map = \"height.png\"\nsize = 40\nheight = 60\nbase = -30\n"
