@@ -2,6 +2,9 @@
  * documentation of every member of lom_clouds and lom_cloud. */
 #include "cloud/cloud_keys.h"
 
+#include "base/numbers.h"
+#include "cloud/cloud_kinds.h"
+
 #include <lom/cloud.h>
 
 #include <string.h>
@@ -33,11 +36,13 @@ static const lom_key cloud[] = {
     { "density", LOM_KEY_NUMBER, AT(density), .maximum = 1000, .initial = { 1 },
       .text = "Factor on the volume's density." },
     { "extinction", LOM_KEY_NUMBER, AT(extinction), .maximum = 1000, .initial = { 0.04 }, .unit = "1/m",
-      .text = "Share of the light that a metre takes where the density is 1.", .initial_text = "the kind's" },
+      .text = "Share of the light that a metre takes where the density is 1.",
+      .initial_text = "the kind's; of a smaller cloud so much more that as much of the light comes through" },
     { "detail", LOM_KEY_NUMBER, AT(detail), .maximum = 1, .initial = { 0.35 },
       .text = "How far noise finer than the voxels eats into thin parts when it is marched." },
     { "detail_size", LOM_KEY_NUMBER, AT(detail_size), .flags = LOM_KEY_ABOVE, .maximum = 1e6, .initial = { 180 },
-      .unit = "m", .text = "Length of one repetition of that noise." },
+      .unit = "m", .text = "Length of one repetition of that noise.",
+      .initial_text = "180, of a cloud smaller than its kind so much shorter" },
     { "visible", LOM_KEY_BOOL, AT(visible), .initial = { 1 }, .text = "Whether it is drawn." },
 };
 /* What the file leaves to the kind. */
@@ -56,8 +61,11 @@ static bool check_cloud(void *members, const lom_key_check *check)
         return check->fail(check, "kind", unknown.text);
     if (!check->is_given(check, "size"))
         memcpy(it->size, kind->size, sizeof it->size);
+    const double shrink = lom_shrink_of_kind(kind, it->size);
     if (!check->is_given(check, "extinction"))
-        it->extinction = kind->extinction;
+        it->extinction = lom_smaller(kind->extinction / shrink, 1000);
+    if (!check->is_given(check, "detail_size"))
+        it->detail_size *= shrink;
     for (int i = 0; i < 3; i++) {
         if (it->voxels[i] != lom_double_floor(it->voxels[i]))
             return check->fail(check, "voxels", "\"voxels\" must be made of whole numbers.");

@@ -172,6 +172,14 @@ const lom_cloud_kind *lom_find_cloud_kind(const char *name, lom_error *error)
     return row != NULL ? &row->kind : NULL;
 }
 
+double lom_shrink_of_kind(const lom_cloud_kind *kind, const double size[3])
+{
+    double share = 1;
+    for (int i = 0; i < 3; i++)
+        share *= size[i] / kind->size[i];
+    return share < 1 ? lom_double_cbrt(share) : 1;
+}
+
 void lom_store_density(lom_image *volume, int x, int y, int z, double density)
 {
     double bounded = density > 0 ? density < 1 ? density : 1 : 0;

@@ -19,4 +19,9 @@ lom_cloud_maker lom_make_body, lom_make_layer;
 /* Stores density x, clamped to [0, 1] and rounded. */
 void lom_store_density(lom_image *volume, int x, int y, int z, double density);
 
+/* The length of a box of a kind in parts of the kind's own (the cube root of their volumes' ratio), at most 1: a cloud
+ * smaller than its kind keeps what light comes through it and how its detail looks, as `extinction` over, and
+ * `detail_size` times, this. */
+double lom_shrink_of_kind(const lom_cloud_kind *kind, const double size[3]);
+
 #endif

@@ -9,6 +9,7 @@
 #include "cloud/cloud_sky.h"
 
 #include "base/numbers.h"
+#include "cloud/cloud_kinds.h"
 
 #include <string.h>
 
@@ -41,6 +42,7 @@ struct placing {
     int side;
     struct footprint *prints; /* those made so far */
     size_t print_count, print_room;
+    lom_cloud_mix told; /* by a report, of the layer that is placed */
     double detail;
     int hidden;
 };
@@ -183,7 +185,9 @@ static lom_cloud make_candidate(const struct layer *layer, const lom_cloud *patt
         cloud.voxels[i] = lom_larger(lom_double_floor(kind->voxels[i] * sky->voxels + 0.5), 1);
     }
     cloud.size[1] *= 0.85 + 0.3 * draw(layer, number, try, FOR_TALL);
-    cloud.extinction = kind->extinction;
+    const double shrink = lom_shrink_of_kind(kind, cloud.size);
+    cloud.extinction = kind->extinction / shrink;
+    cloud.detail_size *= shrink;
     cloud.yaw = lom_two_pi * draw(layer, number, try, FOR_YAW) - lom_pi;
     cloud.position = (lom_vec3){ sky->middle[0] + sky->area[0] * (draw(layer, number, try, FOR_X) - 0.5),
                                  base_of(layer, kind, number),
@@ -287,8 +291,8 @@ static bool place_report(struct placing *p, struct layer *layer, const lom_cloud
     int number = lom_parse_metar(layer->sky->metar, layers, error);
     bool done = number >= 0;
     for (int i = 0; done && i < number; i++) {
-        const lom_cloud_mix mix = { .kind = layers[i].kind, .share = 1 };
-        layer->mix = &mix;
+        p->told = (lom_cloud_mix){ .kind = layers[i].kind, .share = 1 };
+        layer->mix = &p->told;
         layer->mix_count = 1;
         layer->cover = lom_smaller(layers[i].oktas / 8, full_cover);
         layer->base = layers[i].base;

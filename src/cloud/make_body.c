@@ -10,6 +10,7 @@ struct recipe {
     double spread;                  /* of the turrets, in parts of the half width */
     double low_radius, high_radius; /* of a turret's bubbles at its foot and its head */
     double height;                  /* of the highest turret, in parts of the room above the base */
+    double foot;                    /* how far the bubbles around a turret's foot are from it, in low radii */
     struct lom_cloud_body body;     /* all but the bubbles; the anvil from the middle of the box */
 };
 
@@ -22,6 +23,7 @@ static const struct recipe recipes[] = {
       92,
       70,
       0.66,
+      1.1,
       { .base = 40,
         .base_depth = 70,
         .billow = 105,
@@ -38,6 +40,7 @@ static const struct recipe recipes[] = {
       165,
       115,
       0.7,
+      1.1,
       { .base = 35,
         .base_depth = 45,
         .billow = 85,
@@ -54,6 +57,7 @@ static const struct recipe recipes[] = {
       265,
       175,
       0.84,
+      1.1,
       { .base = 50,
         .base_depth = 50,
         .billow = 125,
@@ -70,6 +74,7 @@ static const struct recipe recipes[] = {
       520,
       310,
       0.9,
+      0.2,
       { .base = 90,
         .base_depth = 75,
         .billow = 215,
@@ -86,6 +91,7 @@ static const struct recipe recipes[] = {
       1650,
       1200,
       0.86,
+      0.2,
       { .base = 300,
         .base_depth = 260,
         .billow = 700,
@@ -140,11 +146,11 @@ static void add_turret(struct lom_cloud_body *body, const struct recipe *r, int 
         add_bubble(body, r, x + lean_x * height * f * 0.5 + off * lom_double_cos(turn), y,
                    z + lean_z * height * f * 0.5 + off * lom_double_sin(turn), radius, 1);
     }
-    for (int k = 0; k < 2; k++) { /* around its foot */
+    for (int k = 0; k < 2; k++) { /* around its foot: of what is higher than wide within the tower, or a disc shows */
         double radius = 0.62 * r->low_radius * (0.7 + 0.6 * uniform(seed, counter));
         double turn = lom_two_pi * uniform(seed, counter);
-        add_bubble(body, r, x + 1.1 * r->low_radius * lom_double_cos(turn), r->body.base + 0.1 * radius,
-                   z + 1.1 * r->low_radius * lom_double_sin(turn), radius, 1.15);
+        add_bubble(body, r, x + r->foot * r->low_radius * lom_double_cos(turn), r->body.base + 0.1 * radius,
+                   z + r->foot * r->low_radius * lom_double_sin(turn), radius, 1.15);
     }
 }
 

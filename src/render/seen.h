@@ -12,6 +12,8 @@ struct lom_seen {
 };
 
 struct lom_seen lom_find_seen(const struct frame *f);
+/* Whether something of the water may be: a surface with waves always, since they may rise into the view. */
+bool lom_may_show_water(const struct frame *f);
 /* Whether something of a box may be. */
 bool lom_may_show(const struct lom_seen *seen, lom_box box);
 /* From a point to the nearest one of a box. */

@@ -200,7 +200,9 @@ static void clouds_are_of_their_genus(void)
         CHECK(c->position.y >= kind->low && c->position.y <= kind->high, "%s at %g m", c->kind, c->position.y);
         CHECK(size >= 0.8 && size <= 1.2 && c->seed >= 1 && c->seed <= 2, "size %g, shape %d", size, c->seed);
         CHECK(x >= -6000 && x <= 6000 && z >= -4500 && z <= 4500, "at %g, %g of the area", x, z);
-        CHECK(c->extinction == kind->extinction && c->visible && c->detail == 0.35, "the pattern's and the kind's");
+        CHECK((size >= 1 ? c->extinction <= kind->extinction * 1.06 : c->extinction >= kind->extinction) &&
+                  c->visible && c->detail == 0.35,
+              "the pattern's and the kind's");
     }
     CHECK(kinds[0] > kinds[1] && kinds[1] > kinds[2] && kinds[2] > 0, "3 : 2 : 1 are %zu, %zu, %zu", kinds[0], kinds[1],
           kinds[2]);

@@ -3,6 +3,7 @@
  * the whole frame. */
 #include "base/numbers.h"
 #include "render/frame.h"
+#include "render/seen.h"
 
 static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec3 to_light, lom_error *error)
 {
@@ -26,6 +27,19 @@ static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec
     return ground->shadow != NULL;
 }
 
+/* Whether the frame may show something that the terrain's shadow falls on. */
+static bool shows_receiver(const struct frame *f)
+{
+    const lom_renderer *r = f->renderer;
+    const struct lom_seen seen = lom_find_seen(f);
+    bool shows = f->scene->spray_count != 0 || f->scene->other_water_count != 0 || lom_may_show_water(f);
+    for (int i = 0; !shows && i < r->ground.across * r->ground.down; i++)
+        shows = lom_may_show(&seen, r->ground.blocks[i].bounds);
+    for (size_t i = 0; !shows && i < r->entities.count; i++)
+        shows = lom_may_show(&seen, r->entities.items[i].at->bounds);
+    return shows;
+}
+
 static bool cast_shadow(struct frame *f, lom_error *error)
 {
     struct lom_ground *ground = &f->renderer->ground;
@@ -36,6 +50,10 @@ static bool cast_shadow(struct frame *f, lom_error *error)
     }
     if (ground->shadow != NULL && made.x == to_light.x && made.y == to_light.y && made.z == to_light.z) {
         lom_add_step(f, "terrain shadow", false, "the sun has not moved");
+        return true;
+    }
+    if (!shows_receiver(f)) {
+        lom_add_step(f, "terrain shadow", false, "no ground is in view, nor anything else that it could fall on");
         return true;
     }
     lom_step *step =

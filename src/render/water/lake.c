@@ -3,6 +3,7 @@
  *   visibility (where is water?) -> reflection, refraction (only there) -> water over the scene
  *
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
+#include "render/seen.h"
 #include "render/water/passes.h"
 #include "water/lake.h"
 
@@ -19,16 +20,6 @@ static lom_lake_view lake_view(const struct frame *f)
                             .light = lom_renderer_light(r, f->view.eye),
                             .normal_map = r->water->normal_map,
                             .flow_map = r->water->flow_map };
-}
-
-static bool is_in_view(const struct frame *f)
-{
-    const lom_water_params *w = &f->scene->water;
-    lom_box box = { { w->position[0] - w->size[0] / 2, w->level, w->position[1] - w->size[1] / 2 },
-                    { w->position[0] + w->size[0] / 2, w->level, w->position[1] + w->size[1] / 2 } };
-    lom_mat4 clip_from_world = lom_multiply(&f->view.projection, &f->view.view);
-    lom_frustum frustum = lom_view_frustum(&clip_from_world, false);
-    return lom_box_visibility(&frustum, box) != LOM_OUTSIDE;
 }
 
 static bool draw_visibility(struct frame *f)
@@ -145,7 +136,7 @@ bool lom_draw_lake(struct frame *f, lom_error *error)
         return lom_skip_water(f, "water.enabled is false");
     if (model->has_waves)
         return true;
-    if (!is_in_view(f))
+    if (!lom_may_show_water(f))
         return lom_skip_water(f, "the water's quad is outside the view");
     if (!model->is_looked_up)
         return draw_tinted(f);
