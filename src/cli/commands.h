@@ -20,6 +20,7 @@ int lom_command_render(int argc, char **argv);
 int lom_command_selftest(int argc, char **argv);
 int lom_command_steps(int argc, char **argv);
 int lom_command_trade(int argc, char **argv);
+int lom_command_tune(int argc, char **argv);
 int lom_command_verify(int argc, char **argv);
 int lom_command_version(int argc, char **argv);
 int lom_command_view(int argc, char **argv);

@@ -29,6 +29,7 @@ static const command commands[] = {
     { "steps", "draw a scene stage by stage: a numbered picture each, and a page with a slider", lom_command_steps },
     { "bench", "draw workloads and say how long a frame takes", lom_command_bench },
     { "trade", "say what each dial of a scene buys: error against a reference over milliseconds", lom_command_trade },
+    { "tune", "find the cheapest settings within an error, or the most exact within declared work", lom_command_tune },
     { "lesson", "list the lessons, draw one, check the answer to an exercise", lom_command_lesson },
     { "grade", "compare a student's stage of the pipeline with the right one, name the broken rule",
       lom_command_grade },

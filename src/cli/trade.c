@@ -69,26 +69,6 @@ static int64_t given_or(const lom_option_integers *option, int64_t otherwise)
     return option->given ? option->value[0] : otherwise;
 }
 
-static bool choose_dials(struct trade *t, lom_error *error)
-{
-    char name[80];
-    lom_list_dials(&t->dials);
-    if (t->values->dials == NULL) {
-        for (size_t i = 0; i < t->dials.count; i++)
-            t->chosen[t->chosen_count++] = &t->dials.dial[i];
-        return true;
-    }
-    for (size_t i = 0; lom_nth_word(t->values->dials, ',', i, name, sizeof name); i++) {
-        const lom_dial *dial = lom_find_dial(&t->dials, name, error);
-        if (dial == NULL)
-            return false;
-        if (t->chosen_count == LOM_MAX_DIALS)
-            return lom_fail(error, LOM_ERROR_USAGE, "--dials names more than %d dials.", LOM_MAX_DIALS);
-        t->chosen[t->chosen_count++] = dial;
-    }
-    return t->chosen_count > 0 || lom_fail(error, LOM_ERROR_USAGE, "--dials names no dial.");
-}
-
 /* ---- what is found ---- */
 
 struct found {
@@ -247,8 +227,10 @@ static bool prepare(struct trade *t, lom_error *error)
     const lom_subject subject = {
         .path = t->scene, .frame = frame, .device = lom_device_of_options(&v->scene), .of_processors = v->cpu
     };
-    if (!choose_dials(t, error) || !lom_prepare_trade_reference(&t->reference, v->reference, v->output, &v->scene,
-                                                                &subject, (int)given_or(&v->samples, 64), error))
+    lom_list_dials(&t->dials);
+    if (!lom_choose_dials(&t->dials, v->dials, t->chosen, &t->chosen_count, error) ||
+        !lom_prepare_trade_reference(&t->reference, v->reference, v->output, &v->scene, &subject,
+                                     (int)given_or(&v->samples, 64), error))
         return false;
     t->sweep = (lom_sweep_desc){ .subject = t->reference.subject,
                                  .whole = t->reference.whole,

@@ -3,7 +3,7 @@
 #ifndef LOM_INSPECT_OVERLAY_H
 #define LOM_INSPECT_OVERLAY_H
 
-#include "render/targets.h"
+#include "render/tallied.h"
 
 #include <lom/inspect.h>
 
@@ -36,12 +36,6 @@ struct overlay_row {
 const struct overlay_row *lom_overlay_row(const lom_overlay_kind *kind);
 /* The work of a texel, in quarters of a texture lookup. */
 uint64_t lom_tally_work(const lom_tally *tally);
-
-/* Draws a frame while one of its targets is tallied, until lom_tally_target(NULL); a scene that has none of it draws the
- * frame alone. The targets are there before the frame is drawn, so that they can be tallied. False on failure, also of a
- * scene that the reference traces. */
-bool lom_draw_tallied(lom_renderer *renderer, const lom_frame_desc *desc, lom_tally_desc tally, enum lom_target target,
-                      lom_frame *frame, lom_error *error);
 
 /* The ends of the scale in use. */
 struct overlay_scale {

@@ -86,6 +86,24 @@ const lom_dial *lom_find_dial(const lom_dials *dials, const char *name, lom_erro
     return NULL;
 }
 
+bool lom_choose_dials(const lom_dials *dials, const char *names, const lom_dial **chosen, size_t *count,
+                      lom_error *error)
+{
+    char name[80];
+    *count = 0;
+    for (size_t i = 0; names == NULL && i < dials->count; i++)
+        chosen[(*count)++] = &dials->dial[i];
+    for (size_t i = 0; names != NULL && lom_nth_word(names, ',', i, name, sizeof name); i++) {
+        const lom_dial *dial = lom_find_dial(dials, name, error);
+        if (dial == NULL)
+            return false;
+        if (*count == LOM_MAX_DIALS)
+            return lom_fail(error, LOM_ERROR_USAGE, "More than %d dials are named.", LOM_MAX_DIALS);
+        chosen[(*count)++] = dial;
+    }
+    return *count > 0 || lom_fail(error, LOM_ERROR_USAGE, "The list of dials names no dial.");
+}
+
 bool lom_dial_setting(const lom_dial *dial, size_t i, char setting[LOM_SCENE_VALUE])
 {
     return lom_nth_word(dial->row.settings, ' ', i, setting, LOM_SCENE_VALUE);

@@ -28,6 +28,9 @@ typedef struct lom_dials {
 void lom_list_dials(lom_dials *dials);
 /* The dial of a name, with or without "quality."; NULL with the nearest names in error. */
 const lom_dial *lom_find_dial(const lom_dials *dials, const char *name, lom_error *error);
+/* The dials whose names stand in `names` with commas between them, NULL: all of them. chosen: LOM_MAX_DIALS. */
+bool lom_choose_dials(const lom_dials *dials, const char *names, const lom_dial **chosen, size_t *count,
+                      lom_error *error);
 /* Setting i, from the cheapest to the most exact; false behind the last. */
 bool lom_dial_setting(const lom_dial *dial, size_t i, char setting[LOM_SCENE_VALUE]);
 /* "KEY=SETTING" of a dial of scenes, as an override of a scene. */
