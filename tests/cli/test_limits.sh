@@ -41,7 +41,8 @@ lake_in_memory() {
 
 empty_scene_at_once() {
     echo '' >"$folder/empty.toml"
-    below "ms" "$(least "$lom" render "$folder/empty.toml" --hash)" 60
+    below "ms" "$(least "$lom" render "$folder/empty.toml" --hash)" 60 &&
+        below "ms" "$(least "$lom" render "$folder/empty.toml" --size 160x90 -o "$folder/empty.png")" 20
 }
 
 if ! command -v python3 >/dev/null || ! command -v strip >/dev/null; then
