@@ -27,7 +27,8 @@ static const char *const head_lines[] = {
     "pointer-events:none}#bar{position:absolute;top:0;bottom:0;width:2px;margin-left:-1px;background:#ffc247;",
     "pointer-events:none}#bar::after{content:'';position:absolute;top:50%;left:-8px;width:18px;height:18px;",
     "margin-top:-9px;border-radius:9px;background:#ffc247}#stage b{position:absolute;top:6px;padding:1px 8px;",
-    "font-size:13px;background:#000a;border-radius:6px;pointer-events:none}#left{left:6px}#right{right:6px}",
+    "font-size:13px;background:#000a;border-radius:6px;pointer-events:none}#stage "
+    "b:empty{display:none}#left{left:6px}#right{right:6px}",
     "#words{padding:8px 14px;overflow-wrap:anywhere}code,textarea{font-family:ui-monospace,monospace;font-size:13px}",
     "code{color:#9fd3ff}textarea{flex:1 1 380px;height:54px;background:#0b0e13;color:inherit;",
     "border:1px solid #3a4554;border-radius:6px}",
