@@ -31,7 +31,7 @@ static const char shallow[] = "[shallow]\nsize = 16\ncells = 12\n[[shallow.sprin
 
 static const char lamps[] =
     "[[lamp]]\nposition = [0, 3, 2]\nrange = 7\n[[lamp.key]]\ntime = 0\n[[lamp.key]]\ntime = 1\n"
-    "position = [2, 3, 2]\n[[lamp]]\ndirection = [0, -1, 1]\n";
+    "position = [2, 3, 2]\n[[lamp]]\ndirection = [0, -1, 1]\n[[lamp]]\nposition = [1, 4, 3]\nshadow = true\n";
 
 static const struct frame_scene {
     const char *name;
