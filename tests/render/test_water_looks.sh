@@ -7,7 +7,7 @@
 scenes=assets/scenes
 flat() { # SCENE and options: largest difference of the mesh and the two triangles, in levels
     for model in displaced normal_map; do
-        "$lom" render "$scenes/$1" --size 320x180 --set quality.water=$model -o "$folder/$model.ppm" -q ${2:+$2 $3 $4 $5 $6 $7 $8 $9}
+        "$lom" render "$scenes/$1" --size 320x180 --set quality.water=$model --set output.edges=sharp -o "$folder/$model.ppm" -q ${2:+$2 $3 $4 $5 $6 $7 $8 $9}
     done
     "$lom" compare "$folder/displaced.ppm" "$folder/normal_map.ppm" --json | sed 's/.*"max_delta": \([0-9]*\).*/\1/'
 }
