@@ -3,6 +3,9 @@
 lom=${BUILD:-build}/lom
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
+# The widest lanes that this build has.
+widest=16
+"$lom" render assets/scenes/lake.toml --size 1x1 --lanes 16 --hash >/dev/null 2>&1 || widest=8
 pool_heights() { # a bowl with bumps, as a height map
     awk 'BEGIN { print "P2 33 33 255"; for (j = 0; j < 33; j++) for (i = 0; i < 33; i++)
         print int(255 * ((i - 16) ^ 2 + (j - 16) ^ 2 + 40 * (i * j % 5)) / 700) }' >"$folder/height.pgm"
