@@ -165,7 +165,7 @@ static double base_of(const struct layer *layer, const lom_cloud_kind *kind, siz
         return layer->base;
     if (kind->high <= kind->low)
         return 1000;
-    double range = kind->high - kind->low, share = lom_random_uniform(layer->key, (uint64_t)kind->high);
+    double range = kind->high - kind->low, share = lom_random_uniform(layer->key, (uint64_t)lom_int64_of(kind->high));
     double off = 0.04 * (draw(layer, cloud, 0, FOR_BASE) - 0.5);
     return kind->low + range * lom_smaller(lom_larger(share * 0.96 + 0.02 + off, 0), 1);
 }
