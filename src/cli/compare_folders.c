@@ -46,7 +46,7 @@ static bool is_picture(const char *name)
     return codec != NULL && codec->reads;
 }
 
-enum { DEEPEST = 32 }; /* folders within folders: a link to one around it has no end */
+enum { DEEPEST = 32 }; /* folders within folders: one that leads to a folder around it has no end */
 
 static bool add_folder(struct names *names, int folder, const char *root, const char *within, int depth,
                        lom_error *error);

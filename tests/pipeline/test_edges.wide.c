@@ -8,7 +8,7 @@ enum { SIZE = 64, EDGES = 4 }; /* right, left, down, up */
 
 static const lom_texture_desc marks = { .width = SIZE, .height = SIZE, .format = LOM_FORMAT_RGBA8 };
 
-LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .reads = 15, .colors = 1)
+LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 
 LOM_INLINE void place_cut(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
@@ -16,7 +16,8 @@ LOM_INLINE void place_cut(lom_vertex *out, const lom_attributes *in, const void 
     out->distance[0] = in->attribute[3].x;
 }
 
-LOM_SHADER(cut, place_cut, show_values, .attributes = 4, .varyings = 4, .reads = 15, .clip_distances = 1, .colors = 1)
+LOM_SHADER(cut, place_cut, show_values, .attributes = 4, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .clip_distances = 1, .colors = 1)
 
 LOM_INLINE void show_some(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
@@ -24,7 +25,8 @@ LOM_INLINE void show_some(lom_fragment *out, const lom_varyings *in, const void 
     out->discard = in->varying[0] > 0.75f;
 }
 
-LOM_SHADER(holed, place_values, show_some, .attributes = 2, .varyings = 4, .reads = 15, .discards = true, .colors = 1)
+LOM_SHADER(holed, place_values, show_some, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .discards = true, .colors = 1)
 
 /* ---- where triangles end ---- */
 
