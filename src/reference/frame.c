@@ -164,25 +164,30 @@ static bool look(struct frame *f, lom_error *error)
     return true;
 }
 
+/* The frame is too large for the stack that a thread may have. */
 lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_frame *desc, lom_error *error)
 {
-    struct frame f = { .desc = *desc };
-    if (f.desc.crop.width == 0)
-        f.desc.crop = (lom_rect){ 0, 0, desc->width, desc->height };
-    if (!check_frame(&f.desc, error))
+    lom_reference_frame whole = *desc;
+    if (whole.crop.width == 0)
+        whole.crop = (lom_rect){ 0, 0, desc->width, desc->height };
+    struct frame *f = check_frame(&whole, error) ? lom_allocate(1, sizeof *f, error) : NULL;
+    if (f == NULL)
         return NULL;
+    f->desc = whole;
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_pool *pool = lom_create_pool(desc->threads > 0 ? desc->threads : lom_default_threads(), error);
-    if (pool != NULL && move(&f, reference, error) && look(&f, error))
-        f.image = lom_create_image(f.desc.crop.width, f.desc.crop.height, 1, LOM_FORMAT_RGB32F, error);
-    if (f.image != NULL)
-        lom_run_pool(pool, trace_rows, &f);
+    if (pool != NULL && move(f, reference, error) && look(f, error))
+        f->image = lom_create_image(whole.crop.width, whole.crop.height, 1, LOM_FORMAT_RGB32F, error);
+    if (f->image != NULL)
+        lom_run_pool(pool, trace_rows, f);
     for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++)
-        lom_free_wave_surface(&f.waves[i]);
-    if (f.placed)
-        lom_free_placed(&f.reference);
+        lom_free_wave_surface(&f->waves[i]);
+    if (f->placed)
+        lom_free_placed(&f->reference);
     lom_free_pool(pool);
     lom_leave_float_state(&state);
-    return f.image;
+    lom_image *image = f->image;
+    lom_release(f);
+    return image;
 }

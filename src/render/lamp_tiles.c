@@ -113,7 +113,10 @@ bool lom_fill_lamp_tiles(struct lom_lamp_tiles *t, const struct lom_lamp_extent 
         if (entries <= MOST_ENTRIES || across == 0)
             break;
     }
-    if (!lom_reserve(&t->list, &t->list_capacity, entries + 1, sizeof *t->list, error))
+    /* What so many lamps can fill wherever they are: frames in which they move allocate nothing. */
+    size_t each = without_tiles ? 1 : MOST_ACROSS * MOST_ACROSS + 1;
+    size_t room = count < MOST_ENTRIES / each ? count * each : MOST_ENTRIES;
+    if (!lom_reserve(&t->list, &t->list_capacity, room > entries ? room : entries + 1, sizeof *t->list, error))
         return false;
     add_up(t);
     for (size_t i = 0; i < count; i++)

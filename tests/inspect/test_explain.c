@@ -59,10 +59,11 @@ static void check_rectangle(lom_renderer *renderer, const lom_image *picture, co
 
 static void check_scene(const char *name, int frame, lom_rect at)
 {
+    static const char *const sharp = "output.edges=sharp"; /* as what is recorded */
     char path[200];
     lom_error error = { .code = LOM_OK };
     snprintf(path, sizeof path, "assets/scenes/%s.toml", name);
-    lom_scene *scene = lom_read_scene(path, NULL, 0, &error);
+    lom_scene *scene = lom_read_scene(path, &sharp, 1, &error);
     lom_renderer *renderer = scene != NULL ? lom_create_renderer(scene, NULL, &error) : NULL;
     lom_frame whole = { .image = NULL };
     const lom_frame_desc desc = { .width = WIDTH, .height = HEIGHT, .frame = frame };

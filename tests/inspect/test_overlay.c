@@ -14,12 +14,14 @@ struct open {
     lom_renderer *renderer;
 };
 
+/* What is counted has sharp edges. */
 static struct open open_scene(const char *name)
 {
+    static const char *const sharp = "output.edges=sharp";
     char path[200];
     lom_error error = { .code = LOM_OK };
     snprintf(path, sizeof path, "assets/scenes/%s.toml", name);
-    struct open o = { .scene = lom_read_scene(path, NULL, 0, &error) };
+    struct open o = { .scene = lom_read_scene(path, &sharp, 1, &error) };
     o.renderer = o.scene != NULL ? lom_create_renderer(o.scene, NULL, &error) : NULL;
     CHECK(o.renderer != NULL, "%s: %s", name, error.text);
     return o;

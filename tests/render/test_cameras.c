@@ -178,7 +178,8 @@ static void the_reference_sees_the_same(void)
                                  "height = 4\n[quality]\nterrain_error = 0\n",
                     55 },
                   { VIEW "[sky]\ngradient = true\n" TERRAIN "[quality]\nterrain_error = 0\n", 95 },
-                  { VIEW CLOUD "[quality]\ncloud_error = 0.0002\ncloud_jitter = false\n[clouds]\nshadows = false\n",
+                  { VIEW CLOUD "extinction = 0.04\ndetail_size = 180\n[quality]\ncloud_error = 0.0002\n"
+                               "cloud_jitter = false\n[clouds]\nshadows = false\n",
                     45 },
                   { VIEW TERRAIN "[water]\nlevel = 0\nsize = 30\n[water.waves]\nkind = \"gerstner\"\ncount = 2\n"
                                  "height = 0.1\nlength = [8, 3]\n[water.optics]\nroughness = 0\ncaustics = 0\n"

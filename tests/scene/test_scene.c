@@ -208,7 +208,7 @@ static void wrong_values(void)
         { "[water]\nlevel = inf", NULL,
           "lake.toml:2:9: \"level\" is inf but must be from -1000000000 to 1000000000 m." },
         { "water = 3", NULL, "lake.toml:1:9: \"water\" must be a table, not an integer." },
-        { "[[water]]", NULL, "lake.toml:1:3: \"water\" must be a table, not an array." },
+        { "[[terrain]]", NULL, "lake.toml:1:3: \"terrain\" must be a table, not an array." },
         { "[entity]", NULL, "lake.toml:1:2: \"entity\" must be an array of tables, not a table." },
         { "entity = [1]", NULL, "lake.toml:1:11: \"entity\" must be made of tables, not an integer." },
         { "title = 2020-01-01", NULL, "lake.toml:1:9: \"title\" must be a string, not a date." },
