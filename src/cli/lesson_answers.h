@@ -2,7 +2,7 @@
  * --write; the answers are in tests/lessons/test_answers.c. */
 /* clang-format off */
     { "clip_space", 0, IS_PICTURE, 0x6b4732abd7a1ffe4, false, "That is the picture of the lesson's own program." },
-    { "clouds", 0, IS_PICTURE, 0x69854723c3090290, false, "That is the picture of the lesson's own program." },
+    { "clouds", 0, IS_PICTURE, 0x81933b750bb0f70f, false, "That is the picture of the lesson's own program." },
     { "depth", 0, IS_PICTURE, 0x5ba42af04d581bef, false, "That is the picture of the lesson's own program." },
     { "determinism", 0, IS_PICTURE, 0x11c5a0020b7b368a, false, "That is the picture of the lesson's own program." },
     { "interpolation", 0, IS_PICTURE, 0xe99fc423673b9a6b, false, "That is the picture of the lesson's own program." },
@@ -14,7 +14,7 @@
     { "stage", 0, IS_PICTURE, 0x4926a55d53353e1e, false, "That is the picture of the lesson's own program." },
     { "targets", 0, IS_PICTURE, 0x8a33306c4b98a976, false, "That is the picture of the lesson's own program." },
     { "textures", 0, IS_PICTURE, 0xc65748326c7a8380, false, "That is the picture of the lesson's own program." },
-    { "trade", 0, IS_PICTURE, 0x6218ac4c4223a75b, false, "That is the picture of the lesson's own program." },
+    { "trade", 0, IS_PICTURE, 0x577ae71dabdfd409, false, "That is the picture of the lesson's own program." },
     { "transforms", 0, IS_PICTURE, 0x2ecac4fccd8f84b1, false, "That is the picture of the lesson's own program." },
     { "triangle", 0, IS_PICTURE, 0xebede92ee988fc62, false, "That is the picture of the lesson's own program." },
     { "water", 0, IS_PICTURE, 0xae1a517a5e970e56, false, "That is the picture of the lesson's own program." },
@@ -91,8 +91,8 @@
     { "targets", 3, IS_PICTURE, 0x9d768f1d37735877, true, "What lies under the mirror came into its picture, where nothing can be reflected from." },
     { "water", 4, IS_PICTURE, 0x4d9c428ce4a27165, true, "Clear water." },
     { "waves", 3, IS_PICTURE, 0x6e53ebd8ba56ba3c, true, "The same numbers, drawn for another wind: only directions changed." },
-    { "clouds", 3, IS_PICTURE, 0x8ae5077ae17451ad, true, "Half as many texels as pixels along each side: 1/4 of the rays, hardly to be seen." },
+    { "clouds", 3, IS_PICTURE, 0x9575ebf6ea7c7ca0, true, "Half as many texels as pixels along each side: 1/4 of the rays, hardly to be seen." },
     { "lanes", 3, IS_PICTURE, 0x7b568f5fdd10a084, true, "The smaller the triangles, the more a packet of their own wastes." },
     { "determinism", 3, IS_PICTURE, 0x389d5be39d9114cc, true, "Ten additions are enough: most pixels differ all the same." },
-    { "trade", 3, IS_PICTURE, 0x5b45e8e26cc87f16, true, "Where the picture begins to hold, a few steps more buy much." },
+    { "trade", 3, IS_PICTURE, 0x18e97b92792188b4, true, "Where the picture begins to hold, a few steps more buy much." },
     { "stage", 2, IS_PICTURE, 0xefde1e3836b66a93, true, "Lines alone." },

@@ -43,6 +43,7 @@ const system = {
         fs.renameSync(from, to);
     },
     remove: fs.unlinkSync,
+    list: path => fs.readdirSync(path, { withFileTypes: true }).map(entry => ({ name: entry.name, kind: kind_of(entry) })),
     make_folder: path => fs.mkdirSync(path),
     remove_folder: path => fs.rmdirSync(path),
 };

@@ -31,6 +31,7 @@ function make_system(files, print) {
             files.delete(plain(from));
         },
         remove: path => void (files.delete(plain(path)) || fail('ENOENT')),
+        list: path => plain(path) === '/' ? [...files.keys()].map(name => ({ name: name.slice(1), kind: FILE })) : fail('ENOTDIR'),
         make_folder: () => fail('EPERM'),
         remove_folder: () => fail('EPERM'),
     };

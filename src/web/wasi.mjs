@@ -162,6 +162,22 @@ export function run(module, args, system) {
             file.position = position >= 0 ? position : fail('EINVAL');
             put64(to, position);
         },
+        // Entries from the one of that number on, as many bytes as there is room for; the last may be cut off.
+        fd_readdir: (number, to, room, first, used_at) => {
+            const entries = system.list(at(number).kind === FOLDER ? at(number).path : fail('ENOTDIR'));
+            let used = 0;
+            for (let i = Number(first); i < entries.length && used < room; i++) {
+                const name = new TextEncoder().encode(entries[i].name), entry = new Uint8Array(24 + name.length);
+                const head = new DataView(entry.buffer);
+                head.setBigUint64(0, BigInt(i + 1), true);
+                head.setUint32(16, name.length, true);
+                head.setUint8(20, entries[i].kind);
+                entry.set(name, 24);
+                put(to + used, Math.min(entry.length, room - used), entry);
+                used += Math.min(entry.length, room - used);
+            }
+            put32(used_at, used);
+        },
         fd_sync: number => flush(at(number)),
         fd_close: number => {
             const file = at(number);

@@ -72,5 +72,15 @@ result wasm_says_what_cannot_be_read $? "$(cat "$folder/out")"
 wasm convert "$folder/native.png" "$folder/none/a.png" >"$folder/out" 2>&1
 [ $? -eq 2 ] && grep -q 'none/a.png: could not' "$folder/out"
 result wasm_says_what_cannot_be_written $? "$(cat "$folder/out")"
+
+# Folders are read: a picture in both, one deeper in one of them alone.
+mkdir -p "$folder/a/deep" "$folder/b"
+cp "$folder/native.ppm" "$folder/a/deep/alone.ppm"
+for side in a b; do cp "$folder/native.ppm" "$folder/$side/both.ppm"; done
+native compare "$folder/a" "$folder/b" >"$folder/expected" 2>&1
+expected=$?
+wasm compare "$folder/a" "$folder/b" >"$folder/out" 2>&1
+[ $? -eq $expected ] && grep -q alone.ppm "$folder/expected" && cmp -s "$folder/expected" "$folder/out"
+result wasm_compares_folders $? "$(cat "$folder/expected" "$folder/out")"
 [ -z "$pages" ] || BUILD=$BUILD tests/house/wasm_pages.sh || failures=1
 exit $failures
