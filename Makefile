@@ -11,7 +11,8 @@
 #   make matrix                 one hash from every compiler and architecture
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
-#   make check-long             every float through every conversion and lane function; runs shared out among workers
+#   make check-long             every float through every conversion and lane function; runs shared out among workers;
+#                               Mesa, FFTW, MPFR and OpenVDB as witnesses, where they are installed
 #   make docs                   all pages, lessons and the headers' comments as HTML, in build/docs
 #   make clean, make help
 #
@@ -284,6 +285,14 @@ $(patsubst %.c,$(BUILD)/%,$(wildcard tests/cli/*.c)): $(BUILD)/cli.a
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
 
+# Outside witnesses, for make check-long alone: no library of theirs is ever linked with lom.
+$(BUILD)/tests/witness/witness_mathematics.w4: private LDLIBS := -lmpfr -lgmp $(LDLIBS)
+$(BUILD)/tests/witness/witness_transforms: private LDLIBS := -lfftw3 $(LDLIBS)
+$(BUILD)/tests/witness/witness_picture.w4: private LDLIBS := -lEGL -lGLESv2 $(LDLIBS)
+$(BUILD)/tests/witness/witness_volume: tests/witness/witness_volume.cc $(BUILD)/liblom.a tests/check.h
+	@mkdir -p $(@D)
+	$(call short,CXX)$(CXX) -std=c++17 -O1 -Wno-psabi -Iinclude -Itests $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a -lopenvdb -ltbb -lImath-3_1 $(LDLIBS)
+
 # Another system's answers.
 $(BUILD)/tests/base/test_cpu: private LDFLAGS += -Wl,--wrap=sysconf -Wl,--wrap=sched_getaffinity
 
@@ -364,6 +373,7 @@ LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert
 check-long: all $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
 	BUILD='$(BUILD)' tests/house/many_machines.sh
+	MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' VARIANTS='$(VARIANTS)' tests/witness/witnesses.sh
 
 # For WebAssembly, by the newest clang; SIMD= leaves out its vectors of 128 bits. The pages want node and cmark-gfm.
 WASM_CC = $(or $(lastword $(sort $(notdir $(wildcard /usr/bin/clang-[1-9][0-9])))),clang)
