@@ -29,6 +29,8 @@ typedef struct lom_cloud_kind {
 const lom_cloud_kind *lom_cloud_kind_at(size_t index);
 /* By name or abbreviation, case as written; NULL (and an error that suggests the nearest name) when there is none. */
 const lom_cloud_kind *lom_find_cloud_kind(const char *name, lom_error *error);
+/* Height of the base of a cloud of which nothing is told, metres: halfway up the kind's range; 0 if it has none. */
+double lom_base_of_kind(const lom_cloud_kind *kind);
 
 typedef struct lom_cloud_desc {
     const char *kind;
@@ -59,6 +61,7 @@ typedef struct lom_cloud {
     double voxels[3]; /* of the made volume, or of a raw file; 0: the kind's */
     int seed;
     lom_vec3 position;  /* metres: the middle of the base of its box */
+    double middle[2];   /* its x and z, if the file names them; the reader has put them there */
     double size[3];     /* metres along x, y, z; the reader has put the kind's where the file names none */
     double yaw;         /* radians about y, counter-clockwise seen from above */
     double density;     /* factor on the volume's density */
@@ -142,7 +145,7 @@ typedef struct lom_clouds {
     const char *metar;  /* a report that lom_parse_metar reads, or NULL */
     int seed, shapes;   /* shapes: of each kind, 1..LOM_MAX_SKY_SHAPES; clouds of one shape share their volume */
     double area[2];     /* metres along x and z in which the middles of clouds are */
-    double middle[2];   /* x and z of the area's */
+    double middle[2];   /* its x and z, if the file names them; the reader has put them there */
     double sizes[2];    /* least and largest, in parts of the kind's */
     double voxels;      /* along each axis, in parts of the kind's, above 0 to 1 */
     double base;        /* metres; negative: each kind's, drawn from its range */

@@ -28,7 +28,9 @@ static const lom_key cloud[] = {
     { "seed", LOM_KEY_INTEGER, AT(seed), .minimum = 0, .maximum = 2147483647, .initial = { 1 },
       .text = "Another seed gives another cloud of the kind." },
     { "position", LOM_KEY_NUMBER, AT(position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
-      .text = "Where the middle of its base is." },
+      .text = "Where the middle of its base is.", .initial_text = "the origin, halfway up the heights of its genus" },
+    { "middle", LOM_KEY_NUMBER, AT(middle), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .text = "x and z of the middle of its base, instead of those of `position`.", .initial_text = "those of it" },
     { "size", LOM_KEY_NUMBER, AT(size), 3, .flags = LOM_KEY_SPREAD, .minimum = 1e-6, .maximum = 1e6, .unit = "m",
       .initial = { 1000, 1000, 1000 }, .text = "Extent of its box along x, y and z.", .initial_text = "the kind's" },
     { "yaw", LOM_KEY_ANGLE, AT(yaw), .minimum = -360, .maximum = 360, .unit = "degrees",
@@ -51,6 +53,10 @@ static bool check_cloud(void *members, const lom_key_check *check)
     lom_cloud *it = members;
     if (it->file != NULL && it->kind != NULL)
         return check->fail(check, "file", "a cloud has either a kind or a file, not both.");
+    if (check->is_given(check, "middle")) {
+        it->position.x = it->middle[0];
+        it->position.z = it->middle[1];
+    }
     if (it->file != NULL)
         return true;
     if (it->kind == NULL)
@@ -59,6 +65,8 @@ static bool check_cloud(void *members, const lom_key_check *check)
     const lom_cloud_kind *kind = lom_find_cloud_kind(it->kind, &unknown);
     if (kind == NULL)
         return check->fail(check, "kind", unknown.text);
+    if (!check->is_given(check, "position"))
+        it->position.y = lom_base_of_kind(kind);
     if (!check->is_given(check, "size"))
         memcpy(it->size, kind->size, sizeof it->size);
     const double shrink = lom_shrink_of_kind(kind, it->size);

@@ -172,6 +172,11 @@ const lom_cloud_kind *lom_find_cloud_kind(const char *name, lom_error *error)
     return row != NULL ? &row->kind : NULL;
 }
 
+double lom_base_of_kind(const lom_cloud_kind *kind)
+{
+    return (kind->low + kind->high) / 2;
+}
+
 double lom_shrink_of_kind(const lom_cloud_kind *kind, const double size[3])
 {
     double share = 1;

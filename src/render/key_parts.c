@@ -64,10 +64,11 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_FOLLOWED, "entity.interpolation entity.key.time entity.key.position entity.key.rotation" },
     { each_frame, "entity.name" },
 
-    { LOM_PART_CLOUDS, "cloud cloud.kind cloud.file cloud.voxels cloud.seed cloud.position cloud.size cloud.yaw "
-                       "cloud.density cloud.extinction cloud.detail cloud.visible clouds.evolve clouds.wind "
-                       "clouds.count clouds.oktas clouds.metar clouds.seed clouds.shapes clouds.area clouds.middle "
-                       "clouds.sizes clouds.voxels clouds.base clouds.mix clouds.mix.kind clouds.mix.share" },
+    { LOM_PART_CLOUDS,
+      "cloud cloud.kind cloud.file cloud.voxels cloud.seed cloud.position cloud.middle cloud.size cloud.yaw "
+      "cloud.density cloud.extinction cloud.detail cloud.visible clouds.evolve clouds.wind "
+      "clouds.count clouds.oktas clouds.metar clouds.seed clouds.shapes clouds.area clouds.middle "
+      "clouds.sizes clouds.voxels clouds.base clouds.mix clouds.mix.kind clouds.mix.share" },
     { LOM_PART_CLOUD_LIGHT, "clouds.albedo clouds.forward clouds.original_light clouds.lighter clouds.dark_light" },
     { each_frame, "cloud.name cloud.detail_size clouds clouds.phase clouds.backward clouds.blend clouds.silver "
                   "clouds.silver_spread clouds.brightness clouds.sky clouds.ground clouds.haze_color "

@@ -9,7 +9,7 @@ world() {
     awk -v s="$1" 'BEGIN {
         printf "[output]\nwidth = 96\nheight = 54\n[camera]\nnear = %g\nposition = [0, %g, %g]\ntarget = [0, %g, 0]\n", s, 180 * s, 1400 * s, 230 * s
         print "[sky]\ngradient = true\n[quality]\ncloud_jitter = false"
-        printf "[[cloud]]\nkind = \"cumulus_humilis\"\nvoxels = [48, 24, 40]\nsize = [%g, %g, %g]\n", 1100 * s, 450 * s, 1000 * s
+        printf "[[cloud]]\nkind = \"cumulus_humilis\"\nposition = [0, 0, 0]\nvoxels = [48, 24, 40]\nsize = [%g, %g, %g]\n", 1100 * s, 450 * s, 1000 * s
     }'
 }
 
