@@ -25,10 +25,11 @@ typedef struct lom_explain_desc {
 /* One texel that was watched. */
 typedef struct lom_explained {
     const lom_texture *texture;
-    const char *name; /* "picture", or the texture's label */
-    int x, y;         /* texel; of the picture: the frame's pixel */
-    uint64_t before;  /* the pass that read it; of the picture 0 */
-    int depth;        /* pictures between it and the pixel */
+    const lom_texture *filtered; /* that it was made of by smoothing edges, recorded with it; NULL: none */
+    const char *name;            /* "picture", or the texture's label */
+    int x, y;                    /* texel; of the picture: the frame's pixel */
+    uint64_t before;             /* the pass that read it; of the picture 0 */
+    int depth;                   /* pictures between it and the pixel */
     const lom_pixel_record *record;
     const lom_triangle_record *owner; /* the last triangle that is stored there; NULL: none */
     lom_vec3 eye;                  /* of the picture's pass, in the world: places less the eye plus this are places */

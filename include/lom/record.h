@@ -25,6 +25,9 @@ typedef struct lom_watch_desc {
     int x, y;                  /* texel */
     int width, height;         /* 0: 1 */
     uint64_t before; /* only in passes with a smaller number, counted from 0 since lom_watch; 0: in all of them */
+    const lom_texture
+        *filtered; /* what a pass filters into the target (lom_find_filtered): its texels at the same places
+                                    are watched as the target's own before that; NULL: nothing */
 } lom_watch_desc;
 
 /* What became of a triangle at the pixel. */
@@ -143,6 +146,7 @@ typedef struct lom_pass_record {
     lom_pass_desc desc;
     int x, y;               /* the pixel in the frame */
     int attachment;         /* of the watched texture: a colour's number, -1 the depth */
+    bool filters;           /* it drew the watched texture from the one that it filters: nothing before is lost to it */
     float end[4];           /* what the texture holds after the pass: the attachment's numbers, or the depth */
     lom_draw_record *draws; /* those of the pass that touched the pixel, in order, and all that are not recorded */
     struct lom_pass_record *next;
@@ -162,6 +166,9 @@ bool lom_watch(lom_device *device, const lom_watch_desc *watches, size_t count);
 const lom_pixel_record *lom_watched_pixel(const lom_device *device, size_t watch, int x, int y);
 /* The pass, counted since lom_watch, that last drew into a texture before the pass `before`; false: none did. */
 bool lom_find_drawn(const lom_device *device, const lom_texture *texture, uint64_t before, uint64_t *pass);
+/* The texture that the last such pass made it of, as lom_smooth_edges does, each texel of the one at its place and those
+ * around; NULL: it is drawn as it is. */
+const lom_texture *lom_find_filtered(const lom_device *device, const lom_texture *texture, uint64_t before);
 /* Passes since lom_watch. */
 uint64_t lom_count_watched_passes(const lom_device *device);
 

@@ -212,6 +212,7 @@ static void write_draws(lom_json *json, const lom_explanation *explanation, cons
             lom_json_nest(json, NULL, '{');
             lom_json_integer(json, "pass", (int64_t)pass->number);
             lom_json_text(json, "pass_name", lom_pass_name(pass));
+            lom_json_bool(json, "filters", pass->filters);
             lom_json_integer(json, "draw", (int64_t)draw->number);
             lom_json_text(json, "name", lom_draw_name(draw));
             lom_json_text(json, "shader", draw->desc.shader->name);

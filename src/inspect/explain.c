@@ -91,7 +91,7 @@ static void follow(const lom_device *device, lom_explanation *explanation, const
 {
     const int depth = from->depth;
     for (const lom_pass_record *pass = from->record->passes; pass != NULL; pass = pass->next)
-        for (const lom_draw_record *draw = pass->draws; draw != NULL; draw = draw->next)
+        for (const lom_draw_record *draw = pass->filters ? NULL : pass->draws; draw != NULL; draw = draw->next)
             for (const lom_triangle_record *t = draw->triangles; t != NULL; t = t->next)
                 if (t->fragment.shaded && (t->fate == LOM_FATE_STORED || t->fate == LOM_FATE_BLENDED_OVER))
                     follow_fragment(device, explanation, depth, pass->number, &t->fragment);
@@ -149,7 +149,9 @@ static bool draw(struct explaining *x, lom_error *error)
     lom_watch_desc watches[LOM_MAX_WATCHES];
     for (size_t i = 0; i < explanation->count; i++) {
         const lom_explained *e = &explanation->item[i];
-        watches[i] = (lom_watch_desc){ .target = e->texture, .x = e->x, .y = e->y, .before = e->before };
+        watches[i] = (lom_watch_desc){
+            .target = e->texture, .x = e->x, .y = e->y, .before = e->before, .filtered = e->filtered
+        };
     }
     watches[0].x = x->watched.x;
     watches[0].y = x->watched.y;
@@ -168,6 +170,19 @@ static bool draw(struct explaining *x, lom_error *error)
     return true;
 }
 
+/* Whether a drawing told that what is watched is made of another texture, which is to be watched with it then. */
+static bool find_filtered(const struct explaining *x)
+{
+    bool found = false;
+    for (size_t i = 0; i < x->explanation->count; i++) {
+        lom_explained *e = &x->explanation->item[i];
+        const lom_texture *from = lom_find_filtered(x->device, e->texture, e->before != 0 ? e->before : UINT64_MAX);
+        found |= from != e->filtered;
+        e->filtered = from;
+    }
+    return found;
+}
+
 /* The pixel, then what it looked up, until nothing is new or it is deep enough. */
 static bool draw_all(struct explaining *x, lom_error *error)
 {
@@ -175,6 +190,8 @@ static bool draw_all(struct explaining *x, lom_error *error)
     size_t followed = 0;
     for (int depth = 0;; depth++) {
         if (!draw(x, error))
+            return false;
+        if (find_filtered(x) && !draw(x, error))
             return false;
         size_t known = explanation->count;
         for (; followed < known && depth < x->follow && x->watched.width * x->watched.height <= 1; followed++)
@@ -225,7 +242,8 @@ static bool enter_view(const lom_scene *scene, lom_explain_desc *desc, lom_error
 }
 
 /* The targets are there before the frame is drawn, so that they can be watched. */
-static bool prepare(lom_renderer *r, lom_explanation *explanation, lom_explain_desc *desc, lom_error *error)
+static bool prepare(lom_renderer *r, lom_explanation *explanation, lom_explain_desc *desc, lom_rect *watched,
+                    lom_error *error)
 {
     if (r->reference != NULL)
         return lom_fail(error, LOM_ERROR_USAGE,
@@ -244,10 +262,13 @@ static bool prepare(lom_renderer *r, lom_explanation *explanation, lom_explain_d
                         "The pixel %d,%d does not lie in the frame of %dx%d pixels (0,0 to %d,%d).", desc->x, desc->y,
                         f.width, f.height, f.width - 1, f.height - 1);
     desc->frame.crop = (lom_rect){ desc->x, desc->y, desc->width, desc->height };
+    f.crop = desc->frame.crop;
+    lom_begin_edges(&f);
+    *watched = (lom_rect){ f.asked.x, f.asked.y, desc->width, desc->height };
     explanation->width = f.width;
     explanation->height = f.height;
     explanation->count = 1;
-    if (!lom_make_targets(r, f.width, f.height, desc->width, desc->height, error))
+    if (!lom_make_targets(r, f.width, f.height, f.crop.width, f.crop.height, error))
         return false;
     explanation->item[0] = (lom_explained){ .texture = r->targets.of[LOM_TARGET_COLOR], .x = desc->x, .y = desc->y };
     return true;
@@ -260,10 +281,11 @@ lom_explanation *lom_explain(lom_renderer *renderer, const lom_explain_desc *ask
     lom_explanation *explanation = lom_allocate(1, sizeof *explanation, error);
     if (explanation == NULL)
         return NULL;
-    if (prepare(renderer, explanation, &desc, error)) {
+    lom_rect watched;
+    if (prepare(renderer, explanation, &desc, &watched, error)) {
         struct explaining x = { .device = renderer->device,
                                 .explanation = explanation,
-                                .watched = { 0, 0, desc.width, desc.height },
+                                .watched = watched,
                                 .follow = desc.follow,
                                 .draw = draw_frame,
                                 .renderer = renderer,

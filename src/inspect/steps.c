@@ -179,7 +179,9 @@ bool lom_is_alive(const struct steps *s, const lom_texture *texture)
 
 bool lom_watch_target(struct steps *s, lom_rect at)
 {
-    const lom_watch_desc watch = { s->target, at.x, at.y, at.width, at.height, s->last + 1 };
+    const lom_watch_desc watch = {
+        .target = s->target, .x = at.x, .y = at.y, .width = at.width, .height = at.height, .before = s->last + 1
+    };
     if (!lom_is_alive(s, s->target))
         return lom_fail(s->error, LOM_ERROR_USAGE, "The target of pass \"%s\" is another one in each frame.",
                         s->out->pass);

@@ -24,7 +24,7 @@ const char *lom_pass_name(const lom_pass_record *pass)
 struct tally {
     size_t fate[LOM_FATES], all, unrecorded;
     const lom_triangle_record *last, *before; /* stored at the end; and the last one that was lost to it */
-    const lom_pass_record *first_pass, *last_pass;
+    const lom_pass_record *first_pass, *last_pass, *filter;
 };
 
 static void count(const lom_pixel_record *pixel, struct tally *tally)
@@ -32,7 +32,8 @@ static void count(const lom_pixel_record *pixel, struct tally *tally)
     tally->first_pass = pixel->passes;
     for (const lom_pass_record *pass = pixel->passes; pass != NULL; pass = pass->next) {
         tally->last_pass = pass;
-        for (const lom_draw_record *draw = pass->draws; draw != NULL; draw = draw->next) {
+        tally->filter = pass->filters ? pass : tally->filter;
+        for (const lom_draw_record *draw = pass->filters ? NULL : pass->draws; draw != NULL; draw = draw->next) {
             tally->unrecorded += !draw->recorded;
             for (const lom_triangle_record *t = draw->triangles; t != NULL; t = t->next) {
                 tally->fate[t->fate]++;
@@ -94,6 +95,32 @@ static void say_kept(char *text, const struct tally *tally)
         say(text, " it keeps the clear value of pass \"%s\".", lom_pass_name(tally->first_pass));
 }
 
+/* The parts of its light that the filter of edges takes from the pixels beside it. */
+static const float *find_parts(const lom_pass_record *filter)
+{
+    for (const lom_draw_record *draw = filter->draws; draw != NULL; draw = draw->next)
+        for (const lom_triangle_record *t = draw->triangles; t != NULL; t = t->next)
+            for (const lom_note_record *n = t->fragment.notes; n != NULL; n = n->next)
+                if (n->kind == LOM_NOTE_VALUE && strcmp(n->name, "beyond_edges") == 0 && n->components == 4)
+                    return n->value;
+    return NULL;
+}
+
+static void say_mixed(char *text, const lom_pass_record *filter)
+{
+    static const char *const sides[] = { "right", "left", "lower", "upper" };
+    const float *part = find_parts(filter);
+    bool any = false;
+    for (int i = 0; part != NULL && i < 4; i++)
+        if (part[i] > 0) {
+            say(text,
+                any ? ", %.1f %% the %s one's" : " Its edge is smoothed: %.1f %% of its light is the %s neighbour's",
+                100 * (double)part[i], sides[i]);
+            any = true;
+        }
+    say(text, any ? "." : "");
+}
+
 void lom_find_verdict(lom_explained *explained)
 {
     struct tally tally = { .all = 0 };
@@ -125,6 +152,8 @@ void lom_find_verdict(lom_explained *explained)
         say(text, "Nothing drew here:");
         say_kept(text, &tally);
     }
+    if (tally.filter != NULL)
+        say_mixed(text, tally.filter);
     if (tally.unrecorded != 0)
         say(text, " %zu draws could not be recorded.", tally.unrecorded);
 }

@@ -6,43 +6,6 @@
 #include "pipeline/check_device.h"
 #include "pipeline/tally.h"
 
-struct record_block {
-    struct record_block *next;
-    size_t used, size;
-    max_align_t data[];
-};
-
-enum { BLOCK = 4096 - 64 };
-
-void *lom_record_allocate(struct record_memory *memory, size_t size)
-{
-    struct record_block *block = memory->first;
-    size = (size + sizeof(max_align_t) - 1) / sizeof(max_align_t) * sizeof(max_align_t);
-    if (block == NULL || block->size - block->used < size) {
-        size_t room = size > BLOCK ? size : BLOCK;
-        block = lom_allocate(1, sizeof *block + room, NULL);
-        if (block == NULL) {
-            memory->failed = true;
-            return NULL;
-        }
-        block->size = room;
-        block->next = memory->first;
-        memory->first = block;
-    }
-    void *result = (uint8_t *)block->data + block->used;
-    block->used += size;
-    return result;
-}
-
-void lom_free_record_memory(struct record_memory *memory)
-{
-    while (memory->first != NULL) {
-        struct record_block *next = memory->first->next;
-        lom_release(memory->first);
-        memory->first = next;
-    }
-}
-
 static size_t count_pixels(const struct record_watch *watch)
 {
     return (size_t)watch->desc.width * (size_t)watch->desc.height;
@@ -150,15 +113,29 @@ const lom_pixel_record *lom_watched_pixel(const lom_device *device, size_t watch
     return &r->watch[watch].pixels[(y - w->y) * w->width + (x - w->x)].pixel;
 }
 
+/* The last pass before another one that drew into a texture, or that filtered something into it; NULL: none. */
+static const struct record_written *find_written(const struct lom_recorder *r, const lom_texture *texture,
+                                                 uint64_t before, bool filtered)
+{
+    for (size_t i = r != NULL ? r->written_count : 0; i-- > 0;)
+        if (r->written[i].texture == texture && r->written[i].pass < before &&
+            (!filtered || r->written[i].filtered != NULL))
+            return &r->written[i];
+    return NULL;
+}
+
 bool lom_find_drawn(const lom_device *device, const lom_texture *texture, uint64_t before, uint64_t *pass)
 {
-    const struct lom_recorder *r = device != NULL ? device->recorder : NULL;
-    for (size_t i = r != NULL ? r->written_count : 0; i-- > 0;)
-        if (r->written[i].texture == texture && r->written[i].pass < before) {
-            *pass = r->written[i].pass;
-            return true;
-        }
-    return false;
+    const struct record_written *found = device != NULL ? find_written(device->recorder, texture, before, false) : NULL;
+    if (found != NULL)
+        *pass = found->pass;
+    return found != NULL;
+}
+
+const lom_texture *lom_find_filtered(const lom_device *device, const lom_texture *texture, uint64_t before)
+{
+    const struct record_written *found = device != NULL ? find_written(device->recorder, texture, before, true) : NULL;
+    return found != NULL ? found->filtered : NULL;
 }
 
 uint64_t lom_count_watched_passes(const lom_device *device)
@@ -190,26 +167,41 @@ static bool note_attachment(struct lom_recorder *r, const lom_texture *texture)
 {
     if (!lom_reserve(&r->written, &r->written_capacity, r->written_count + 1, sizeof *r->written, NULL))
         return false;
-    r->written[r->written_count++] = (struct record_written){ texture, r->passes };
+    r->written[r->written_count++] = (struct record_written){ .texture = texture, .pass = r->passes };
     return true;
 }
 
+void lom_record_filter(lom_device *device, const lom_texture *filtered)
+{
+    struct lom_recorder *r = device->recorder;
+    for (size_t i = 0; r != NULL && i < r->written_count; i++)
+        if (r->written[i].pass + 1 == r->passes && r->written[i].texture == device->pass.color[0].texture)
+            r->written[i].filtered = filtered;
+}
+
+static bool is_watched(const struct record_watch *watch, const lom_texture *texture)
+{
+    return texture != NULL && (texture == watch->desc.target || texture == watch->desc.filtered);
+}
+
 /* The attachment that a watch is of: a colour's number, -1 the depth; false: none. */
-static bool find_attachment(const struct lom_pass *pass, const struct record_watch *watch, int *attachment)
+static bool find_attachment(const struct lom_pass *pass, struct record_watch *watch)
 {
     for (int i = 0; i < pass->colors; i++)
-        if (pass->color[i].texture == watch->desc.target && lom_is_first_slice(pass->color[i].slice)) {
-            *attachment = i;
+        if (is_watched(watch, pass->color[i].texture) && lom_is_first_slice(pass->color[i].slice)) {
+            watch->attachment = i;
+            watch->texture = pass->color[i].texture;
             return true;
         }
-    *attachment = -1;
-    return pass->depth == watch->desc.target && lom_is_first_slice(pass->depth_slice);
+    watch->attachment = -1;
+    watch->texture = pass->depth;
+    return is_watched(watch, pass->depth) && lom_is_first_slice(pass->depth_slice);
 }
 
 static void begin_pixel(const struct lom_pass *pass, struct record_watch *watch, struct record_pixel *pixel)
 {
     lom_load_action load = watch->attachment < 0 ? pass->desc.depth_load : pass->desc.color_load[watch->attachment];
-    if (load == LOM_LOAD_CLEAR) {
+    if (load == LOM_LOAD_CLEAR && (watch->desc.filtered == NULL || watch->texture == watch->desc.filtered)) {
         lom_free_record_memory(&pixel->memory);
         pixel->pixel.passes = NULL;
     }
@@ -247,8 +239,7 @@ void lom_record_begin(lom_device *device)
     r->bounds = (struct lom_bounds){ INT32_MAX, INT32_MAX, -1, -1 };
     for (size_t i = 0; i < r->watch_count; i++) {
         struct record_watch *watch = &r->watch[i];
-        watch->active = find_attachment(pass, watch, &watch->attachment) &&
-                        (watch->desc.before == 0 || r->passes < watch->desc.before);
+        watch->active = find_attachment(pass, watch) && (watch->desc.before == 0 || r->passes < watch->desc.before);
         if (!watch->active)
             continue;
         pass->recorder = r;
@@ -360,9 +351,12 @@ bool lom_record_end(lom_device *device)
                 last = last->next;
             if (last == NULL)
                 continue;
-            read_texel(r->watch[i].desc.target, pixel->pixel.x, pixel->pixel.y, last->end);
+            read_texel(r->watch[i].texture, pixel->pixel.x, pixel->pixel.y, last->end);
             add_unrecorded(device, pixel, last);
-            find_losses(&pixel->pixel, last);
+            const struct record_written *w = find_written(r, r->watch[i].texture, last->number + 1, false);
+            last->filters = w != NULL && w->filtered != NULL && w->filtered == r->watch[i].desc.filtered;
+            if (!last->filters)
+                find_losses(&pixel->pixel, last);
         }
     for (int i = 0; i < r->workers; i++)
         r->failed |= r->worker[i].notes.failed;

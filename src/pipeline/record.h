@@ -72,6 +72,7 @@ struct record_watch {
     lom_watch_desc desc;
     struct record_pixel *pixels;
     bool active;                        /* in the pass at hand, whose pixels */
+    const lom_texture *texture;         /* which of the two that are watched, in that pass */
     int attachment, origin_x, origin_y; /* frame pixel = texel + origin */
 };
 
@@ -83,7 +84,7 @@ struct record_worker {
 };
 
 struct record_written {
-    const lom_texture *texture;
+    const lom_texture *texture, *filtered; /* filtered: what the pass makes it of, at the same places, or NULL */
     uint64_t pass;
 };
 
@@ -103,15 +104,18 @@ struct lom_recorder {
     bool tells;                /* the pass at hand */
 };
 
-/* ---- record.c ---- */
+/* ---- record_memory.c ---- */
 void *lom_record_allocate(struct record_memory *memory, size_t size);
 void lom_free_record_memory(struct record_memory *memory);
+/* ---- record.c ---- */
 /* A new one in place of the device's; NULL without memory. */
 struct lom_recorder *lom_renew_recorder(lom_device *device);
 /* What the device recorded, or tallied (tally.h), is no more. */
 void lom_forget_records(lom_device *device);
 /* The pass has begun: pass->recorder is set where it draws into a watched texture. */
 void lom_record_begin(lom_device *device);
+/* The pass at hand draws its colour 0 from that of `filtered`, each texel from the one at its place and those around. */
+void lom_record_filter(lom_device *device, const lom_texture *filtered);
 /* The attachments are complete. */
 bool lom_record_end(lom_device *device);
 /* The watched pixels of the pass at a pixel of the frame, one after the other: NULL behind the last. *next begins as 0.

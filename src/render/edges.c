@@ -16,15 +16,15 @@ static int grow(int *from, int *count, int size)
     return before;
 }
 
-/* What is recorded is drawn without (lom/record.h). */
-static bool is_watched(const lom_renderer *r)
+/* What is counted texel by texel is drawn without, so that only triangles of the scene count (lom/record.h). */
+static bool is_tallied(const lom_renderer *r)
 {
-    return r->device->recorder != NULL || r->device->tallier != NULL;
+    return r->device->tallier != NULL;
 }
 
 void lom_begin_edges(struct frame *f)
 {
-    f->smooths = lom_smooths_edges(f->scene) && f->renderer->reference == NULL && !is_watched(f->renderer);
+    f->smooths = lom_smooths_edges(f->scene) && f->renderer->reference == NULL && !is_tallied(f->renderer);
     f->target = f->smooths ? LOM_TARGET_SHARP : LOM_TARGET_COLOR;
     f->asked = (lom_rect){ 0, 0, f->crop.width, f->crop.height };
     if (f->smooths) {
@@ -43,7 +43,8 @@ static bool smooth(struct frame *f, const lom_edge_filter *filter, const lom_pas
 
 static const char *reason_without(const struct frame *f)
 {
-    return f->scene->output.samples > 1 ? "output.samples smooths them" : "passes are watched, which are drawn without";
+    return f->scene->output.samples > 1 ? "output.samples smooths them"
+                                        : "texels are tallied, which is of triangles without the filter";
 }
 
 bool lom_smooth_frame(struct frame *f, lom_error *error)

@@ -2,6 +2,7 @@
 #include "shading/smooth_edges.h"
 #include "pipeline/check_device.h"
 #include "pipeline/device.h"
+#include "pipeline/record.h"
 #include "shading/square.h"
 
 static bool check_filter(lom_device *device, const lom_edge_filter *filter)
@@ -23,5 +24,6 @@ void lom_smooth_edges(lom_device *device, const lom_edge_filter *filter)
     const struct lom_smooth_uniforms uniforms = {
         { (float)filter->origin_x, (float)filter->origin_y }, filter->color, filter->edges, filter->depth
     };
+    lom_record_filter(device, filter->color);
     lom_draw_square(device, &lom_smooth_shader, &uniforms, &none);
 }

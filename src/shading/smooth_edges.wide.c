@@ -19,6 +19,7 @@
 #include "shading/smooth_edges.h"
 
 #include <lom/lanes_components.h>
+#include <lom/notes.h>
 
 enum { NEIGHBOURS = 4, FAR = 1024 }; /* to the right, left, down, up; what ends farther away does not end */
 
@@ -137,6 +138,8 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
         sum += part[i];
     }
     const lom_float scale = 1.0f / lom_max(sum, lom_splat(1.0f));
+    const lom_float4 beyond_edges = { part[0] * scale, part[1] * scale, part[2] * scale, part[3] * scale };
+    LOM_NAME_VALUE(beyond_edges);
     color = lom_scale4(color, 1.0f - sum * scale);
     for (int i = 0; i < NEIGHBOURS; i++) {
         const lom_float4 beyond = lom_fetch(u->color, p.x + across[i], p.y + down[i], 0);

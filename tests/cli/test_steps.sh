@@ -43,6 +43,12 @@ whole_list() {
         [ "$(grep -c '</script>' out/index.html)" -eq 2 ]
 }
 
+# With smooth edges too: the pass that smooths them is one of the frame's.
+smooth_edges() {
+    exits 0 "$lom" steps scene.toml --size 48x32 --set output.edges=smooth -o smooth && [ -e smooth/*-pass-edges.png ] &&
+        "$lom" render scene.toml --size 48x32 --set output.edges=smooth -o smooth.png --quiet && cmp smooth.png smooth/*-final.png
+}
+
 other_passes() {
     exits 0 "$lom" steps scene.toml --size 48x32 --frame 2 --threads 2 --pass water -o water && says 'pass "water"' &&
         [ -e water/*-blend-after.png ] || return 1
@@ -66,6 +72,7 @@ page_runs() {
 
 check bad_input_is_refused_and_leaves_nothing bad_input
 check pictures_are_numbered_and_end_with_that_of_render whole_list
+check the_last_picture_with_smooth_edges_is_the_rendered_one smooth_edges
 check other_passes_have_their_stages other_passes
 number=$(find out -name '*.png' | wc -l)
 if command -v node >/dev/null; then

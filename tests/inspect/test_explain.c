@@ -6,6 +6,8 @@
 
 #include <lom/lom.h>
 
+#include <math.h>
+
 enum { WIDTH = 320, HEIGHT = 180 };
 
 static size_t checked;
@@ -45,7 +47,8 @@ static void check_rectangle(lom_renderer *renderer, const lom_image *picture, co
         int column = i % at.width, row = i / at.width;
         const uint8_t *bytes = lom_image_pixel(picture, at.x + column, at.y + row, 0);
         const uint8_t *own = lom_image_pixel(x->frame.image, column, row, 0);
-        const lom_pixel_record *pixel = lom_watched_pixel(lom_renderer_device(renderer), 0, column, row);
+        const lom_pixel_record *pixel = lom_watched_pixel(lom_renderer_device(renderer), 0,
+                                                          x->item[0].record->x + column, x->item[0].record->y + row);
         float after[4];
         CHECK(memcmp(bytes, own, 3) == 0, "%s: pixel %d,%d", scene, at.x + column, at.y + row);
         bool any = last_write(pixel, after);
@@ -59,11 +62,10 @@ static void check_rectangle(lom_renderer *renderer, const lom_image *picture, co
 
 static void check_scene(const char *name, int frame, lom_rect at)
 {
-    static const char *const sharp = "output.edges=sharp"; /* as what is recorded */
     char path[200];
     lom_error error = { .code = LOM_OK };
     snprintf(path, sizeof path, "assets/scenes/%s.toml", name);
-    lom_scene *scene = lom_read_scene(path, &sharp, 1, &error);
+    lom_scene *scene = lom_read_scene(path, NULL, 0, &error);
     lom_renderer *renderer = scene != NULL ? lom_create_renderer(scene, NULL, &error) : NULL;
     lom_frame whole = { .image = NULL };
     const lom_frame_desc desc = { .width = WIDTH, .height = HEIGHT, .frame = frame };
@@ -156,9 +158,116 @@ static void water_leads_to_its_pictures_and_ground_to_its_shadow(void)
     lom_free_scene(scene);
 }
 
+/* ---- edges ---- */
+
+static int code_at(const lom_image *image, int x, int y, int channel)
+{
+    const uint8_t *pixel = lom_image_pixel(image, x, y, 0);
+    return pixel[channel];
+}
+
+static double linear_light(int code)
+{
+    const double s = code / 255.0;
+    return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+}
+
+static double srgb_code(double light)
+{
+    return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055);
+}
+
+/* The parts of its neighbours that a pixel's record tells, and that what it is filtered from is kept; NULL: no edge. */
+static const float *find_parts(const lom_pixel_record *pixel)
+{
+    const float *parts = NULL;
+    const lom_pass_record *pass = pixel->passes;
+    CHECK(pass->draws != NULL && !pass->filters && strcmp(pass->label, "scene") == 0);
+    while (!pass->filters && pass->next != NULL)
+        pass = pass->next;
+    CHECK(pass->filters && pass->next == NULL && strcmp(pass->label, "edges") == 0);
+    for (const lom_note_record *n = pass->draws->triangles->fragment.notes; n != NULL; n = n->next)
+        parts = n->kind == LOM_NOTE_VALUE ? n->value : parts;
+    return parts;
+}
+
+static lom_image *draw_river(const char *edges, lom_scene **scene, lom_renderer **renderer)
+{
+    const char *const set[] = { "quality.clouds=off", edges };
+    lom_error error = { .code = LOM_OK };
+    lom_frame frame = { .image = NULL };
+    *scene = lom_read_scene("assets/scenes/river.toml", set, 2, &error);
+    *renderer = lom_create_renderer(*scene, NULL, &error);
+    CHECK(*renderer != NULL, "%s", error.text);
+    const lom_frame_desc desc = { .width = WIDTH, .height = HEIGHT };
+    CHECK(lom_render_frame(*renderer, &desc, &frame, &error), "%s", error.text);
+    return frame.image;
+}
+
+/* The picture with sharp edges, mixed by the parts that are told, is the one with smooth edges. */
+static void edges_are_the_mix_that_is_told(void)
+{
+    const lom_rect at = { 50, 40, 24, 16 };
+    static const int dx[] = { 1, -1, 0, 0 }, dy[] = { 0, 0, 1, -1 };
+    lom_scene *scene[2];
+    lom_renderer *renderer[2];
+    lom_image *sharp = draw_river("output.edges=sharp", &scene[0], &renderer[0]);
+    lom_image *smooth = draw_river("output.edges=smooth", &scene[1], &renderer[1]);
+    const lom_explain_desc desc = {
+        .frame = { .width = WIDTH, .height = HEIGHT }, .x = at.x, .y = at.y, .width = at.width, .height = at.height
+    };
+    lom_error error = { .code = LOM_OK };
+    lom_explanation *x = lom_explain(renderer[1], &desc, &error);
+    CHECK(x != NULL && x->item[0].owner != NULL, "%s", error.text);
+    int mixed = 0;
+    for (int i = 0; i < at.width * at.height; i++) {
+        const int column = at.x + i % at.width, row = at.y + i / at.width;
+        const lom_pixel_record *first = x->item[0].record;
+        const float *part = find_parts(
+            lom_watched_pixel(lom_renderer_device(renderer[1]), 0, first->x + i % at.width, first->y + i / at.width));
+        for (int c = 0; c < 3 && part != NULL; c++) {
+            double light = linear_light(code_at(sharp, column, row, c)), beside = 0;
+            light *= 1 - ((double)part[0] + (double)part[1] + (double)part[2] + (double)part[3]);
+            for (int k = 0; k < 4; k++)
+                beside += (double)part[k] * linear_light(code_at(sharp, column + dx[k], row + dy[k], c));
+            const int code = code_at(smooth, column, row, c);
+            CHECK(fabs(srgb_code(light + beside) - code) <= 0.51, "pixel %d,%d: %g, is %d", column, row,
+                  srgb_code(light + beside), code);
+        }
+        mixed += part != NULL && part[0] + part[1] + part[2] + part[3] > 0;
+    }
+    CHECK(mixed > 40, "%d pixels", mixed);
+    lom_free_explanation(renderer[1], x);
+    for (int i = 0; i < 2; i++) {
+        lom_free_image(i == 0 ? sharp : smooth);
+        lom_free_renderer(renderer[i]);
+        lom_free_scene(scene[i]);
+    }
+}
+
+static void a_verdict_tells_of_the_neighbours(void)
+{
+    lom_error error = { .code = LOM_OK };
+    lom_scene *scene = lom_read_scene("assets/scenes/river.toml", NULL, 0, &error);
+    lom_renderer *renderer = lom_create_renderer(scene, NULL, &error);
+    const lom_explain_desc desc = { .frame = { .width = WIDTH, .height = HEIGHT }, .x = 58, .y = 48, .follow = 1 };
+    lom_explanation *x = lom_explain(renderer, &desc, &error);
+    CHECK(x != NULL && strstr(x->item[0].verdict, "pine.obj") != NULL &&
+              strstr(x->item[0].verdict, "wrote this. Rejected") != NULL &&
+              strstr(x->item[0].verdict, "Its edge is smoothed: 17.9 % of its light is the left neighbour's.") != NULL,
+          "%s", x != NULL ? x->item[0].verdict : error.text);
+    for (size_t i = 1; x != NULL && i < x->count; i++)
+        CHECK(x->item[i].texture != x->item[0].filtered, "the picture before its edges are smooth is not followed");
+    lom_free_explanation(renderer, x);
+    lom_free_renderer(renderer);
+    lom_free_scene(scene);
+}
+
 int main(int argc, char **argv)
 {
     RUN(explained_pixels_are_the_pictures);
+    RUN(edges_are_the_mix_that_is_told);
+    RUN(a_verdict_tells_of_the_neighbours);
     RUN(water_leads_to_its_pictures_and_ground_to_its_shadow);
     return check_result();
 }

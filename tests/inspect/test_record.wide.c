@@ -126,7 +126,8 @@ static void recorded_pixels_end_in_the_bytes_of_the_picture(void)
         stage watched = open_stage(desc, SIZE, SIZE, formats[round % 2], LOM_FORMAT_DEPTH32F);
         make_soup();
         draw_soup(&plain);
-        CHECK(lom_watch(watched.device, &(lom_watch_desc){ watched.color, 4, 6, 40, 30, 0 }, 1));
+        CHECK(lom_watch(watched.device,
+                        &(lom_watch_desc){ .target = watched.color, .x = 4, .y = 6, .width = 40, .height = 30 }, 1));
         draw_soup(&watched);
         CHECK(same_images(plain.image, watched.image), "round %d", round);
         for (int i = 0; i < 40 * 30; i++) {
@@ -161,7 +162,8 @@ static void lines_are_recorded(void)
         draw.line_width = 1 + round / 2;
         draw.depth_clamp = round % 4 == 3;
         draw.blend[0] = adding();
-        CHECK(lom_watch(s[1].device, &(lom_watch_desc){ s[1].color, 0, 0, SIZE, SIZE, 0 }, 1));
+        CHECK(lom_watch(s[1].device,
+                        &(lom_watch_desc){ .target = s[1].color, .x = 0, .y = 0, .width = SIZE, .height = SIZE }, 1));
         for (int i = 0; i < 2; i++) {
             begin(&s[i], (lom_pass_desc){ .samples = 1 });
             lom_draw(s[i].device, &draw);
@@ -207,7 +209,8 @@ static int compare_coverage(float reach, int top, int rows)
         for (int k = 0; k < 4; k++)
             soup[i].value[k] = random_float(0, 1);
     }
-    CHECK(lom_watch(s.device, &(lom_watch_desc){ s.color, 0, top, SIZE, rows, 0 }, 1));
+    CHECK(lom_watch(s.device, &(lom_watch_desc){ .target = s.color, .x = 0, .y = top, .width = SIZE, .height = rows },
+                    1));
     begin(&s, (lom_pass_desc){ .samples = 1 });
     lom_draw_desc draw = draw_of(&shown, soup, 3 * TRIANGLES);
     lom_draw(s.device, &draw);
