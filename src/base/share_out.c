@@ -27,7 +27,7 @@ void lom_share_out(lom_pool *pool, size_t count, size_t piece, lom_range_work *w
 {
     struct sharing sharing = { .count = count, .piece = piece, .work = work, .context = context };
     if (count > piece)
-        lom_run_pool(pool, take_pieces, &sharing);
+        lom_offer_work(pool, take_pieces, &sharing);
     else if (count > 0)
         work(context, 0, count);
 }

@@ -22,6 +22,10 @@ uint64_t lom_pool_shared(const lom_pool *pool);
  */
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context);
 
+/* The same for work that its callers take from one another by a counter until none is left: a worker who comes when the
+ * caller has found none left, as one that slept may, is not waited for. */
+void lom_offer_work(lom_pool *pool, lom_work *work, void *context);
+
 /* Runs work(context, first, end) for ranges that make up 0 .. count - 1, `piece` at most in each, on all workers. */
 void lom_share_out(lom_pool *pool, size_t count, size_t piece, lom_range_work *work, void *context);
 

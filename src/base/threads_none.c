@@ -33,3 +33,8 @@ void lom_run_pool(lom_pool *pool, lom_work *work, void *context)
     (void)pool;
     work(context, 0);
 }
+
+void lom_offer_work(lom_pool *pool, lom_work *work, void *context)
+{
+    lom_run_pool(pool, work, context);
+}

@@ -141,7 +141,7 @@ static bool read_pictures(lom_image *pictures[2], char **paths, lom_error *error
     lom_pool *pool = lom_create_pool(2, error);
     if (pool == NULL)
         return false;
-    lom_run_pool(pool, read_next, &reading);
+    lom_offer_work(pool, read_next, &reading);
     lom_free_pool(pool);
     for (int i = 0; i < 2; i++)
         if (pictures[i] == NULL) {

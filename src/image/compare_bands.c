@@ -42,5 +42,5 @@ void lom_run_bands(lom_pool *pool, int slices, int rows, lom_band_work *work, vo
                            .per_slice = (rows + height - 1) / height,
                            .work = work,
                            .context = context };
-    lom_run_pool(pool, run_bands, &bands);
+    lom_offer_work(pool, run_bands, &bands);
 }

@@ -135,13 +135,14 @@ static size_t larger(size_t a, size_t b)
     return a > b ? a : b;
 }
 
-/* Triangles of a chunk of a draw that has several: as many chunks as give every worker the same number, and none of fewer
- * than SHORT for that. */
-static size_t even_share(size_t triangles, size_t chunk, size_t workers)
+/* Triangles of a chunk of a draw that has several: as many chunks as give two or four workers the same number, and none of
+ * fewer than SHORT for that. Not how many workers there are: vertices at the ends of chunks are shaded for both, and
+ * counters are the same on every machine. */
+static size_t even_share(size_t triangles, size_t chunk)
 {
-    enum { SHORT = 2048, GROUP = 16 };
+    enum { WORKERS = 4, SHORT = 2048, GROUP = 16 };
     size_t chunks = triangles / chunk + (triangles % chunk != 0);
-    size_t even = (chunks + workers - 1) / workers * workers;
+    size_t even = (chunks + WORKERS - 1) / WORKERS * WORKERS;
     if (chunks < 2 || triangles / even < SHORT)
         return chunk;
     size_t share = ((triangles + even - 1) / even + GROUP - 1) / GROUP * GROUP;
@@ -155,7 +156,7 @@ void lom_derive_stages(struct lom_pass *pass, struct lom_draw *draw)
     size_t chunk = (size_t)pass->device->desc.chunk, growth = 1;
     draw->expands = lom_has_stages(desc);
     draw->drawn = lom_drawn_topology(desc);
-    draw->unit = even_share(draw->triangles, chunk, (size_t)pass->device->desc.threads);
+    draw->unit = even_share(draw->triangles, chunk);
     pass->feeds_back |= desc->feedback != NULL;
     if (!draw->expands)
         return;

@@ -40,7 +40,7 @@ void lom_finish_attachment(lom_device *device, lom_texture *texture)
         struct finish finish = { .texture = texture, .level = i };
         const lom_level *l = &texture->level[i];
         if (i > 0 && (size_t)l->width * (size_t)l->height >= SHARED)
-            lom_run_pool(device->pool, finish_bands, &finish);
+            lom_offer_work(device->pool, finish_bands, &finish);
         else
             finish_bands(&finish, 0);
         lom_fill_rows(texture, i, 0);

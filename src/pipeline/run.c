@@ -154,7 +154,7 @@ static void run_tiles(void *context, int worker)
 static void run_all(lom_device *device, lom_work *work)
 {
     atomic_store_explicit(&device->pass.next, 0, memory_order_relaxed);
-    lom_run_pool(device->pool, work, &device->pass);
+    lom_offer_work(device->pool, work, &device->pass);
 }
 
 static void copy_feedback(void *context, size_t first, size_t end)

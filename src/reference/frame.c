@@ -180,7 +180,7 @@ lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_f
     if (pool != NULL && move(f, reference, error) && look(f, error))
         f->image = lom_create_image(whole.crop.width, whole.crop.height, 1, LOM_FORMAT_RGB32F, error);
     if (f->image != NULL)
-        lom_run_pool(pool, trace_rows, f);
+        lom_offer_work(pool, trace_rows, f);
     for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++)
         lom_free_wave_surface(&f->waves[i]);
     if (f->placed)

@@ -161,11 +161,11 @@ void lom_transform_square(lom_fft *fft, lom_device *device, int sign, float *rea
     struct lom_fft_planes square = { sign < 0 ? real : imaginary, sign < 0 ? imaginary : real,
                                      lom_fft_pitch(fft->size) };
     size_t lanes = (size_t)device->desc.lanes, count = (size_t)fft->size;
-    lom_run_pool(
+    lom_offer_work(
         device->pool, work,
         &(struct job){
             .fft = fft, .group = variants[device->variant].columns, .planes = square, .count = count, .step = lanes });
-    lom_run_pool(
+    lom_offer_work(
         device->pool, work,
         &(struct job){
             .fft = fft, .group = variants[device->variant].rows, .planes = square, .count = count, .step = lanes });
@@ -175,17 +175,17 @@ void lom_transform_hermitian(lom_fft *fft, lom_device *device, float *real, floa
 {
     size_t lanes = (size_t)device->desc.lanes, count = (size_t)fft->size, pitch = lom_fft_pitch(fft->size / 2);
     device->counters.transforms++;
-    lom_run_pool(device->pool, work,
-                 &(struct job){ .fft = fft,
-                                .group = variants[device->variant].columns,
-                                .planes = { imaginary, real, pitch },
-                                .count = count / 2,
-                                .step = lanes });
-    lom_run_pool(device->pool, work,
-                 &(struct job){ .fft = fft,
-                                .real = variants[device->variant].real_rows,
-                                .planes = { real, imaginary, pitch },
-                                .result = result,
-                                .count = count,
-                                .step = 2 * LOM_FFT_PAIR });
+    lom_offer_work(device->pool, work,
+                   &(struct job){ .fft = fft,
+                                  .group = variants[device->variant].columns,
+                                  .planes = { imaginary, real, pitch },
+                                  .count = count / 2,
+                                  .step = lanes });
+    lom_offer_work(device->pool, work,
+                   &(struct job){ .fft = fft,
+                                  .real = variants[device->variant].real_rows,
+                                  .planes = { real, imaginary, pitch },
+                                  .result = result,
+                                  .count = count,
+                                  .step = 2 * LOM_FFT_PAIR });
 }

@@ -1,5 +1,6 @@
 /* Proves of pools: a range is handed out whole, every number of it once, in pieces that begin at multiples of their
- * size, whatever the count, the piece and the workers; the time that is counted as shared holds all of what two workers
+ * size, whatever the count, the piece and the workers; work that is run is run by every worker once; work that is offered is
+ * done when the call ends, with nobody left at it, also where workers come late or not at all; the time that is counted as shared holds all of what two workers
  * spent together and never more than has passed; a pool of one shares none. */
 #include "base/threads.h"
 
@@ -44,6 +45,64 @@ static void every_number_is_taken_once(void)
             }
         lom_free_pool(pool);
     }
+}
+
+struct rounds {
+    atomic_int left, inside, turns[8];
+    atomic_int stray; /* at work while no work was offered */
+    atomic_bool open;
+    int done; /* the caller's to read, whoever wrote it last */
+};
+
+static void take_from_counter(void *context, int worker)
+{
+    struct rounds *r = context;
+    atomic_fetch_add(&r->inside, 1);
+    atomic_fetch_add(&r->turns[worker], 1);
+    atomic_fetch_add(&r->stray, !atomic_load(&r->open));
+    for (int i; (i = atomic_fetch_sub(&r->left, 1)) > 0;)
+        if (i == 1)
+            r->done++;
+    atomic_fetch_sub(&r->inside, 1);
+}
+
+/* More workers than the machine has cores, and work of nearly no length: many come when it is over. */
+static void offered_work_is_done_by_who_comes(void)
+{
+    enum { ROUNDS = 3000, THREADS = 8 };
+    lom_pool *pool = lom_create_pool(THREADS, NULL);
+    struct rounds r = { .done = 0 };
+    int wrong = 0, before = 0;
+    for (int i = 0; i < ROUNDS; i++) {
+        atomic_store(&r.left, i % 50 + 1);
+        atomic_store(&r.open, true);
+        lom_offer_work(pool, take_from_counter, &r);
+        wrong += atomic_load(&r.inside) != 0 || r.done != before + 1;
+        before = r.done;
+        atomic_store(&r.open, false);
+    }
+    CHECK(wrong == 0 && atomic_load(&r.stray) == 0 && atomic_load(&r.turns[0]) == ROUNDS,
+          "%d of %d rounds ended early or undone, %d workers came to none, the caller to %d", wrong, ROUNDS,
+          atomic_load(&r.stray), atomic_load(&r.turns[0]));
+    for (int k = 1; k < THREADS; k++)
+        CHECK(atomic_load(&r.turns[k]) <= ROUNDS, "worker %d: %d turns of %d", k, atomic_load(&r.turns[k]), ROUNDS);
+    lom_free_pool(pool);
+}
+
+static void work_is_run_by_every_worker_once(void)
+{
+    enum { ROUNDS = 300, THREADS = 5 };
+    lom_pool *pool = lom_create_pool(THREADS, NULL);
+    int size = lom_pool_size(pool);
+    struct rounds r = { .open = true };
+    for (int i = 0; i < ROUNDS; i++) {
+        lom_run_pool(pool, take_from_counter, &r);
+        lom_offer_work(pool, take_from_counter, &(struct rounds){ .open = true });
+        for (int k = 0; k < size; k++)
+            CHECK(atomic_load(&r.turns[k]) == i + 1, "worker %d of %d, round %d: %d turns", k, size, i,
+                  atomic_load(&r.turns[k]));
+    }
+    lom_free_pool(pool);
 }
 
 static double seconds(void)
@@ -93,6 +152,8 @@ static void shared_time_is_what_two_spend_together(void)
 int main(int argc, char **argv)
 {
     RUN(every_number_is_taken_once);
+    RUN(offered_work_is_done_by_who_comes);
+    RUN(work_is_run_by_every_worker_once);
     RUN(shared_time_is_what_two_spend_together);
     return check_result();
 }

@@ -1,5 +1,6 @@
 /* Proves that a picture is no function of how it was made, at this width: threads, tile size, chunk and batch, a second
- * device in another thread, and the float state the caller left behind; and that all widths give one picture: the
+ * device in another thread, and the float state the caller left behind; that counters of work are none of the threads,
+ * also where a mesh is cut into chunks that share vertices; and that all widths give one picture: the
  * hashes of the float colours and depths are compared with one constant. The other tests hold the stages to oracles;
  * the constant only holds builds to one another, and a change of it is a change of LOM_PICTURE_VERSION. */
 #include "hostile.h"
@@ -164,6 +165,45 @@ static void schedules_change_nothing(void)
     }
 }
 
+/* A sheet of triangles that share their vertices, large enough for several chunks. */
+static lom_counters count_sheet(int threads)
+{
+    enum { EDGE = 101, QUADS = (EDGE - 1) * (EDGE - 1) };
+    static vertex corners[EDGE * EDGE];
+    static uint32_t indices[6 * QUADS];
+    for (uint32_t i = 0; i < EDGE * EDGE; i++)
+        corners[i] = (vertex){ .position = { (float)(i % EDGE) * 0.02f - 1, (float)(i / EDGE) * 0.02f - 1, 0.5f, 1 },
+                               .distance = { 1 } };
+    for (uint32_t q = 0; q < QUADS; q++) {
+        uint32_t low = q / (EDGE - 1) * EDGE + q % (EDGE - 1), high = low + EDGE;
+        memcpy(indices + 6 * q, (uint32_t[]){ low, low + 1, high, high, low + 1, high + 1 }, 6 * sizeof *indices);
+    }
+    stage s = open_stage((lom_device_desc){ .threads = threads }, WIDTH, HEIGHT, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH32F);
+    lom_draw_desc desc = draw_of(&opaque, corners, EDGE * EDGE);
+    desc.indices = indices;
+    desc.count = 6 * QUADS;
+    begin(&s, (lom_pass_desc){ 0 });
+    lom_draw(s.device, &desc);
+    finish(&s);
+    lom_counters counters = lom_device_counters(s.device);
+    close_stage(&s);
+    return counters;
+}
+
+static void counters_are_no_function_of_threads(void)
+{
+    static const int threads[] = { 2, 3, 4, 5, 7 };
+    const lom_counters one = count_sheet(1);
+    CHECK(one.triangles == 20000 && one.vertices > 101 * 101, "%llu triangles, %llu vertices: no two chunks",
+          (unsigned long long)one.triangles, (unsigned long long)one.vertices);
+    for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
+        const lom_counters some = count_sheet(threads[i]);
+        CHECK(memcmp(&some, &one, sizeof one) == 0, "%d threads: %llu vertices and %llu packets, one: %llu and %llu",
+              threads[i], (unsigned long long)some.vertices, (unsigned long long)some.packets,
+              (unsigned long long)one.vertices, (unsigned long long)one.packets);
+    }
+}
+
 /* A device renders many passes: what the one before left in its memory must not show. */
 static void passes_do_not_see_one_another(void)
 {
@@ -254,6 +294,7 @@ int main(int argc, char **argv)
 {
     RUN(float_stages_have_one_hash);
     RUN(schedules_change_nothing);
+    RUN(counters_are_no_function_of_threads);
     RUN(passes_do_not_see_one_another);
     RUN(two_devices_in_two_threads);
     RUN(the_callers_float_state_is_left_alone);
