@@ -25,6 +25,7 @@
 #include <lom/march.h>
 #include <lom/cloud.h>
 #include <lom/pipeline.h>
+#include <lom/fluid.h>
 #include <lom/record.h>
 #include <lom/scene.h>
 #include <lom/sea.h>

@@ -216,6 +216,30 @@ static bool make_sea(const char *name, uint64_t *hash, lom_error *error)
     return moment != NULL;
 }
 
+static bool make_fluid(const char *name, uint64_t *hash, lom_error *error)
+{
+    static const lom_fluid_body block = { .high = { 0.5, 0.5, 1 } }, plate = { .high = { 1, 0.2, 1 }, .heats = true };
+    (void)name;
+    lom_fluid *fluid = lom_create_fluid(&(lom_fluid_desc){ .high = { 1, 1, 1 },
+                                                           .spacing = 0.1,
+                                                           .gravity = { 0, -9.8, 0 },
+                                                           .viscosity = 0.01,
+                                                           .conductivity = 0.01,
+                                                           .blocks = &block,
+                                                           .block_count = 1,
+                                                           .solids = &plate,
+                                                           .solid_count = 1 },
+                                        error);
+    bool done = fluid != NULL;
+    for (int i = 0; done && i < 3; i++)
+        done = lom_step_fluid(fluid, NULL, error);
+    const lom_fluid_particle particle =
+        done ? lom_fluid_particle_at(fluid, 7) : (lom_fluid_particle){ .temperature = 0 };
+    *hash = lom_hash_bytes(LOM_HASH_START, particle.position, sizeof particle.position);
+    lom_free_fluid(fluid);
+    return done;
+}
+
 static bool make_shallow(const char *name, uint64_t *hash, lom_error *error)
 {
     (void)name;
@@ -314,6 +338,7 @@ static void making(void)
     fail_memory(make_volumes, "volumes", 5, 0, 0);
     fail_memory(make_sea, "sea", 10, 0, 0);
     fail_memory(make_shallow, "shallow", 8, 0, 0);
+    fail_memory(make_fluid, "fluid", 25, 0, 0);
     fail_memory(make_surf, "surf", 4, 0, 0);
     fail_memory(copy_mesh, "mesh", 5, 0, 0);
     fail_memory(make_entity, "boat", 10, 0, 8);

@@ -12,8 +12,8 @@ below() {
     shading) echo shading geometry "$(below pipeline)" ;;
     march) echo march "$(below image)" ;;
     waves) echo waves geometry "$(below shading)" ;;
-    water | spray | cloud | sky) echo "$1 march $(below waves)" ;;
-    scene) echo "scene water spray cloud sky march $(below waves)" ;;
+    water | spray | fluid | cloud | sky) echo "$1 march $(below waves)" ;;
+    scene) echo "scene water spray fluid cloud sky march $(below waves)" ;;
     world) echo "world $(below scene)" ;;
     reference) echo "reference $(below world)" ;;
     render) echo "render $(below reference)" ;;

@@ -7,6 +7,7 @@
 
 #include <lom/cloud.h>
 #include <lom/march.h>
+#include <lom/fluid.h>
 #include <lom/shallow.h>
 #include <lom/sky.h>
 #include <lom/texture.h>
@@ -204,6 +205,27 @@ static uint64_t flow(lom_error *error)
     return hash;
 }
 
+static uint64_t flow_freely(lom_error *error)
+{
+    static const lom_fluid_body block = { .high = { 0.5, 0.7, 1 }, .velocity = { 1e-310, 0.3, 0.1 } };
+    lom_fluid *fluid = lom_create_fluid(&(lom_fluid_desc){ .high = { 1, 1, 0.4 },
+                                                           .spacing = 0.1,
+                                                           .gravity = { 0, -9.8, 0 },
+                                                           .viscosity = 0.01,
+                                                           .blocks = &block,
+                                                           .block_count = 1 },
+                                        error);
+    for (int i = 0; fluid != NULL && i < 5; i++)
+        lom_step_fluid(fluid, NULL, error);
+    uint64_t hash = LOM_HASH_START;
+    for (size_t i = 0; fluid != NULL && i < lom_view_fluid(fluid).particles; i++) {
+        const lom_fluid_particle particle = lom_fluid_particle_at(fluid, i);
+        hash = lom_hash_bytes(hash, particle.position, sizeof particle.position);
+    }
+    lom_free_fluid(fluid);
+    return hash;
+}
+
 static uint64_t make_waves(lom_error *error)
 {
     static const lom_water_waves waves = {
@@ -251,6 +273,7 @@ static void what_is_made_does_not_see_it(void)
     check_task(make_pictures, "the sun and a flat cloud");
     check_task(light_volumes, "light in a volume");
     check_task(flow, "shallow water");
+    check_task(flow_freely, "a liquid of particles");
     check_task(make_waves, "trochoids");
 }
 
