@@ -75,17 +75,12 @@ static inline void fill_random(const lom_format_info *info, uint8_t *pixels, siz
     }
 }
 
-static inline plain_texture make_plain(lom_texture_desc desc)
+/* Of the descriptor's pixels. */
+static inline plain_texture make_plain_of(lom_texture_desc desc)
 {
     plain_texture p = { .desc = desc };
-    int layers = desc.kind == LOM_TEXTURE_CUBE ? 6 : desc.kind == LOM_TEXTURE_3D ? desc.depth : 1;
-    size_t count = (size_t)desc.width * (size_t)desc.height * (size_t)layers;
-    uint8_t *pixels = malloc(count * 16);
-    fill_random(lom_describe_format(desc.format), pixels, count);
-    desc.pixels = pixels;
     p.texture = lom_create_texture(&desc, &error);
     CHECK(p.texture != NULL, "%s", error.text);
-    free(pixels);
     p.levels = lom_texture_levels(p.texture);
     for (int i = 0; i < p.levels; i++)
         decode_level(&p, i);
@@ -94,6 +89,18 @@ static inline plain_texture make_plain(lom_texture_desc desc)
         double b = desc.sampler.border[c]; /* the tests use 0 and 1, which every format holds */
         p.border[c] = c < info->channels || info->bits == 8 || info->channels > 1 ? b : c == 3;
     }
+    return p;
+}
+
+static inline plain_texture make_plain(lom_texture_desc desc)
+{
+    int layers = desc.kind == LOM_TEXTURE_CUBE ? 6 : desc.kind == LOM_TEXTURE_3D ? desc.depth : 1;
+    size_t count = (size_t)desc.width * (size_t)desc.height * (size_t)layers;
+    uint8_t *pixels = malloc(count * 16);
+    fill_random(lom_describe_format(desc.format), pixels, count);
+    desc.pixels = pixels;
+    plain_texture p = make_plain_of(desc);
+    free(pixels);
     return p;
 }
 

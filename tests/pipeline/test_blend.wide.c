@@ -6,6 +6,7 @@
 
 #include "image/convert.h"
 
+#include "oracle/blending.h"
 #include "stage.h"
 
 enum { SIZE = 256 };
@@ -171,57 +172,11 @@ static void show_steps(lom_fragment *out, const lom_varyings *in, const void *un
 
 LOM_SHADER(steps, place, show_steps, .attributes = 1, .reads_position = true, .colors = 2)
 
-/* What the equations are made of, as rationals of 255 that the target's format holds. */
-struct terms {
-    double source[4], target[4], second[4], constant[4];
-};
-
-static double least(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static double factor_of(lom_factor factor, const struct terms *t, int c)
-{
-    const double factors[FACTORS] = {
-        [LOM_FACTOR_ONE] = 1,
-        [LOM_FACTOR_SOURCE_COLOR] = t->source[c],
-        [LOM_FACTOR_ONE_MINUS_SOURCE_COLOR] = 1 - t->source[c],
-        [LOM_FACTOR_SOURCE_ALPHA] = t->source[3],
-        [LOM_FACTOR_ONE_MINUS_SOURCE_ALPHA] = 1 - t->source[3],
-        [LOM_FACTOR_TARGET_COLOR] = t->target[c],
-        [LOM_FACTOR_ONE_MINUS_TARGET_COLOR] = 1 - t->target[c],
-        [LOM_FACTOR_TARGET_ALPHA] = t->target[3],
-        [LOM_FACTOR_ONE_MINUS_TARGET_ALPHA] = 1 - t->target[3],
-        [LOM_FACTOR_CONSTANT_COLOR] = t->constant[c],
-        [LOM_FACTOR_ONE_MINUS_CONSTANT_COLOR] = 1 - t->constant[c],
-        [LOM_FACTOR_CONSTANT_ALPHA] = t->constant[3],
-        [LOM_FACTOR_ONE_MINUS_CONSTANT_ALPHA] = 1 - t->constant[3],
-        [LOM_FACTOR_SOURCE_ALPHA_SATURATE] = c == 3 ? 1 : least(t->source[3], 1 - t->target[3]),
-        [LOM_FACTOR_SECOND_COLOR] = t->second[c],
-        [LOM_FACTOR_ONE_MINUS_SECOND_COLOR] = 1 - t->second[c],
-        [LOM_FACTOR_SECOND_ALPHA] = t->second[3],
-        [LOM_FACTOR_ONE_MINUS_SECOND_ALPHA] = 1 - t->second[3],
-    };
-    return factors[factor];
-}
-
-/* S F op D G of channel c. */
-static double equation(const lom_blend *how, const struct terms *t, int c)
-{
-    double s = t->source[c], d = t->target[c];
-    lom_blend_operation operation = c < 3 ? how->color_operation : how->alpha_operation;
-    double f = factor_of(c < 3 ? how->source_color : how->source_alpha, t, c);
-    double g = factor_of(c < 3 ? how->target_color : how->target_alpha, t, c);
-    const double results[] = { s * f + d * g, s * f - d * g, d * g - s * f, s < d ? s : d, s > d ? s : d };
-    return results[operation];
-}
-
 /* The source of a pixel, clamped to what the format holds (0..1, which it is already). */
-static struct terms terms_of(int p, const float clear[4], const float constant[4])
+static struct blend_terms terms_of(int p, const float clear[4], const float constant[4])
 {
     double x = 8 * (p % SMALL) / 255.0, y = 8 * (p / SMALL) / 255.0, middle = 1 - 0.5 * (x + y);
-    struct terms t = { .source = { x, 1 - x, y, middle }, .second = { y, x, middle, 1 - y } };
+    struct blend_terms t = { .source = { x, 1 - x, y, middle }, .second = { y, x, middle, 1 - y } };
     for (int c = 0; c < 4; c++) {
         t.target[c] = (double)clear[c];
         t.constant[c] = (double)constant[c];
@@ -240,12 +195,12 @@ static void check_equation(stage *s, const lom_blend *how, const float clear[4],
     lom_draw(s->device, &desc);
     finish(s);
     for (int p = 0; p < SMALL * SMALL; p++) {
-        struct terms t = terms_of(p, clear, constant);
+        struct blend_terms t = terms_of(p, clear, constant);
         if (format == LOM_FORMAT_RGBA8_SRGB)
             for (int c = 0; c < 3; c++)
                 t.target[c] = (double)lom_srgb_linear[lom_srgb8_of(clear[c])];
         for (int c = 0; c < 4; c++) {
-            double exact = equation(how, &t, c), bounded = exact < 0 ? 0 : exact > 1 ? 1 : exact;
+            double exact = blend_equation(how, &t, c), bounded = exact < 0 ? 0 : exact > 1 ? 1 : exact;
             double got = format == LOM_FORMAT_RGBA32F ? (double)floats_at(s, p % SMALL, p / SMALL)[c]
                                                       : bytes_at(s, p % SMALL, p / SMALL)[c];
             bool right = got == (double)(int)(255 * bounded + 0.5);
@@ -433,7 +388,7 @@ static void targets_blend_each_by_its_own_equation(void)
     for (int i = 0; i < 4; i++)
         image[i] = lom_read_texture(pass.color[i], 0, 0, NULL);
     for (int p = 0; p < SMALL * SMALL; p++) {
-        const struct terms t = terms_of(p, clear, clear);
+        const struct blend_terms t = terms_of(p, clear, clear);
         const uint8_t *a = lom_image_pixel(image[0], p % SMALL, p / SMALL, 0),
                       *b = lom_image_pixel(image[2], p % SMALL, p / SMALL, 0),
                       *d = lom_image_pixel(image[3], p % SMALL, p / SMALL, 0);

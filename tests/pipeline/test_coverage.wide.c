@@ -1,9 +1,10 @@
-/* Proves the rasterizer's exactness at this width against an oracle of its own: scalar, 128-bit, no tiles, no lanes.
+/* Proves the rasterizer's exactness at this width against an oracle (tests/oracle): scalar, 128-bit, no tiles, no lanes.
  * Positions are chosen so that clip coordinates are exact and the snapped position is known without rounding: the frame
  * is 128 x 128, so a window unit (1/256 pixel) is 2^-14 of the clip volume. */
 #include <lom/pipeline.h>
 
 #include "check.h"
+#include "oracle/interpolation.h"
 
 enum { SIZE = 128, UNITS = SIZE * 256, MESH = 24 };
 
@@ -116,30 +117,10 @@ static int hits_at(const stage *s, int x, int y)
     return ((const uint8_t *)lom_image_pixel(s->image, x, y, 0))[0];
 }
 
-/* ---- the oracle ---- */
-
-/* Whether the pixel's centre is inside: three edge functions in 128 bits; a centre on an edge belongs to the triangle
- * whose interior lies to the right of it, or below it when it is horizontal. */
-static bool covers(const point *a, const point *b, const point *c, int px, int py)
+static void snapped_of(const point p[3], snapped v[3])
 {
-    const point *v[3] = { a, b, c };
-    __int128 area = (__int128)(b->x - a->x) * (c->y - a->y) - (__int128)(b->y - a->y) * (c->x - a->x);
-    int64_t x = 256 * (int64_t)px + 128, y = 256 * (int64_t)py + 128;
-    if (area == 0)
-        return false;
-    for (int i = 0; i < 3; i++) {
-        const point *p = v[i], *q = v[(i + 1) % 3];
-        __int128 dx = q->x - p->x, dy = q->y - p->y;
-        if (area < 0) {
-            dx = -dx;
-            dy = -dy;
-        }
-        __int128 e = dx * (y - p->y) - dy * (x - p->x);
-        bool top_left = dy < 0 || (dy == 0 && dx > 0);
-        if (e < 0 || (e == 0 && !top_left))
-            return false;
-    }
-    return true;
+    for (int k = 0; k < 3; k++)
+        v[k] = (snapped){ p[k].x, p[k].y };
 }
 
 static uint64_t draws; /* counter of the random numbers */
@@ -180,9 +161,11 @@ static void add_hits(int hits[SIZE][SIZE], const point p[3])
         y0 = p[k].y < y0 ? p[k].y : y0;
         y1 = p[k].y > y1 ? p[k].y : y1;
     }
+    snapped v[3];
+    snapped_of(p, v);
     for (int64_t y = limit(y0 / 256 - 1); y < limit(y1 / 256 + 2); y++)
         for (int64_t x = limit(x0 / 256 - 1); x < limit(x1 / 256 + 2); x++)
-            hits[y][x] += covers(&p[0], &p[1], &p[2], (int)x, (int)y);
+            hits[y][x] += covers(v, (int)x, (int)y);
 }
 
 static void coverage_equals_the_oracle(void)
@@ -284,18 +267,6 @@ static void clip_distances_are_complementary(void)
 
 /* ---- interpolation ---- */
 
-static double edge(const point *a, const point *b, double x, double y)
-{
-    return (double)(b->x - a->x) * (y - (double)a->y) - (double)(b->y - a->y) * (x - (double)a->x);
-}
-
-static double interpolate(const point p[3], int f, double x, double y)
-{
-    double l[3] = { edge(&p[1], &p[2], x, y) / p[0].w, edge(&p[2], &p[0], x, y) / p[1].w,
-                    edge(&p[0], &p[1], x, y) / p[2].w };
-    return (l[0] * p[0].f[f] + l[1] * p[1].f[f] + l[2] * p[2].f[f]) / (l[0] + l[1] + l[2]);
-}
-
 /* Within 8 units of 2^-24 of the largest value, for ratios of w up to 2^20, and inside the hull of the vertices. */
 static void interpolation_keeps_its_bound(void)
 {
@@ -317,14 +288,18 @@ static void interpolation_keeps_its_bound(void)
         lom_begin_pass(s.device, &(lom_pass_desc){ .color = { s.color } });
         draw(&s, &values, plus, 1, false);
         finish(&s);
+        snapped v[3];
+        snapped_of(p, v);
         for (int y = 0; y < SIZE; y++)
             for (int x = 0; x < SIZE; x++) {
-                if (!covers(&p[0], &p[1], &p[2], x, y))
+                if (!covers(v, x, y))
                     continue;
+                double weight[3];
+                weights_at(v, (double[3]){ p[0].w, p[1].w, p[2].w }, 256.0 * x + 128, 256.0 * y + 128, weight);
                 const float *pixel = lom_image_pixel(s.image, x, y, 0);
                 for (int f = 0; f < 2; f++) {
                     double scale = high[f] > -low[f] ? high[f] : -low[f];
-                    double exact = interpolate(p, f, 256.0 * x + 128, 256.0 * y + 128);
+                    double exact = weighted(weight, (double[3]){ p[0].f[f], p[1].f[f], p[2].f[f] });
                     double error = (pixel[f] > exact ? pixel[f] - exact : exact - pixel[f]) / scale * 0x1p24;
                     worst = error > worst ? error : worst;
                     CHECK(error <= 8, "round %d, pixel %d,%d: %.9g, not %.9g: %.2f units", round, x, y, pixel[f], exact,
