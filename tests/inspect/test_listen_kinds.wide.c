@@ -2,9 +2,8 @@
  * made, as of triangles: how far each came, where it lies, of what it was made; and that the captions of `lom steps`
  * count each by its name. */
 #include <lom/inspect.h>
-#include <lom/stages.h>
 
-#include "../pipeline/stage.h"
+#include "soup.h"
 #include "inspect/steps.h"
 
 enum { SIZE = 64, TRIANGLES = 40, MOST = 256 };
@@ -25,13 +24,6 @@ static void place_triangles(lom_vertex *out, const lom_attributes *in, const voi
     out->point_size = in->attribute[1].x;
 }
 
-static void same(lom_primitive_stream *out, const lom_geometry_input *in, const void *uniforms)
-{
-    (void)uniforms;
-    for (int i = 0; i < 3; i++)
-        lom_emit_vertex(out, &in->vertex[i], lom_splat_int(-1));
-}
-
 static void levels(lom_levels *out, const lom_patch *in, const void *uniforms)
 {
     (void)in;
@@ -41,23 +33,12 @@ static void levels(lom_levels *out, const lom_patch *in, const void *uniforms)
     out->inner[0] = lom_splat(1);
 }
 
-static void corner(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
-{
-    const lom_vertex *p = in->patch.point;
-    (void)uniforms;
-    for (int k = 0; k < 4; k++)
-        (&out->position.x)[k] =
-            in->u * (&p[0].position.x)[k] + in->v * (&p[1].position.x)[k] + in->w * (&p[2].position.x)[k];
-    for (int k = 0; k < 4; k++)
-        out->varying[k] = p[0].varying[k];
-}
-
 LOM_SHADER(shown, place_triangles, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
            .colors = 1)
 LOM_SHADER(plate, place, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1,
            .sprites = true)
-LOM_GEOMETRY(handed_on, same, .in = LOM_TRIANGLES, .out = LOM_TRIANGLE_STRIP, .vertices = 3)
-LOM_TESSELLATION(uncut, levels, corner, .domain = LOM_DOMAIN_TRIANGLES)
+LOM_GEOMETRY(handed_on, hand_on, .in = LOM_TRIANGLES, .out = LOM_TRIANGLE_STRIP, .vertices = 3)
+LOM_TESSELLATION(uncut, levels, mix_corners, .domain = LOM_DOMAIN_TRIANGLES)
 
 struct heard {
     lom_told_triangle told[MOST];
@@ -109,24 +90,11 @@ static void listen(const lom_draw_desc *draw, lom_device_desc how, struct heard 
 
 static vertex soup[3 * TRIANGLES];
 
-static void make_soup(void)
-{
-    for (int i = 0; i < 3 * TRIANGLES; i++) {
-        float reach = i / 3 % 4 == 0 ? 20.0f : 1.3f;
-        for (int k = 0; k < 2; k++)
-            soup[i].position[k] = random_float(-reach, reach);
-        soup[i].position[2] = random_float(0.1f, 0.9f);
-        soup[i].position[3] = i / 3 % 7 == 3 ? random_float(-0.5f, 2) : random_float(0.9f, 2);
-        for (int k = 0; k < 4; k++)
-            soup[i].value[k] = random_float(0, 1);
-    }
-}
-
 /* Each triangle as it is, by a geometry function or as a patch that is not cut. */
 static void what_stages_make_is_told_as_triangles_are(void)
 {
     static struct heard plain, made;
-    make_soup();
+    make_soup(soup, TRIANGLES);
     lom_draw_desc draw = draw_of(&shown, soup, 3 * TRIANGLES);
     listen(&draw, (lom_device_desc){ .threads = 1, .chunk = 16 }, &plain);
     CHECK(plain.count == TRIANGLES, "%zu triangles", plain.count);

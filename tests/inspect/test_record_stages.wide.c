@@ -2,20 +2,12 @@
  * recorded as the draw without it is - fate, edges, weights, clip positions, varyings - but that its vertices have no
  * index; of a tessellated patch the number is the patch's; the bytes are those of a device that watches nothing. */
 #include <lom/record.h>
-#include <lom/stages.h>
 
-#include "../pipeline/stage.h"
+#include "soup.h"
 
 enum { SIZE = 48, TRIANGLES = 40, WATCHED = 16 };
 
 static vertex soup[3 * TRIANGLES];
-
-static void same(lom_primitive_stream *out, const lom_geometry_input *in, const void *uniforms)
-{
-    (void)uniforms;
-    for (int i = 0; i < 3; i++)
-        lom_emit_vertex(out, &in->vertex[i], lom_splat_int(-1));
-}
 
 static void levels(lom_levels *out, const lom_patch *in, const void *uniforms)
 {
@@ -26,33 +18,9 @@ static void levels(lom_levels *out, const lom_patch *in, const void *uniforms)
     out->inner[0] = lom_splat(2);
 }
 
-static void mix(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
-{
-    (void)uniforms;
-    const lom_vertex *p = in->patch.point;
-    for (int k = 0; k < 4; k++)
-        (&out->position.x)[k] =
-            in->u * (&p[0].position.x)[k] + in->v * (&p[1].position.x)[k] + in->w * (&p[2].position.x)[k];
-    for (int k = 0; k < 4; k++)
-        out->varying[k] = p[0].varying[k];
-}
-
 LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
-LOM_GEOMETRY(handed_on, same, .in = LOM_TRIANGLES, .out = LOM_TRIANGLE_STRIP, .vertices = 3)
-LOM_TESSELLATION(thirds, levels, mix, .domain = LOM_DOMAIN_TRIANGLES)
-
-static void make_soup(void)
-{
-    for (int i = 0; i < 3 * TRIANGLES; i++) {
-        float reach = i / 3 % 4 == 0 ? 20.0f : 1.3f;
-        for (int k = 0; k < 2; k++)
-            soup[i].position[k] = random_float(-reach, reach);
-        soup[i].position[2] = random_float(0.1f, 0.9f);
-        soup[i].position[3] = i / 3 % 7 == 3 ? random_float(-0.5f, 2) : random_float(0.9f, 2);
-        for (int k = 0; k < 4; k++)
-            soup[i].value[k] = random_float(0, 1);
-    }
-}
+LOM_GEOMETRY(handed_on, hand_on, .in = LOM_TRIANGLES, .out = LOM_TRIANGLE_STRIP, .vertices = 3)
+LOM_TESSELLATION(thirds, levels, mix_corners, .domain = LOM_DOMAIN_TRIANGLES)
 
 /* The soup, with 4 x 4 pixels watched from (20, 20) on; image: what the target holds then. */
 static stage draw_watched(const lom_geometry *geometry, const lom_tessellation *t, bool watch)
@@ -100,7 +68,7 @@ static void compare_triangles(const lom_triangle_record *a, const lom_triangle_r
 static void triangles_that_are_handed_on_are_recorded_as_others(void)
 {
     size_t seen = 0;
-    make_soup();
+    make_soup(soup, TRIANGLES);
     stage plain = draw_watched(NULL, NULL, true), made = draw_watched(&handed_on, NULL, true);
     stage unwatched = draw_watched(&handed_on, NULL, false);
     CHECK(same_images(plain.image, made.image) && same_images(made.image, unwatched.image), "the bytes differ");
@@ -120,7 +88,7 @@ static void triangles_that_are_handed_on_are_recorded_as_others(void)
 static void patches_give_their_number(void)
 {
     size_t stored = 0;
-    make_soup();
+    make_soup(soup, TRIANGLES);
     stage made = draw_watched(NULL, &thirds, true), unwatched = draw_watched(NULL, &thirds, false);
     CHECK(same_images(made.image, unwatched.image), "the bytes differ");
     for (int i = 0; i < WATCHED; i++) {

@@ -2,7 +2,7 @@
  * passes that have these viewports: edges, areas, places, fates. */
 #include <lom/record.h>
 
-#include "../pipeline/stage.h"
+#include "soup.h"
 
 enum { SIZE = 64, TRIANGLES = 60, DRAWS = 3, LEFT = 24, TOP = 18, WATCHED = 6, MOST = DRAWS * TRIANGLES };
 
@@ -10,19 +10,6 @@ static const lom_rect views[DRAWS] = { { 5, 3, 40, 31 }, { -11, 9, 70, 29 }, { 2
 static vertex soup[3 * TRIANGLES];
 
 LOM_SHADER(shown, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
-
-static void make_soup(void)
-{
-    for (int i = 0; i < 3 * TRIANGLES; i++) {
-        float reach = i / 3 % 4 == 0 ? 20.0f : 1.3f;
-        for (int k = 0; k < 2; k++)
-            soup[i].position[k] = random_float(-reach, reach);
-        soup[i].position[2] = random_float(0.1f, 0.9f);
-        soup[i].position[3] = i / 3 % 7 == 3 ? random_float(-0.5f, 2) : random_float(0.9f, 2);
-        for (int k = 0; k < 4; k++)
-            soup[i].value[k] = random_float(0, 1);
-    }
-}
 
 static stage open_small(void)
 {
@@ -76,7 +63,7 @@ static void compare(const lom_triangle_record *a, const lom_triangle_record *b)
 static void records_are_those_of_passes_with_the_viewports(void)
 {
     size_t seen = 0;
-    make_soup();
+    make_soup(soup, TRIANGLES);
     stage s[2] = { open_small(), open_small() }, plain = open_small();
     const lom_watch_desc watch = { .x = LEFT, .y = TOP, .width = WATCHED, .height = WATCHED };
     for (int apart = 0; apart < 2; apart++) {
@@ -130,7 +117,7 @@ static void triangles_are_told_as_in_passes_with_the_viewports(void)
 {
     static struct heard heard[2];
     size_t reached[LOM_REACHES] = { 0 };
-    make_soup();
+    make_soup(soup, TRIANGLES);
     for (int apart = 0; apart < 2; apart++) {
         stage s = open_small();
         heard[apart].count = 0;
@@ -156,7 +143,7 @@ static void triangles_are_told_as_in_passes_with_the_viewports(void)
 static void tallies_are_those_of_passes_with_the_viewports(void)
 {
     uint64_t fragments = 0, made = 0;
-    make_soup();
+    make_soup(soup, TRIANGLES);
     stage s[2] = { open_small(), open_small() };
     for (int apart = 0; apart < 2; apart++) {
         CHECK(lom_tally_target(s[apart].device, &(lom_tally_desc){ .target = s[apart].color }));
