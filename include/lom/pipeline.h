@@ -34,7 +34,7 @@ typedef struct lom_device_desc {
     bool plain;              /* lanes lowered to the baseline instructions even where the processor has wider ones */
     int tile;                /* tile edge in pixels: 16, 32 or 64; 0: 64 */
     int chunk;               /* triangles a unit of set-up work, 16..65536; 0: 8192 */
-    int batch;               /* chunks between two sweeps over the tiles, 1..1024; 0: 32 */
+    int batch;               /* chunks between two sweeps over the tiles, 1..1024; 0: 32, of small draws up to 256 */
     lom_filtering filtering; /* FIXED: of all textures made with the device, whatever their samplers say */
 } lom_device_desc;
 

@@ -1,6 +1,7 @@
 /* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
+#include "pipeline/device.h"
 #include "pipeline/expand.h"
 #include "pipeline/provoking.h"
 #include "pipeline/record.h"
@@ -351,7 +352,8 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->tile_low = INT32_MAX;
     chunk->tile_high = -1;
     const struct lom_draw *draw = chunk->draw;
-    const struct lom_room *room = &pass->device->room;
+    const lom_device *device = pass->device;
+    const struct lom_room *room = chunk - device->chunks < device->desc.batch ? &device->room : &device->small_room;
     if (draw->expands)
         chunk->failed = !lom_expand_chunk(pass, chunk);
     else

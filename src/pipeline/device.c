@@ -39,6 +39,7 @@ static bool resolve_desc(lom_device *device, const lom_device_desc *desc)
     device->desc.tile = desc->tile != 0 ? desc->tile : 64;
     device->desc.chunk = desc->chunk != 0 ? desc->chunk : 8192;
     device->desc.batch = desc->batch != 0 ? desc->batch : 32;
+    device->most_chunks = desc->batch != 0 ? (size_t)desc->batch : 256;
     device->desc.filtering = desc->filtering;
     return true;
 }
@@ -55,7 +56,8 @@ lom_device *lom_open_device(const lom_device_desc *desc)
     device->pool = lom_create_pool(device->desc.threads, &device->error);
     device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
     device->assemblies = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_assembly), &device->error);
-    device->chunks = lom_allocate((size_t)device->desc.batch, sizeof(struct lom_chunk), &device->error);
+    device->chunks = lom_allocate(device->most_chunks, sizeof(struct lom_chunk), &device->error);
+    device->reaches = lom_allocate(device->most_chunks, sizeof(struct lom_tile_range), &device->error);
     return device;
 }
 
@@ -85,7 +87,7 @@ void lom_close_device(lom_device *device)
         return;
     lom_free_pool(device->pool);
     lom_forget_records(device);
-    for (int i = 0; device->chunks != NULL && i < device->desc.batch; i++)
+    for (size_t i = 0; device->chunks != NULL && i < device->most_chunks; i++)
         free_chunk(&device->chunks[i]);
     for (int i = 0; device->assemblies != NULL && i < device->desc.threads; i++)
         free_assembly(&device->assemblies[i]);
@@ -93,6 +95,7 @@ void lom_close_device(lom_device *device)
         lom_free_texture(device->textures[i]);
     lom_release(device->textures);
     lom_release(device->chunks);
+    lom_release(device->reaches);
     lom_release(device->assemblies);
     lom_release(device->worker_tiles);
     lom_release(device->tile_memory);

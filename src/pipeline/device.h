@@ -23,8 +23,11 @@ struct lom_device {
     struct lom_pass pass;
     struct lom_tile *worker_tiles;   /* one for each worker */
     struct lom_assembly *assemblies; /* likewise */
-    struct lom_chunk *chunks;        /* desc.batch of them */
+    struct lom_chunk *chunks;        /* most_chunks of them */
+    struct lom_tile_range *reaches;  /* likewise */
+    size_t most_chunks;              /* of a batch: desc.batch, and behind those only ones of small draws (run.c) */
     struct lom_room room;            /* of the batches before this one */
+    struct lom_room small_room;      /* of chunks behind the first desc.batch */
     uint8_t *tile_memory, *tile_touched;
     size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;

@@ -25,6 +25,20 @@ void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const st
         raise_to(&room->listed, chunk->tile_first[chunk->tile_high - chunk->tile_low + 1], 2);
 }
 
+/* What a chunk itself holds. */
+static bool renew_chunk(const struct lom_room *room, struct lom_chunk *chunk, size_t rows, size_t triangles)
+{
+    return lom_renew(&chunk->rows, &chunk->rows_capacity, rows, sizeof(float), NULL) &&
+           lom_renew(&chunk->primitives, &chunk->primitives_capacity, triangles, sizeof(lom_primitive), NULL) &&
+           lom_renew(&chunk->tile_first, &chunk->tile_first_capacity, room->tiles, sizeof(uint32_t), NULL) &&
+           lom_renew(&chunk->tile_list, &chunk->tile_list_capacity, room->listed, sizeof(uint32_t), NULL);
+}
+
+bool lom_prepare_chunk(const struct lom_room *room, struct lom_chunk *chunk)
+{
+    return renew_chunk(room, chunk, room->rows, room->triangles);
+}
+
 /* The arrays of a chunk that begins, as long at least as any before: frames that resemble those before them ask for no
  * memory, whichever chunk has which triangles. */
 bool lom_make_room(const struct lom_room *room, struct lom_chunk *chunk)
@@ -33,13 +47,10 @@ bool lom_make_room(const struct lom_room *room, struct lom_chunk *chunk)
     size_t needed = chunk->vertex_count + PADDING, vertices = lom_larger_size(needed, room->vertices);
     size_t rows = lom_larger_size(needed * (size_t)chunk->draw->row_floats, room->rows);
     size_t triangles = lom_larger_size(chunk->count + SPILLED, room->triangles);
-    return lom_renew(&chunk->rows, &chunk->rows_capacity, rows, sizeof(float), NULL) &&
+    return renew_chunk(room, chunk, rows, triangles) &&
            lom_renew(&assembly->clip, &assembly->clip_capacity, vertices * 4, sizeof(float), NULL) &&
            lom_renew(&assembly->codes, &assembly->codes_capacity, vertices, sizeof(uint16_t), NULL) &&
-           lom_renew(&chunk->primitives, &chunk->primitives_capacity, triangles, sizeof(lom_primitive), NULL) &&
-           lom_renew(&assembly->tile, &assembly->tile_capacity, triangles, sizeof(int32_t), NULL) &&
-           lom_renew(&chunk->tile_first, &chunk->tile_first_capacity, room->tiles, sizeof(uint32_t), NULL) &&
-           lom_renew(&chunk->tile_list, &chunk->tile_list_capacity, room->listed, sizeof(uint32_t), NULL);
+           lom_renew(&assembly->tile, &assembly->tile_capacity, triangles, sizeof(int32_t), NULL);
 }
 
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows)

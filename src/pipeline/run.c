@@ -56,18 +56,26 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
     }
 }
 
-/* Whether a chunk has a list for a tile, which may be empty. */
-static bool reaches(const struct lom_chunk *chunk, int number)
+/* The chunk from `i` on that has a list for a tile, which may be empty; or the number of chunks. */
+static size_t next_reaching(const struct lom_pass *pass, size_t i, int number)
 {
-    return number >= chunk->tile_low && number <= chunk->tile_high;
+    while (i < pass->chunk_count && (uint32_t)(number - pass->reaches[i].low) > pass->reaches[i].span)
+        i++;
+    return i;
+}
+
+/* Where the chunk's list for the tile begins, and behind it where it ends. */
+static const uint32_t *ends_of_list(const struct lom_chunk *chunk, int number)
+{
+    return chunk->tile_first + (number - chunk->tile_low);
 }
 
 /* Brings a chunk's list of the tile near: another core may have written it. */
 static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
 {
-    if (i >= pass->chunk_count || !reaches(&pass->chunks[i], number))
+    if (i >= pass->chunk_count)
         return;
-    const uint32_t *list = pass->chunks[i].tile_list + pass->chunks[i].tile_first[number - pass->chunks[i].tile_low];
+    const uint32_t *list = pass->chunks[i].tile_list + *ends_of_list(&pass->chunks[i], number);
     __builtin_prefetch(list);
     __builtin_prefetch(list + 16);
 }
@@ -91,12 +99,11 @@ static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, u
 {
     bool placed = false;
     tile->is_whole = false;
-    for (size_t i = 0; i < pass->chunk_count; i++) {
+    for (size_t i = next_reaching(pass, 0, number), next; i < pass->chunk_count; i = next) {
         const struct lom_chunk *chunk = &pass->chunks[i];
-        prefetch_list(pass, i + 1, number);
-        if (!reaches(chunk, number))
-            continue;
-        const uint32_t *begin = chunk->tile_first + (number - chunk->tile_low);
+        next = next_reaching(pass, i + 1, number);
+        prefetch_list(pass, next, number);
+        const uint32_t *begin = ends_of_list(chunk, number);
         uint32_t first = begin[0], end = begin[1];
         if (first == end)
             continue;
@@ -164,6 +171,37 @@ static void copy_feedback(void *context, size_t first, size_t end)
         lom_copy_feedback(&pass->chunks[i]);
 }
 
+/* What the caller takes from a chunk that has been run. */
+static void take_chunk(lom_device *device, size_t i)
+{
+    const struct lom_pass *pass = &device->pass;
+    struct lom_chunk *chunk = &pass->chunks[i];
+    lom_raise_room(&device->room, pass, chunk);
+    if (i >= (size_t)device->desc.batch)
+        lom_raise_room(&device->small_room, pass, chunk);
+    device->counters.vertices += chunk->vertices_shaded;
+    device->counters.triangles += chunk->count;
+    device->counters.triangles_clipped += chunk->triangles_clipped;
+    device->counters.triangles_binned += chunk->triangle_count;
+    device->reaches[i] =
+        chunk->tile_high < 0
+            ? (struct lom_tile_range){ .low = INT32_MAX }
+            : (struct lom_tile_range){ chunk->tile_low, (uint32_t)(chunk->tile_high - chunk->tile_low) };
+    if (chunk->draw->desc.feedback != NULL)
+        lom_place_feedback(chunk);
+}
+
+/* Of small draws a pass has some more or some less than the last: room for a few more. */
+static bool prepare_chunks(lom_device *device)
+{
+    enum { MORE = 32 };
+    size_t first = device->pass.chunk_count, end = (first + MORE - 1) / MORE * MORE;
+    bool done = true;
+    for (size_t i = first; i < end && i < device->most_chunks && first > (size_t)device->desc.batch && done; i++)
+        done = lom_prepare_chunk(&device->small_room, &device->chunks[i]);
+    return done || lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the draws of a pass.");
+}
+
 static bool run_batch(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
@@ -172,18 +210,14 @@ static bool run_batch(lom_device *device)
     if (pass->chunk_count > 0)
         run_all(device, run_chunks);
     for (size_t i = 0; i < pass->chunk_count; i++) {
-        struct lom_chunk *chunk = &pass->chunks[i];
+        const struct lom_chunk *chunk = &pass->chunks[i];
         if (chunk->failed)
             return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw of %s.",
                             chunk->draw->desc.shader->name);
-        lom_raise_room(&device->room, pass, chunk);
-        device->counters.vertices += chunk->vertices_shaded;
-        device->counters.triangles += chunk->count;
-        device->counters.triangles_clipped += chunk->triangles_clipped;
-        device->counters.triangles_binned += chunk->triangle_count;
-        if (chunk->draw->desc.feedback != NULL)
-            lom_place_feedback(chunk);
+        take_chunk(device, i);
     }
+    if (!prepare_chunks(device))
+        return false;
     if (pass->feeds_back)
         lom_share_out(device->pool, pass->chunk_count, 1, copy_feedback, pass);
     if (!pass->desc.feedback_only)
@@ -194,10 +228,21 @@ static bool run_batch(lom_device *device)
     return true;
 }
 
+/* Whether a chunk of the draw may follow `chunks` others in a batch. Batches of small draws are longer: what a tile and a
+ * barrier cost does not depend on how much a chunk holds. Their memory is little, since large ones never come there. */
+static bool fits(const lom_device *device, size_t chunks, const struct lom_draw *draw)
+{
+    enum { SMALL = 256 };
+    bool small = draw->triangles <= SMALL && !draw->expands && draw->desc.culling.clusters == NULL;
+    return chunks < (size_t)device->desc.batch || (small && chunks < device->most_chunks);
+}
+
 static bool add_chunk(lom_device *device, const struct lom_draw *draw, int instance, size_t first, size_t count,
                       const struct lom_run *runs, size_t run_count)
 {
     struct lom_pass *pass = &device->pass;
+    if (!fits(device, pass->chunk_count, draw) && !run_batch(device))
+        return false;
     struct lom_chunk *chunk = &device->chunks[pass->chunk_count++];
     chunk->draw = draw;
     chunk->instance = instance;
@@ -205,8 +250,7 @@ static bool add_chunk(lom_device *device, const struct lom_draw *draw, int insta
     chunk->count = count;
     chunk->runs = runs;
     chunk->run_count = run_count;
-    return pass->chunk_count < (size_t)device->desc.batch || pass->chunk_count == pass->chunks_left ||
-           run_batch(device);
+    return true;
 }
 
 /* Clusters of a draw: the runs of each chunk. */
@@ -268,9 +312,12 @@ static bool lay_tile_memory(lom_device *device)
     struct lom_pass *pass = &device->pass;
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     pass->chunks_left = 0;
-    for (size_t i = 0; i < pass->draw_count; i++)
-        pass->chunks_left += count_chunks(&device->draws[i]);
-    pass->single_batch = pass->chunks_left <= (size_t)device->desc.batch;
+    pass->single_batch = true;
+    for (size_t i = 0; i < pass->draw_count; i++) {
+        size_t chunks = count_chunks(&device->draws[i]);
+        pass->chunks_left += chunks;
+        pass->single_batch &= chunks == 0 || fits(device, pass->chunks_left - 1, &device->draws[i]);
+    }
     size_t threads = (size_t)device->desc.threads, count = pass->single_batch ? threads : tiles;
     size_t scratch = pass->samples > 1 ? lom_scratch_bytes(pass) : 0;
     if (!lom_reserve(&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes + threads * scratch,
@@ -314,6 +361,7 @@ bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
     pass->chunks = device->chunks;
+    pass->reaches = device->reaches;
     pass->chunk_count = 0;
     for (size_t i = 0; i < pass->draw_count; i++) {
         note_depth(pass, &device->draws[i]);

@@ -183,6 +183,13 @@ struct lom_chunk {
     bool failed;                  /* memory ran out */
 };
 
+/* The numbers of the tiles that a chunk of the batch has lists for, from low to low + span, side by side with those of the
+ * others: a tile looks at all of them. None: low is beyond all tiles. */
+struct lom_tile_range {
+    int32_t low;
+    uint32_t span;
+};
+
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
 
 struct lom_color_target {
@@ -239,6 +246,7 @@ struct lom_pass {
     size_t draw_count; /* recorded in the device */
 
     struct lom_chunk *chunks; /* the batch's */
+    const struct lom_tile_range *reaches;
     size_t chunk_count;
     size_t chunks_left;            /* of the pass, the batch's included until it runs */
     bool feeds_back;               /* a draw has feedback */
@@ -268,6 +276,8 @@ static inline size_t lom_larger_size(size_t a, size_t b)
 bool lom_reserve_rows(struct lom_chunk *chunk, size_t rows);
 /* Room in the arrays of a chunk that begins, whose vertex_count is known. */
 bool lom_make_room(const struct lom_room *room, struct lom_chunk *chunk);
+/* Room in those of one that may come in a later batch. */
+bool lom_prepare_chunk(const struct lom_room *room, struct lom_chunk *chunk);
 /* Raises room to what the chunk has needed. */
 void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const struct lom_chunk *chunk);
 

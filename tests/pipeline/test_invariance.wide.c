@@ -165,6 +165,34 @@ static void schedules_change_nothing(void)
     }
 }
 
+/* Small draws share long batches, which larger ones end: a draw a triangle, every 600 of them one of all triangles. */
+static hashes render_small_draws(lom_device_desc desc)
+{
+    static const lom_shader *shaders[] = { &opaque, &everything, &uniform_color };
+    stage s = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH24);
+    begin(&s, (lom_pass_desc){ .clear_color = { { 0.1f, 0.2f, 0.3f, 0.4f } } });
+    for (size_t t = 0; t < TRIANGLES; t++) {
+        draw_part(&s, shaders[t % 3], t, 1, t % 5 == 0 ? adding() : (lom_blend){ 0 });
+        if (t % 600 == 500)
+            draw_part(&s, &everything, 0, TRIANGLES, (lom_blend){ 0 });
+    }
+    finish(&s);
+    hashes h = { lom_hash_image(s.image), lom_hash_image(s.depths) };
+    close_stage(&s);
+    return h;
+}
+
+static void batches_of_small_draws_change_nothing(void)
+{
+    static const int batches[] = { 2, 32, 100, 1024, 0 };
+    make_scene();
+    const hashes one = render_small_draws((lom_device_desc){ .threads = 1, .batch = 1 });
+    for (int i = 0; i < 5; i++)
+        for (int threads = 1; threads <= 3; threads += 2)
+            check_hashes(render_small_draws((lom_device_desc){ .threads = threads, .batch = batches[i] }), one, "batch",
+                         batches[i] * 10 + threads);
+}
+
 /* A sheet of triangles that share their vertices, large enough for several chunks. */
 static lom_counters count_sheet(int threads)
 {
@@ -294,6 +322,7 @@ int main(int argc, char **argv)
 {
     RUN(float_stages_have_one_hash);
     RUN(schedules_change_nothing);
+    RUN(batches_of_small_draws_change_nothing);
     RUN(counters_are_no_function_of_threads);
     RUN(passes_do_not_see_one_another);
     RUN(two_devices_in_two_threads);
