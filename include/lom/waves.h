@@ -58,12 +58,17 @@ typedef struct lom_water_foam {
 /* ---- [surf] ---- */
 
 /* Waves that come in to a shore: one period, whose crests turn and rise over the bed and break. */
+/* How waves of surf break: LOM_SURF_AUTO by the slope of the bed. */
+typedef enum lom_surf_breaking { LOM_SURF_SPILLING, LOM_SURF_PLUNGING, LOM_SURF_AUTO } lom_surf_breaking;
+
 typedef struct lom_water_surf {
     bool present;
     double height;    /* metres where they reach the terrain; 0: there are none */
     double period;    /* seconds */
     double direction; /* radians, as of lom_water_waves */
     double variation; /* of the heights, in groups of crests and along them: 0 none .. 0.9 */
+    int breaking;     /* lom_surf_breaking */
+    double plunging;  /* where they plunge, how far: 0 not at all .. 1 */
 } lom_water_surf;
 
 /* ---- [shallow]: the surface as a height field that flows over the terrain (lom/shallow.h) ---- */

@@ -152,6 +152,7 @@ static const recipe recipes[] = {
     { "coast", "cove", "terrain/cove.png", make_coast, { .size = 512, .seed = 1 } },
     { "coast", "river", "terrain/river.png", make_coast, { .size = 512, .seed = 1 } },
     { "coast", "falls", "terrain/falls.png", make_coast, { .size = 1024, .seed = 1 } },
+    { "coast", "strand", "terrain/strand.png", make_coast, { .size = 512, .seed = 1 } },
     { "albedo", "grass", "terrain/grass.png", make_albedo, { .seed = 1 } },
     { "albedo", "forest", "terrain/forest.png", make_albedo, { .seed = 1 } },
     { "albedo", "rock", "terrain/rock.png", make_albedo, { .seed = 1 } },

@@ -119,10 +119,21 @@ static double falls(const lom_noise *noise, double x, double z)
     return ground + 0.55 * gravel + bend(noise, x, z, 2.6, 0.3) + lom_smooth_step(-0.5, 0.5, d) * wall;
 }
 
+/* A long beach of sand that falls evenly into the sea in the south, over low banks, with dunes behind it. */
+static double strand(const lom_noise *noise, double x, double z)
+{
+    double d = z - 140 - bend(noise, x, 0.3 * z, 120, 14), slope = 0.085, banks = bend(noise, x + 20, z, 90, 0.6);
+    double deep = lom_smooth_step(150, 240, d), bed = lom_mix_double(-slope * d, -16, deep);
+    double dunes = lom_smooth_step(-18, -70, d) * (4 + bend(noise, x, z, 40, 7));
+    bed = d < 0 ? 4 * (1 - lom_double_exp(d * slope / 4)) + dunes : bed;
+    bed += banks * lom_smooth_step(8, 40, d) * (1 - deep);
+    return bed + bend(noise, x, z, 9, 0.12) * lom_smooth_step(20, -2, d);
+}
+
 static const struct coast {
     const char *name;
     coast_height *height;
-} coasts[] = { { "lagoon", lagoon }, { "cove", cove }, { "river", river }, { "falls", falls } };
+} coasts[] = { { "lagoon", lagoon }, { "cove", cove }, { "river", river }, { "falls", falls }, { "strand", strand } };
 enum { COASTS = sizeof coasts / sizeof coasts[0] };
 
 const char *lom_coast_name(size_t index)

@@ -64,14 +64,29 @@ void lom_free_ray_shore(struct lom_wave_surface *surface)
     lom_release(surface->shallow_texels);
 }
 
+/* Derivatives by differences: of the heights alone where waves spill, and of the whole shift where they plunge. */
 static void add_surf(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z)
 {
     const double step = 1e-3;
-    const struct lom_surf_map *map = &surface->surf;
-    const struct lom_surf_uniform *moment = &surface->surf_moment;
-    place->dy += lom_surf_height(map, moment, x, z);
-    place->sx += (lom_surf_height(map, moment, x + step, z) - lom_surf_height(map, moment, x - step, z)) / (2 * step);
-    place->sz += (lom_surf_height(map, moment, x, z + step) - lom_surf_height(map, moment, x, z - step)) / (2 * step);
+    double here[3], change[2][3];
+    lom_surf_shift(&surface->surf, &surface->surf_moment, x, z, here);
+    for (int a = 0; a < 2; a++) {
+        double before[3], after[3];
+        const double dx = a == 0 ? step : 0, dz = step - dx;
+        lom_surf_shift(&surface->surf, &surface->surf_moment, x + dx, z + dz, after);
+        lom_surf_shift(&surface->surf, &surface->surf_moment, x - dx, z - dz, before);
+        for (int i = 0; i < 3; i++)
+            change[a][i] = (after[i] - before[i]) / (2 * step);
+    }
+    place->dx += here[0];
+    place->dy += here[1];
+    place->dz += here[2];
+    place->sx += change[0][1];
+    place->sz += change[1][1];
+    place->xx += change[0][0];
+    place->zz += change[1][2];
+    place->xz += (change[0][2] + change[1][0]) / 2;
+    place->overturns |= here[0] != 0 || here[2] != 0;
 }
 
 static void add_shallow(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z)

@@ -43,7 +43,7 @@ static lom_vec3 normal_of(const struct lom_wave_place *p)
 {
     double a = 1 + p->xx, b = 1 + p->zz;
     lom_vec3 n = { p->xz * p->sz - p->sx * b, a * b - p->xz * p->xz, p->xz * p->sx - p->sz * a };
-    return n.y > 0 ? unit(n) : (lom_vec3){ 0, 1, 0 };
+    return n.y > 0 || (p->overturns && dot(n, n) > 1e-12) ? unit(n) : (lom_vec3){ 0, 1, 0 };
 }
 
 /* ---- making ---- */

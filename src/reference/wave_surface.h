@@ -11,6 +11,7 @@
 struct lom_wave_place {
     double dx, dy, dz;         /* displacement */
     double sx, sz, xx, xz, zz; /* derivatives of dy, and of (dx, dz), by x and z */
+    bool overturns;            /* a wave plunges there: its upper side may look down */
 };
 
 struct lom_ray_wave {

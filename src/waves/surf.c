@@ -1,10 +1,10 @@
 /* Maps of surf. In: depths, a period, a height, a direction. Out: phases, wave vectors, heights, shapes. Invariant: a
  * function of the description alone: sweeps of fixed order and number. */
 #include "base/numbers.h"
-#include "waves/surf.h"
+#include "waves/surf_work.h"
 
 static const double gravity = 9.80665;
-static const double breaking_ratio = 0.78, stable_ratio = 0.4, decay = 0.15;
+static const double stable_ratio = 0.4, decay = 0.15;
 enum { ROUNDS = 6, NEWTON = 12 };
 
 /* With y = w^2 d / g the equation is x tanh x = y for x = k d, whose left side is convex below 1.2 and nearly straight
@@ -29,23 +29,9 @@ double lom_group_velocity(double frequency, double depth)
     return frequency / k * (1 + ratio) / 2;
 }
 
-/* The work on a grid. */
-struct surf {
-    const struct lom_surf_desc *desc;
-    int width, height;
-    double frequency, shallowest;                  /* depth below which waves run up as a sheet of this depth */
-    double *depth, *number, *phase, *flux, *speed; /* speed: of the group */
-    double (*normal)[2];                           /* of the crests, the way the waves go */
-    int8_t (*from)[2]; /* the neighbours, -1, 0 or 1 along x and z, from which a wave comes */
-    bool *breaks;
-    int edge;     /* 0 left, 1 right, 2 top, 3 bottom: where the waves come in */
-    double along; /* rad/m: how the phase runs along it, towards larger x or z */
-};
-
 /* ---- depths ---- */
 
-/* Waves do not feel what is much shorter than they are: [1 2 1] / 4 along both axes, twice. */
-static void smooth(const struct surf *s, double *grid, double *scratch)
+void lom_smooth_surf(const struct surf *s, double *grid, double *scratch)
 {
     const int w = s->width, h = s->height;
     for (int pass = 0; pass < 4; pass++) {
@@ -174,30 +160,37 @@ static void solve_phase(struct surf *s, int x, int y)
 
 /* ---- energy ---- */
 
-/* What flows in from the cells that the wave comes from flows out again, less what breaking takes. */
-static void solve_flux(struct surf *s, int x, int y)
+struct lom_surf_inflow lom_surf_inflow_of(const struct surf *s, int i)
 {
-    const int i = y * s->width + x;
-    const int neighbour[2] = { i + s->from[i][0], i + s->from[i][1] * s->width };
-    double in = 0, out = 0, most = 0, depth = lom_larger(s->depth[i], s->shallowest), c = s->speed[i];
-    bool before = false;
+    struct lom_surf_inflow f = { .neighbour = { i + s->from[i][0], i + s->from[i][1] * s->width } };
+    double most = 0;
     for (int a = 0; a < 2; a++) {
         double part = lom_magnitude(s->normal[i][a]) / s->desc->spacing[a];
         if (s->from[i][a] == 0)
             continue;
-        in += s->flux[neighbour[a]] * lom_magnitude(s->normal[neighbour[a]][a]) / s->desc->spacing[a];
-        out += part;
-        before = part > most ? s->breaks[neighbour[a]] : before;
+        f.in += s->flux[f.neighbour[a]] * lom_magnitude(s->normal[f.neighbour[a]][a]) / s->desc->spacing[a];
+        f.out += part;
+        f.part[a] = part;
+        f.breaks = part > most ? s->breaks[f.neighbour[a]] : f.breaks;
         most = part > most ? part : most;
     }
-    double flux = out > 0 ? in / out : 0, stable = stable_ratio * depth, height = lom_double_sqrt(flux / c);
-    s->breaks[i] = height > breaking_ratio * depth || (before && height > stable);
-    if (s->breaks[i] && out > 0)
-        flux = (in + decay / depth * stable * stable * c) / (out + decay / depth);
+    return f;
+}
+
+/* What flows in from the cells that the wave comes from flows out again, less what breaking takes. */
+static void solve_flux(struct surf *s, int x, int y)
+{
+    const int i = y * s->width + x;
+    const struct lom_surf_inflow f = lom_surf_inflow_of(s, i);
+    double depth = lom_larger(s->depth[i], s->shallowest), c = s->speed[i];
+    double flux = f.out > 0 ? f.in / f.out : 0, stable = stable_ratio * depth, height = lom_double_sqrt(flux / c);
+    s->breaks[i] = height > lom_breaking_ratio * depth || (f.breaks && height > stable);
+    if (s->breaks[i] && f.out > 0)
+        flux = (f.in + decay / depth * stable * stable * c) / (f.out + decay / depth);
     s->flux[i] = s->depth[i] > -2 * s->shallowest ? flux : 0;
 }
 
-static void sweep(struct surf *s, void (*solve)(struct surf *s, int x, int y))
+void lom_sweep_surf(struct surf *s, void (*solve)(struct surf *s, int x, int y))
 {
     for (int round = 0; round < 4 * ROUNDS; round++)
         for (int n = 0; n < s->height; n++) {
@@ -236,12 +229,12 @@ static void fill_cells(const struct surf *s, struct lom_surf_map *map, double *b
                                         .kz = (float)(s->normal[i][1] * s->number[i]),
                                         .amplitude = (float)(height / 2) };
         set_shape(cell, height, s->number[i], depth);
-        double over = (height / depth - stable_ratio) / (breaking_ratio - stable_ratio);
+        double over = (height / depth - stable_ratio) / (lom_breaking_ratio - stable_ratio);
         breaking[i] = s->breaks[i] ? 0.35 + 0.65 * (over < 0 ? 0 : over > 1 ? 1 : over) : 0;
         map->highest = lom_larger(map->highest, height);
         map->breaking_depth = s->breaks[i] ? lom_larger(map->breaking_depth, depth) : map->breaking_depth;
     }
-    smooth(s, breaking, scratch);
+    lom_smooth_surf(s, breaking, scratch);
     for (int i = 0; i < count; i++)
         map->cells[i].breaking = (float)breaking[i];
 }
@@ -277,16 +270,20 @@ bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *des
     bool done = take_memory(&s, map, count, error);
     if (done) {
         memcpy(s.depth, desc->depth, count * sizeof *s.depth);
-        smooth(&s, s.depth, s.flux);
+        lom_smooth_surf(&s, s.depth, s.flux);
         find_numbers(&s);
         for (size_t i = 0; i < count; i++) {
             s.phase[i] = 1e300;
             s.flux[i] = 0;
         }
         start_waves(&s);
-        sweep(&s, solve_phase);
-        sweep(&s, solve_flux);
+        lom_sweep_surf(&s, solve_phase);
+        lom_sweep_surf(&s, solve_flux);
+        done = !(desc->surf.breaking != LOM_SURF_SPILLING && desc->surf.plunging > 0) ||
+               lom_fill_surf_curls(&s, map, error);
         fill_cells(&s, map, s.number, s.phase);
+        if (map->curls != NULL)
+            lom_shape_surf_curls(map, s.frequency);
         map->along[0] = -lom_double_sin(desc->surf.direction);
         map->along[1] = lom_double_cos(desc->surf.direction);
         map->length = gravity * desc->surf.period * desc->surf.period / lom_two_pi;
@@ -303,5 +300,7 @@ bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *des
 void lom_free_surf_map(struct lom_surf_map *map)
 {
     lom_release(map->cells);
+    lom_release(map->curls);
     map->cells = NULL;
+    map->curls = NULL;
 }

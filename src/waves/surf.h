@@ -23,6 +23,14 @@ struct lom_surf_cell {
     float skew, lean, breaking, unused; /* r cos f and r sin f of the wave's shape; 0 whole .. 1 breaking */
 };
 
+/* How a wave plunges there (waves/surf_curl.h). */
+struct lom_surf_curl_cell {
+    float since, strength, lead, crest; /* radians since it began to break, negative before; 0 not at all .. 1; how much
+                                           earlier a wave breaks that is twice as high, radians; the crest's angle */
+    float span, top, drop, unused;      /* radians from crest to the trough ahead; height of the crest over the level
+                                           and over that trough, in amplitudes */
+};
+
 struct lom_surf_map {
     int width, height;
     double corner[2], spacing[2]; /* of the first cell in the world, metres: the caller's to set */
@@ -30,7 +38,10 @@ struct lom_surf_map {
     double length;                /* metres from crest to crest there */
     double highest;               /* largest height, metres */
     double breaking_depth;        /* largest depth in which a wave breaks; 0: none does */
+    double farthest;              /* metres that a curl is thrown ahead, of a wave of mean height */
+    double plunging_slope[2];     /* least and largest Iribarren number of waves that plunge; 0: none does */
     struct lom_surf_cell *cells;
+    struct lom_surf_curl_cell *curls; /* NULL: waves spill */
 };
 
 /* The wave number (rad/m) of waves of this angular frequency (rad/s) in water of this depth (m), both above 0: Newton's
@@ -53,7 +64,12 @@ struct lom_surf_place {
 struct lom_surf_place lom_surf_place_at(const struct lom_surf_map *map, double x, double z);
 /* By how much the wave at a place with this phase is higher than the mean, in its group, at a time of lom_fill_surf. */
 double lom_surf_size(const struct lom_surf_uniform *moment, double phase, double x, double z);
-/* Height over a place of the world, metres, in double, at a time of lom_fill_surf. */
+/* How far the water is that rests at a place of the world, metres along x, up and along z, in double, at a time of
+ * lom_fill_surf: up alone where waves spill. */
+void lom_surf_shift(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z,
+                    double shift[3]);
+/* Height over a place of the world, metres, in double, at a time of lom_fill_surf; of a wave that overturns the upper
+ * one. */
 double lom_surf_height(const struct lom_surf_map *map, const struct lom_surf_uniform *moment, double x, double z);
 
 #endif

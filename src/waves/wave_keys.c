@@ -100,6 +100,14 @@ static const lom_key surf[] = {
       .text = "Where they travel to, far from the shore: 0 is +x, 90 is +z." },
     { "variation", LOM_KEY_NUMBER, AT(variation), .maximum = 0.9, .initial = { 0.3 },
       .text = "How much higher and lower than the mean crests are, in groups and along each of them." },
+    { "breaking", LOM_KEY_CHOICE, AT(breaking), .choices = { "spilling", "plunging", "auto" },
+      .text =
+          "How they break: foam runs down the front; the crest is thrown ahead as a jet, falls, and the wave goes on "
+          "as "
+          "a bore; or each way by the slope of the bed there, plunging at Iribarren numbers of 0.5 to 3.3. Jets are "
+          "drawn by `displaced` and `reference`." },
+    { "plunging", LOM_KEY_NUMBER, AT(plunging), .maximum = 1, .initial = { 1 },
+      .text = "Where waves plunge: how far they do; 0 is spilling." },
 };
 const lom_key_table lom_water_surf_keys = {
     .size = sizeof(lom_water_surf),

@@ -57,12 +57,13 @@ struct lom_shallow_uniform {
 
 /* Waves that come to a shore (waves/surf.h), by maps over it. */
 struct lom_surf_uniform {
-    const lom_texture *waves;  /* phase, kx, kz, amplitude; NULL: there are none */
-    const lom_texture *shapes; /* r cos f, r sin f, how much the wave breaks */
-    float corner[2], last[2];  /* x and z of the first and of the last cell */
-    float scale[2], half[2];   /* a place is at (x - corner) scale + half */
-    float time, rate;          /* w t in radians, less whole turns; w in rad/s */
-    float swing;               /* g / w^2, where the water takes foam along; else 0 */
+    const lom_texture *waves;    /* phase, kx, kz, amplitude; NULL: there are none */
+    const lom_texture *shapes;   /* r cos f, r sin f, how much the wave breaks */
+    const lom_texture *curls[2]; /* halves of struct lom_surf_curl_cell; NULL: waves spill */
+    float corner[2], last[2];    /* x and z of the first and of the last cell */
+    float scale[2], half[2];     /* a place is at (x - corner) scale + half */
+    float time, rate;            /* w t in radians, less whole turns; w in rad/s */
+    float swing;                 /* g / w^2, where the water takes foam along; else 0 */
     float variation, group_time[2], group_rate[2], group_share[2], group_along[2][2];
     double origin[2]; /* of the places */
 };
@@ -110,6 +111,7 @@ struct lom_wave_slopes {
     lom_float vxx, vzz, vxz;    /* covariance of the slopes that are too small to be seen */
     lom_float foam;             /* 0 none .. 1 */
     lom_float drift_x, drift_z; /* metres that the water there has come, with the foam on it */
+    lom_mask overturns;         /* where a wave plunges: its upper side may look down */
 };
 
 /* The level of a texture of `scale` repetitions a metre for a footprint. */
@@ -145,12 +147,17 @@ LOM_INLINE struct lom_wave_slopes lom_find_slopes(const struct lom_waves_uniform
     return slopes;
 }
 
-/* The cross product of the tangents (1 + xx, sx, xz) and (xz, sz, 1 + zz), upwards; straight up where it vanishes. */
+/* The cross product of the tangents (1 + xx, sx, xz) and (xz, sz, 1 + zz), upwards but where a wave overturns;
+ * straight up where it vanishes. */
 LOM_INLINE lom_float3 lom_wave_normal(const struct lom_wave_slopes *w)
 {
     lom_float a = 1.0f + w->xx, b = 1.0f + w->zz;
     lom_float3 n = { w->xz * w->sz - w->sx * b, a * b - w->xz * w->xz, w->xz * w->sx - w->sz * a };
-    n.y = lom_max(n.y, lom_splat(0.02f)); /* a fold shows its upper side */
+    lom_float least = lom_splat(0.02f); /* a fold shows its upper side */
+    if (lom_any(w->overturns))
+        least =
+            lom_select(w->overturns & (lom_abs(n.x) + lom_abs(n.y) + lom_abs(n.z) > 1e-3f), lom_splat(-1e6f), least);
+    n.y = lom_max(n.y, least);
     return lom_normalize3(n);
 }
 

@@ -1,17 +1,9 @@
 /* The waves of a surface over lanes. In: rest positions and the size of what is sampled there; out: displacements,
  * slopes with the variance of what is too small to be seen, foam (wave_lanes.h says what each kind of wave is). */
 #include "base/numbers.h"
-#include "waves/wave_lanes.h"
+#include "waves/surf_lanes.h"
 
 #include <string.h>
-
-/* How much of a wave is left when its phase changes by so much from sample to sample: (1 - (change / pi)^2)^2, nothing
- * from pi on, where it could not be told from another. */
-static lom_float wave_weight(lom_float change)
-{
-    lom_float left = lom_max(1.0f - change * change * 0.10132118f, (lom_float){ 0 });
-    return left * left;
-}
 
 static lom_float phase_change(const struct lom_trochoid_uniform *t, const struct lom_footprint *f)
 {
@@ -53,54 +45,6 @@ static struct shallow_place shallow_place_of(const struct lom_shallow_uniform *u
     return p;
 }
 
-/* A wave of surf at a place: its amplitude times its size in its group, the angle w t - theta, and what follows of the
- * angle: its height in amplitudes and the derivative of that. */
-struct surf_wave {
-    lom_float amplitude, kx, kz, angle, lean_angle, breaking;
-    lom_float height, change;
-};
-
-/* eta = a s (sin t + r sin f / (1 + s)) / (1 - r cos(t + f)), s = sqrt(1 - r^2) (Abreu, Silva, Sancho, Temperville
- * 2010, equation 7): a sine, peaked crests or a steep front. Beyond the maps the phase goes on straight. */
-static struct surf_wave find_surf(const struct lom_surf_uniform *u, lom_float x, lom_float z)
-{
-    lom_float s = (x - u->corner[0]) * u->scale[0] + u->half[0], t = (z - u->corner[1]) * u->scale[1] + u->half[1];
-    lom_float4 wave = lom_sample(u->waves, s, t, (lom_float){ 0 }),
-               shape = lom_sample(u->shapes, s, t, (lom_float){ 0 });
-    lom_float outside_x = x - lom_clamp(x, lom_splat(u->corner[0]), lom_splat(u->last[0]));
-    lom_float outside_z = z - lom_clamp(z, lom_splat(u->corner[1]), lom_splat(u->last[1]));
-    lom_float theta = wave.x + wave.y * outside_x + wave.z * outside_z, size = lom_splat(1.0f);
-    for (int i = 0; i < 2; i++)
-        size = size + u->variation * u->group_share[i] *
-                          lom_sin(u->group_time[i] - theta * u->group_rate[i] + x * u->group_along[i][0] +
-                                  z * u->group_along[i][1]);
-    struct surf_wave w = { .amplitude = wave.w * size, .kx = wave.y, .kz = wave.z, .angle = u->time - theta };
-    lom_float sine = lom_sin(w.angle), cosine = lom_cos(w.angle);
-    lom_float root = lom_sqrt(lom_max(1.0f - shape.x * shape.x - shape.y * shape.y, lom_splat(0.01f)));
-    lom_float above = sine + shape.y / (1.0f + root), below = 1.0f - shape.x * cosine + shape.y * sine;
-    w.height = root * above / below;
-    w.change = root * (cosine * below - above * (shape.x * sine + shape.y * cosine)) / (below * below);
-    w.breaking = shape.z;
-    w.lean_angle = w.angle + lom_atan2(shape.y, lom_max(shape.x, lom_splat(1e-6f)));
-    return w;
-}
-
-/* How much of it a footprint leaves. */
-static lom_float surf_weight(const struct surf_wave *w, const struct lom_footprint *f)
-{
-    return wave_weight(lom_max(lom_abs(w->kx * f->ax + w->kz * f->az), lom_abs(w->kx * f->bx + w->kz * f->bz)));
-}
-
-/* Foam of a breaking wave: it begins at the foot of the front, half a radian before the steepest place t = -f, and
- * lies behind it until it has faded, whatever broke before: the same at every moment at which the angle is the same. */
-static lom_float surf_foam(const struct lom_surf_uniform *u, const struct surf_wave *w, float window)
-{
-    lom_float turns = (w->lean_angle + 0.5f) * 0.15915494f, part = turns - lom_floor(turns);
-    lom_float behind = lom_exp(part * (-(float)lom_two_pi / (u->rate * window)));
-    lom_float ahead = lom_saturate(1.0f - (1.0f - part) * 20.0f);
-    return w->breaking * lom_max(behind, ahead);
-}
-
 static void add_trochoid_shift(const struct lom_trochoid_uniform *t, const struct trochoid *found,
                                struct lom_wave_shift *p)
 {
@@ -121,8 +65,7 @@ static void add_other_shifts(const struct lom_waves_uniform *waves, lom_float x,
         p->h = p->h + lom_select(at.inside, height, (lom_float){ 0 });
     }
     if (waves->surf.waves != NULL) {
-        struct surf_wave w = find_surf(&waves->surf, x, z);
-        p->h = p->h + w.amplitude * w.height * surf_weight(&w, f);
+        add_surf_shift(&waves->surf, x, z, f, p);
     }
     for (int i = 0; i < waves->cascade_count; i++) {
         const struct lom_cascade_uniform *c = &waves->cascade[i];
@@ -213,32 +156,6 @@ static void add_shallow_slopes(const struct lom_shallow_uniform *u, lom_float x,
     w->vzz = w->vzz + lom_select(at.inside, lom_max(m.y - d.z * d.z, zero), zero);
     w->vxz = w->vxz + lom_select(at.inside, m.z - d.y * d.z, zero);
     w->foam = w->foam + lom_select(at.inside, d.w, zero);
-}
-
-/* Water under a wave of amplitude a moves by u = a w / tanh(kd) sin t, at most by c = w / k; its integral is to and fro by
- * a / tanh(kd) = a g k / w^2, at most by 1 / k. */
-static void add_surf_drift(const struct lom_surf_uniform *u, const struct surf_wave *wave, struct lom_wave_slopes *w)
-{
-    lom_float square = lom_max(wave->kx * wave->kx + wave->kz * wave->kz, lom_splat(1e-12f));
-    lom_float way = lom_min(wave->amplitude * u->swing, 1.0f / square) * -lom_cos(wave->angle);
-    w->drift_x = w->drift_x + way * wave->kx;
-    w->drift_z = w->drift_z + way * wave->kz;
-}
-
-static void add_surf_slopes(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
-                            const struct lom_footprint *f, struct lom_wave_slopes *w)
-{
-    struct surf_wave wave = find_surf(&waves->surf, x, z);
-    lom_float weight = surf_weight(&wave, f), slope = -(wave.amplitude * wave.change * weight);
-    lom_float lost = 0.5f * (1.0f - weight * weight) * wave.amplitude * wave.amplitude;
-    w->sx = w->sx + slope * wave.kx;
-    w->sz = w->sz + slope * wave.kz;
-    w->vxx = w->vxx + lost * wave.kx * wave.kx;
-    w->vzz = w->vzz + lost * wave.kz * wave.kz;
-    w->vxz = w->vxz + lost * wave.kx * wave.kz;
-    w->foam = w->foam + surf_foam(&waves->surf, &wave, waves->foam_window);
-    if (waves->surf.swing > 0)
-        add_surf_drift(&waves->surf, &wave, w);
 }
 
 /* What the map's levels average away shortens its normals to l: (1 - l) / l is its variance (Toksvig 2005). */

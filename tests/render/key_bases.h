@@ -138,6 +138,8 @@ static const struct base bases[] = {
       VIEW DISPLACED "normal_map = \"normal.png\"\n[water.waves]\nkind = \"flow\"\n" },
     { "surf", "surf terrain.size terrain.height terrain.base water.level water.size",
       VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\n" },
+    { "plunging", "surf.breaking surf.plunging",
+      VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\nperiod = 2\nbreaking = \"plunging\"\n" },
     { "shallow", "shallow terrain.size water.size water.level",
       VIEW TERRAIN DISPLACED "[shallow]\ncells = 16\nsize = 20\n[[shallow.spring]]\nposition = [1, 1]\nrate = 2\n"
                              "[[shallow.body]]\nposition = [2, 2]\nduration = 1\n" },

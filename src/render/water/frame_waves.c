@@ -23,10 +23,20 @@ static bool is_below(const struct frame *f)
     return eye->y < level;
 }
 
+/* Only a mesh can overturn: what has one height over each place shows waves that spill. */
+static void keep_upright(struct frame *f)
+{
+    if (lom_water_models[f->scene->quality.water].form != LOM_SURFACE_MESH)
+        f->waves.surf.curls[0] = f->waves.surf.curls[1] = NULL;
+}
+
 bool lom_place_frame_waves(struct frame *f, lom_error *error)
 {
     f->known = LOM_WAVES_PLACED;
-    return lom_place_waves(f->renderer->water->waves, &f->waves, f->view.eye, f->time, error);
+    if (!lom_place_waves(f->renderer->water->waves, &f->waves, f->view.eye, f->time, error))
+        return false;
+    keep_upright(f);
+    return true;
 }
 
 void lom_report_frame_waves(struct frame *f, enum lom_wave_stage stage, const char *why)
@@ -53,6 +63,7 @@ bool lom_prepare_water(struct frame *f, lom_error *error)
         return true;
     lom_report_frame_waves(f, LOM_WAVES_AT_FIRST, NULL);
     lom_bound_waves(f->renderer->water->waves, &f->waves, f->view.eye, f->time);
+    keep_upright(f);
     if (lom_waves_advance(f->renderer->water->waves) && !is_below(f))
         return true;
     if (!lom_place_frame_waves(f, error))
