@@ -30,7 +30,7 @@ static bool make_shallow(struct lom_wave_surface *surface, const struct lom_wave
         moments != NULL && surface->shallow_texels != NULL && lom_advance_shallow_region(state, site, time, error);
     if (done) {
         surface->shallow_view = lom_view_shallow(state->now);
-        lom_fill_shallow_surface(&surface->shallow_view, 0, site->shallow->edge == LOM_SHALLOW_OPEN, NULL,
+        lom_fill_shallow_surface(&surface->shallow_view, NULL, 0, site->shallow->edge == LOM_SHALLOW_OPEN, NULL,
                                  surface->shallow_texels, moments, bounds);
     }
     lom_release(moments);

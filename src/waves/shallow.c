@@ -51,8 +51,16 @@ static bool check_cells(const lom_shallow_desc *d, lom_error *error)
     return true;
 }
 
+static bool make_scratch(lom_shallow *s, lom_error *error)
+{
+    const int longer = s->desc.columns > s->desc.rows ? s->desc.columns : s->desc.rows;
+    const size_t workers = s->pool != NULL ? (size_t)lom_pool_size(s->pool) : 1;
+    s->scratch = lom_allocate(workers * lom_shallow_scratch(longer), sizeof(double), error);
+    return s->scratch != NULL;
+}
+
 /* The arrays of one, not filled. */
-static lom_shallow *allocate(const lom_shallow_desc *d, lom_error *error)
+static lom_shallow *allocate(const lom_shallow_desc *d, lom_pool *pool, lom_error *error)
 {
     size_t cells = (size_t)d->columns * (size_t)d->rows, columns = (size_t)d->columns, rows = (size_t)d->rows;
     lom_shallow *s = lom_allocate(1, sizeof *s, error);
@@ -65,9 +73,11 @@ static lom_shallow *allocate(const lom_shallow_desc *d, lom_error *error)
     s->depth = lom_allocate(cells, sizeof(double), error);
     s->flow_x = lom_allocate((columns + 1) * rows, sizeof(double), error);
     s->flow_z = lom_allocate(columns * (rows + 1), sizeof(double), error);
-    s->scratch = lom_allocate(lom_shallow_scratch(d->columns > d->rows ? d->columns : d->rows), sizeof(double), error);
-    if (s->ground != NULL && s->bed != NULL && s->depth != NULL && s->flow_x != NULL && s->flow_z != NULL &&
-        s->scratch != NULL)
+    for (int i = 0; i < 2; i++)
+        s->through[i] = lom_allocate(columns > rows ? columns : rows, sizeof(double), error);
+    s->pool = pool;
+    if (make_scratch(s, error) && s->ground != NULL && s->bed != NULL && s->depth != NULL && s->flow_x != NULL &&
+        s->flow_z != NULL && s->through[0] != NULL && s->through[1] != NULL)
         return s;
     lom_free_shallow(s);
     return NULL;
@@ -79,7 +89,7 @@ lom_shallow *lom_create_shallow(const lom_shallow_desc *desc, lom_error *error)
     lom_shallow_desc d = desc != NULL ? *desc : (lom_shallow_desc){ .columns = 0 };
     if (!resolve_desc(&d, error) || !check_cells(&d, error))
         return NULL;
-    lom_shallow *s = allocate(&d, error);
+    lom_shallow *s = allocate(&d, NULL, error);
     size_t cells = (size_t)d.columns * (size_t)d.rows;
     for (size_t i = 0; s != NULL && i < cells; i++) {
         s->ground[i] = s->bed[i] = d.bed[i];
@@ -90,7 +100,7 @@ lom_shallow *lom_create_shallow(const lom_shallow_desc *desc, lom_error *error)
 
 lom_shallow *lom_copy_shallow(const lom_shallow *from, lom_error *error)
 {
-    lom_shallow *s = allocate(&from->desc, error);
+    lom_shallow *s = allocate(&from->desc, from->pool, error);
     if (s == NULL)
         return NULL;
     size_t columns = (size_t)from->desc.columns, rows = (size_t)from->desc.rows, cells = columns * rows;
@@ -115,7 +125,16 @@ void lom_free_shallow(lom_shallow *s)
     lom_release(s->flow_x);
     lom_release(s->flow_z);
     lom_release(s->scratch);
+    lom_release(s->through[0]);
+    lom_release(s->through[1]);
     lom_release(s);
+}
+
+bool lom_share_shallow(lom_shallow *s, lom_pool *pool, lom_error *error)
+{
+    lom_release(s->scratch);
+    s->pool = pool;
+    return make_scratch(s, error);
 }
 
 /* ---- sources and obstacles ---- */

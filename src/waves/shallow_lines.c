@@ -16,6 +16,8 @@
  * Invariant: what leaves a cell through a face enters the next one, the same number. Compiled for speed. */
 #include "waves/shallow_state.h"
 
+#include <stdatomic.h>
+
 enum { LINES = LOM_SHALLOW_LINES, ARRAYS = 9 };
 typedef double line_values[LINES]; /* one a line */
 
@@ -200,29 +202,59 @@ static void store(lom_shallow *s, const struct lines *lines, int first, const st
 }
 
 /* What came in and went out through the ends of the lines that are real. */
-static void count_ends(lom_shallow *s, const struct lines *lines, int first, const struct block *k)
+static void note_ends(lom_shallow *s, const struct lines *lines, int first, const struct block *k)
 {
-    double area = s->desc.step * s->desc.cell;
     for (int l = 0; l < LINES && first + l < lines->count; l++) {
         double in = k->carried[0][l], out = k->carried[lines->cells][l];
-        s->gained += area * (greater(in, 0) + greater(-out, 0));
-        s->lost += area * (greater(-in, 0) + greater(out, 0));
+        s->through[0][first + l] = greater(in, 0) + greater(-out, 0);
+        s->through[1][first + l] = greater(-in, 0) + greater(out, 0);
     }
 }
 
-static void flow_along(lom_shallow *s, const struct lines *lines)
+/* Line after line, whoever had them. */
+static void count_ends(lom_shallow *s, const struct lines *lines)
 {
+    double area = s->desc.step * s->desc.cell;
+    for (int l = 0; l < lines->count; l++) {
+        s->gained += area * s->through[0][l];
+        s->lost += area * s->through[1][l];
+    }
+}
+
+struct flowing {
+    lom_shallow *water;
+    const struct lines *lines;
+    size_t scratch; /* doubles a worker */
+    atomic_int next;
+};
+
+static void flow_in_blocks(void *context, int worker)
+{
+    struct flowing *flowing = context;
+    lom_shallow *s = flowing->water;
+    const struct lines *lines = flowing->lines;
     double ratio = s->desc.step / s->desc.cell;
-    struct block k = lay_out(s->scratch, lines->cells);
-    for (int first = 0; first < lines->count; first += LINES) {
+    struct block k = lay_out(s->scratch + (size_t)worker * flowing->scratch, lines->cells);
+    for (int first; (first = atomic_fetch_add_explicit(&flowing->next, LINES, memory_order_relaxed)) < lines->count;) {
         load(s, lines, first, &k);
         weigh_faces(&s->desc, &k, &lines->ends);
         solve_rise(&k, ratio);
         carry(&k);
         move_water(&s->desc, &k, ratio);
         store(s, lines, first, &k);
-        count_ends(s, lines, first, &k);
+        note_ends(s, lines, first, &k);
     }
+}
+
+static void flow_along(lom_shallow *s, const struct lines *lines)
+{
+    const int longer = s->desc.columns > s->desc.rows ? s->desc.columns : s->desc.rows;
+    struct flowing flowing = { .water = s, .lines = lines, .scratch = lom_shallow_scratch(longer) };
+    if (s->pool != NULL)
+        lom_offer_work(s->pool, flow_in_blocks, &flowing);
+    else
+        flow_in_blocks(&flowing, 0);
+    count_ends(s, lines);
 }
 
 void lom_move_shallow_lines(lom_shallow *s)

@@ -2,7 +2,8 @@
  * texel is a function of its cell and the eight around it. */
 #include "waves/shallow_surface.h"
 
-enum { FADE = 6 }; /* cells at the border */
+enum { FADE = 6 };   /* cells at the border */
+enum { PIECE = 16 }; /* rows that a worker fills at a time */
 static const double least_depth = 1e-3, below_bed = 0.05, gravity = 9.80665;
 
 /* Cell (x, z), moved into the grid. */
@@ -69,36 +70,69 @@ static double fade_of(const lom_shallow_view *v, int x, int z)
     return t * t * (3 - 2 * t);
 }
 
-int lom_fill_shallow_surface(const lom_shallow_view *v, double level, bool fades, const float *carried,
+/* What one call fills, and of each piece of rows what the caller wants to know. */
+struct filling {
+    const lom_shallow_view *view;
+    double level;
+    bool fades;
+    const float *carried;
+    float (*surface)[4], (*moments)[4];
+    struct piece {
+        int wet;
+        float low, high;
+    } pieces[LOM_SHALLOW_LARGEST / PIECE];
+};
+
+static void fill_texel(const struct filling *f, int x, int z, struct piece *piece)
+{
+    const lom_shallow_view *v = f->view;
+    size_t at = cell_of(v, x, z);
+    bool here = is_wet(v, at);
+    double share = f->fades ? fade_of(v, x, z) : 1;
+    double height = ((here ? surface_of(v, at) : hidden_surface(v, x, z)) - f->level) * share;
+    double sx = here ? slope(v, cell_of(v, x - 1, z), at, cell_of(v, x + 1, z)) * share : 0;
+    double sz = here ? slope(v, cell_of(v, x, z - 1), at, cell_of(v, x, z + 1)) * share : 0;
+    height = height < -LOM_SHALLOW_BOUND ? -LOM_SHALLOW_BOUND : height > LOM_SHALLOW_BOUND ? LOM_SHALLOW_BOUND : height;
+    float *s = f->surface[at], *m = f->moments[at];
+    s[0] = (float)height;
+    s[1] = (float)sx;
+    s[2] = (float)sz;
+    s[3] = here ? (float)((f->carried != NULL ? (double)f->carried[at] : lom_shallow_froude_foam(v, x, z)) * share) : 0;
+    m[0] = s[1] * s[1];
+    m[1] = s[2] * s[2];
+    m[2] = s[1] * s[2];
+    m[3] = 0;
+    piece->low = s[0] < piece->low ? s[0] : piece->low;
+    piece->high = s[0] > piece->high ? s[0] : piece->high;
+    piece->wet += here;
+}
+
+static void fill_rows(void *context, size_t first, size_t end)
+{
+    struct filling *f = context;
+    struct piece *piece = &f->pieces[first / PIECE];
+    *piece = (struct piece){ .wet = 0 };
+    for (int z = (int)first; z < (int)end; z++)
+        for (int x = 0; x < f->view->columns; x++)
+            fill_texel(f, x, z, piece);
+}
+
+int lom_fill_shallow_surface(const lom_shallow_view *v, lom_pool *pool, double level, bool fades, const float *carried,
                              float (*surface)[4], float (*moments)[4], float bounds[2])
 {
+    struct filling f = { v, level, fades, carried, surface, moments, { { .wet = 0 } } };
     int wet = 0;
+    if (pool != NULL)
+        lom_share_out(pool, (size_t)v->rows, PIECE, fill_rows, &f);
+    else
+        for (int z = 0; z < v->rows; z += PIECE)
+            fill_rows(&f, (size_t)z, (size_t)(z + PIECE < v->rows ? z + PIECE : v->rows));
     bounds[0] = bounds[1] = 0;
-    for (int z = 0; z < v->rows; z++)
-        for (int x = 0; x < v->columns; x++) {
-            size_t at = cell_of(v, x, z);
-            bool here = is_wet(v, at);
-            double share = fades ? fade_of(v, x, z) : 1;
-            double height = ((here ? surface_of(v, at) : hidden_surface(v, x, z)) - level) * share;
-            double sx = here ? slope(v, cell_of(v, x - 1, z), at, cell_of(v, x + 1, z)) * share : 0;
-            double sz = here ? slope(v, cell_of(v, x, z - 1), at, cell_of(v, x, z + 1)) * share : 0;
-            height = height < -LOM_SHALLOW_BOUND  ? -LOM_SHALLOW_BOUND
-                     : height > LOM_SHALLOW_BOUND ? LOM_SHALLOW_BOUND
-                                                  : height;
-            float *s = surface[at], *m = moments[at];
-            s[0] = (float)height;
-            s[1] = (float)sx;
-            s[2] = (float)sz;
-            s[3] =
-                here ? (float)((carried != NULL ? (double)carried[at] : lom_shallow_froude_foam(v, x, z)) * share) : 0;
-            m[0] = s[1] * s[1];
-            m[1] = s[2] * s[2];
-            m[2] = s[1] * s[2];
-            m[3] = 0;
-            bounds[0] = s[0] < bounds[0] ? s[0] : bounds[0];
-            bounds[1] = s[0] > bounds[1] ? s[0] : bounds[1];
-            wet += here;
-        }
+    for (int i = 0; i * PIECE < v->rows; i++) {
+        bounds[0] = f.pieces[i].low < bounds[0] ? f.pieces[i].low : bounds[0];
+        bounds[1] = f.pieces[i].high > bounds[1] ? f.pieces[i].high : bounds[1];
+        wet += f.pieces[i].wet;
+    }
     return wet;
 }
 

@@ -2,16 +2,19 @@
 #ifndef LOM_WAVES_SHALLOW_SURFACE_H
 #define LOM_WAVES_SHALLOW_SURFACE_H
 
+#include "base/threads.h"
+
 #include <lom/shallow.h>
 
 /* A texel a cell. surface: height over `level`, its slopes along x and z, foam; moments: squares and product of the
  * slopes, 0. A dry cell has the heights of the wet ones around it, but never above 5 cm below the beds around it, so
  * that the terrain cuts the surface where the water ends. Foam is where water runs faster than its waves (the Froude
  * number from 0.7 on). fades: heights and slopes fall to 0 over the outermost cells. Writes the lowest and the highest
- * height, bounded by 1000 m; with `carried`, foam is that instead. Returns how many cells are wet. */
+ * height, bounded by 1000 m; with `carried`, foam is that instead. Rows are shared by a pool's workers, where it is not
+ * NULL. Returns how many cells are wet. */
 enum { LOM_SHALLOW_BOUND = 1000 };
-int lom_fill_shallow_surface(const lom_shallow_view *view, double level, bool fades, const float *carried,
-                             float (*surface)[4], float (*moments)[4], float bounds[2]);
+int lom_fill_shallow_surface(const lom_shallow_view *view, lom_pool *pool, double level, bool fades,
+                             const float *carried, float (*surface)[4], float (*moments)[4], float bounds[2]);
 
 /* Foam that water makes in a cell, 0 none .. 1. */
 double lom_shallow_froude_foam(const lom_shallow_view *view, int x, int z);

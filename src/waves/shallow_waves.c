@@ -1,7 +1,9 @@
 /* Shallow water as shaders look it up. In: the state of its region at a time (wave_site.h). Out: the surface as
  * textures. */
 #include "pipeline/check_device.h"
+#include "pipeline/device.h"
 #include "pipeline/renew_texture.h"
+#include "waves/shallow_state.h"
 #include "waves/shallow_surface.h"
 #include "waves/wave_field.h"
 
@@ -26,7 +28,8 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
     struct state *state = memory;
     state->site = source->site;
     state->device = source->device;
-    if (!lom_open_shallow_region(&state->region, source->site, error))
+    if (!lom_open_shallow_region(&state->region, source->site, error) ||
+        !lom_share_shallow(state->region.first, state->device->pool, error))
         return false;
     size_t cells = (size_t)state->region.columns * (size_t)state->region.rows;
     state->surface = lom_allocate(cells, sizeof *state->surface, error);
@@ -72,8 +75,8 @@ static bool place(void *memory, struct lom_waves_uniform *out, double time, lom_
     if (!lom_advance_shallow_region(&state->region, state->site, time, error))
         return false;
     lom_shallow_view view = lom_view_shallow(region->now);
-    state->wet = lom_fill_shallow_surface(&view, 0, state->site->shallow->edge == LOM_SHALLOW_OPEN, region->foam,
-                                          state->surface, state->moments, bounds);
+    state->wet = lom_fill_shallow_surface(&view, state->device->pool, 0, state->site->shallow->edge == LOM_SHALLOW_OPEN,
+                                          region->foam, state->surface, state->moments, bounds);
     const void *const pixels[2] = { state->surface, state->moments };
     for (int i = 0; i < 2; i++)
         if (!fill_map(state, &state->map[i], i == 0 ? "shallow water" : "moments of shallow water", pixels[i]))

@@ -37,7 +37,7 @@ static void still_water_is_flat_and_ends_at_the_beach(void)
     float bounds[2];
     make_beach();
     lom_shallow_view v = view();
-    int wet = lom_fill_shallow_surface(&v, 2, false, NULL, surface, moments, bounds);
+    int wet = lom_fill_shallow_surface(&v, NULL, 2, false, NULL, surface, moments, bounds);
     CHECK(wet == 20 * ROWS, "%d cells are wet", wet);
     for (int i = 0; i < CELLS; i++) {
         const float *s = surface[i];
@@ -59,7 +59,7 @@ static void slopes_are_those_of_the_surface(void)
         depth[i] = 3 + 0.02 * (i % COLUMNS) - 0.05 * (i / COLUMNS);
     }
     lom_shallow_view v = view();
-    lom_fill_shallow_surface(&v, 1, false, NULL, surface, moments, bounds);
+    lom_fill_shallow_surface(&v, NULL, 1, false, NULL, surface, moments, bounds);
     for (int i = 0; i < CELLS; i++) {
         const float *s = surface[i], *m = moments[i];
         CHECK(magnitude(s[0] - (depth[i] - 1)) < 1e-6, "height %g", s[0]);
@@ -83,7 +83,7 @@ static void borders_fade_to_the_level(void)
         depth[i] = 3;
     }
     lom_shallow_view v = view();
-    lom_fill_shallow_surface(&v, 1, true, NULL, surface, moments, bounds);
+    lom_fill_shallow_surface(&v, NULL, 1, true, NULL, surface, moments, bounds);
     for (int i = 1; i < COLUMNS / 2; i++)
         CHECK(surface[15 * COLUMNS + i][0] >= surface[15 * COLUMNS + i - 1][0], "cell %d is lower", i);
     CHECK(surface[15 * COLUMNS][0] == 0 && surface[15 * COLUMNS + 10][0] == 2, "from %g to %g",
@@ -102,7 +102,7 @@ static void fast_water_foams(void)
     for (int i = 0; i < (COLUMNS + 1) * ROWS; i++)
         flow_x[i] = i % (COLUMNS + 1) < 20 ? 0.2 * 0.7 : 0.2 * 2.8;
     lom_shallow_view v = view();
-    lom_fill_shallow_surface(&v, 0, false, NULL, surface, moments, bounds);
+    lom_fill_shallow_surface(&v, NULL, 0, false, NULL, surface, moments, bounds);
     CHECK(surface[5 * COLUMNS + 5][3] == 0 && surface[5 * COLUMNS + 35][3] == 1, "foam %g and %g",
           surface[5 * COLUMNS + 5][3], surface[5 * COLUMNS + 35][3]);
 }
