@@ -7,18 +7,23 @@
 
 #include "convert.h"
 
-/* round(c * largest) of c clamped to [0, 1], NaN 0, for largest = 255, 65535 or 16777215 = m - 1 with m a power of two.
+/* round(c * largest) of c in [0, 1], for largest = 255, 65535 or 16777215 = m - 1 with m a power of two.
  *
  * q = trunc(fl(c largest)) is the result or one less, or (product rounded up across an integer) already the result.
  * The residual c largest - q = (m c - q) - c decides: m c is exact; a = m c - q is exact, because it is a multiple of
  * the unit of m c (or of 1) and not larger than a few of it; where a is in [1/4, 1] the difference a - 1/2 is exact
  * (Sterbenz), elsewhere its rounding cannot cross c. So (a - 1/2 >= c) is exactly "residual >= 1/2". */
-LOM_INLINE lom_int lom_unorm_of_lanes(lom_float x, float largest)
+LOM_INLINE lom_int lom_unorm_of_unit_lanes(lom_float c, float largest)
 {
-    lom_float c = lom_saturate(x);
     lom_int q = lom_bounded_to_int(c * largest);
     lom_float a = c * (largest + 1.0f) - lom_to_float(q);
     return q - (a - 0.5f >= c);
+}
+
+/* The same of x clamped to [0, 1], NaN 0. */
+LOM_INLINE lom_int lom_unorm_of_lanes(lom_float x, float largest)
+{
+    return lom_unorm_of_unit_lanes(lom_saturate(x), largest);
 }
 
 /* The quotient v / largest, correctly rounded; 0 <= v <= largest <= 2^24. */

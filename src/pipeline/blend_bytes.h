@@ -39,6 +39,14 @@ LOM_INLINE lom_int join(struct channels c)
     return (lom_int)c.rb | (lom_int)c.ga << 8;
 }
 
+/* A colour as four bytes, two of them in 16 bits each. */
+LOM_INLINE struct channels quantise(const lom_float4 *color)
+{
+    lom_int red = lom_unorm_of_lanes(color->x, 255.0f), green = lom_unorm_of_lanes(color->y, 255.0f);
+    lom_int blue = lom_unorm_of_lanes(color->z, 255.0f), alpha = lom_unorm_of_lanes(color->w, 255.0f);
+    return (struct channels){ (pairs)(red | blue << 16), (pairs)(green | alpha << 16) };
+}
+
 /* Alpha in both halves of each pixel. */
 LOM_INLINE pairs alpha_of(struct channels c)
 {

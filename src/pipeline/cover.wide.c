@@ -1,8 +1,7 @@
 /* Stage 5 of 7 for small triangles, its first half. In: the triangles of a tile that are drawn together. Out: their
  * slots, and a code for each pixel they cover, in order.
  *
- * Invariant: the pixels are those of raster.wide.c, which draws the same triangles one by one; with several samples, at least
- * those of raster_samples.wide.c. Loops over triangles have
+ * Invariant: the pixels are those of raster.wide.c, which draws the same triangles one by one; Loops over triangles have
  * no branch that depends on a mask: it would be guessed wrong too often. */
 #include "lanes/pair_products.h"
 #include "pipeline/slots.h"
@@ -13,16 +12,17 @@ enum { PART_WIDTH = LOM_LANES > 4 ? 4 : 2, PART_HEIGHT = LOM_LANES > 8 ? 4 : 2 }
 
 /* Where the parts of LOM_LANES pixels lie that cover what the tile has of a triangle's bounds. They begin at the
  * bounds, not at a multiple of their size, so that a small triangle has few; but end within the tile. */
-LOM_INLINE lom_int find_parts(const struct lom_tile *tile, lom_int from, lom_int to, lom_int state)
+LOM_INLINE lom_int find_parts(const struct lom_tile *tile, lom_int from, lom_int to, lom_int state, int width,
+                              int height)
 {
     lom_int left = (from & 0xffff) - tile->x, top = (from >> 16) - tile->y;
     lom_int end = lom_splat_int(tile->edge - 1), zero = { 0 };
     lom_int right = lom_min_int((to & 0xffff) - tile->x, end), bottom = lom_min_int((to >> 16) - tile->y, end);
     lom_int x = lom_max_int(left, zero) & ~1, y = lom_max_int(top, zero) & ~1;
-    lom_int columns = (right - x) / PART_WIDTH + 1, rows = (bottom - y) / PART_HEIGHT + 1;
+    lom_int columns = (right - x) / width + 1, rows = (bottom - y) / height + 1;
     lom_mask moves = (state >> TRIANGLE_KIND & 3) != TRIANGLE_WINDOW; /* a window has its place */
-    x = lom_select_int(moves, lom_min_int(x, tile->edge - columns * PART_WIDTH), x);
-    y = lom_select_int(moves, lom_min_int(y, tile->edge - rows * PART_HEIGHT), y);
+    x = lom_select_int(moves, lom_min_int(x, tile->edge - columns * width), x);
+    y = lom_select_int(moves, lom_min_int(y, tile->edge - rows * height), y);
     return x | y << 8 | columns << 16 | rows << 24;
 }
 
@@ -32,13 +32,17 @@ LOM_INLINE lom_int bias_lanes(lom_int dx, lom_int dy)
     return ~((dx > 0) | ((dx == 0) & (dy > 0)));
 }
 
-/* How far an edge function rises from a pixel's centre to one of its samples; the steps over 256 are pairs. */
+/* How far an edge function rises from the centre of a strip's first pixel to a sample of the strip; the steps over 256 are
+ * pairs. */
 LOM_INLINE lom_int reach_lanes(const struct lom_pass *pass, lom_int step)
 {
-    lom_int most = lom_dot_pairs(lom_splat_int(pass->offset_pair[1]), step);
+    lom_int most = lom_dot_pairs(lom_splat_int(pass->offset_pair[1]), step), zero = { 0 };
     for (int s = 2; s <= pass->samples; s++)
         most = lom_max_int(most, lom_dot_pairs(lom_splat_int(pass->offset_pair[s]), step));
-    return most << (SUBPIXEL_BITS - 4);
+    lom_int pixel = lom_max_int(step << 16 >> 16, zero);
+    if (LOM_LANES > 8)
+        pixel += lom_max_int(step >> 16, zero);
+    return (most << (SUBPIXEL_BITS - 4)) + (pixel << SUBPIXEL_BITS);
 }
 
 /* The vertices of LOM_LANES triangles: places less that of the tile's first pixel in units, depths. */
@@ -85,6 +89,43 @@ LOM_INLINE struct slot_edges find_slot_edges(const struct corners *c)
     return e;
 }
 
+/* What the top-left rule adds to the edge functions; the steps may be of any size. */
+struct slot_biases {
+    lom_int of[3];
+};
+
+LOM_INLINE struct slot_biases find_slot_biases(const struct slot_edges *e)
+{
+    lom_int dx1 = e->pair1 << 16, dx2 = e->pair2 << 16, dy1 = e->pair1 >> 16, dy2 = e->pair2 >> 16;
+    return (struct slot_biases){ { bias_lanes(-(dx1 >> 16) - (dx2 >> 16), -dy1 - dy2), bias_lanes(dx1, dy1),
+                                   bias_lanes(dx2, dy2) } };
+}
+
+/* The words that a slot has where pixels have several samples: pack_samples.wide.c. */
+static void fill_block_words(struct lom_tile *tile, int number, const struct slot_edges *e, lom_float low,
+                             lom_float high, lom_int parts)
+{
+    const lom_int half = lom_splat_int(SUBPIXELS / 2 * 0x10001);
+    const lom_int third =
+        lom_make_pair(-(e->pair1 << 16 >> 16) - (e->pair2 << 16 >> 16), -(e->pair1 >> 16) - (e->pair2 >> 16));
+    float *slots = tile->list.slots;
+    struct slot_biases bias = find_slot_biases(e);
+    lom_int cover1 = e->start1 + bias.of[1] + reach_lanes(tile->pass, e->pair1);
+    lom_int cover2 = e->start2 + bias.of[2] + reach_lanes(tile->pass, e->pair2);
+    lom_int cover0 = e->area - e->start1 - e->start2 + bias.of[0] + reach_lanes(tile->pass, third);
+    store_slots(slots, SLOT_COVER1, number,
+                (lom_float4){ lom_as_float(cover1), lom_as_float(cover2), lom_as_float(cover0 + cover1 + cover2),
+                              lom_as_float(parts) });
+    store_slots(slots, SLOT_CORNER1, number,
+                (lom_float4){ lom_as_float(e->start1 - lom_dot_pairs(half, e->pair1)),
+                              lom_as_float(e->start2 - lom_dot_pairs(half, e->pair2)), lom_as_float(bias.of[1]),
+                              lom_as_float(bias.of[2]) });
+    const bool clamps = tile->pass->depth_scale != 0;
+    store_slots(slots, SLOT_WHOLE, number,
+                (lom_float4){ lom_as_float(e->area + bias.of[0]), clamps ? lom_saturate(low) : low,
+                              clamps ? lom_saturate(high) : high, low });
+}
+
 /* LOM_LANES slots; the words are those of lom_primitive. */
 static void fill_packet(struct lom_tile *tile, int number)
 {
@@ -97,28 +138,26 @@ static void fill_packet(struct lom_tile *tile, int number)
     const lom_int row[3] = { lom_as_int(head.x), lom_as_int(head.y), lom_as_int(head.z) };
     struct corners c = load_corners(tile, row, number);
     struct slot_edges e = find_slot_edges(&c);
-    lom_int dx1 = e.pair1 << 16, dx2 = e.pair2 << 16, dy1 = e.pair1 >> 16, dy2 = e.pair2 >> 16; /* or of their signs */
-    lom_int dx0 = -(dx1 >> 16) - (dx2 >> 16), dy0 = -dy1 - dy2;
-    lom_int bias1 = bias_lanes(dx1, dy1), bias2 = bias_lanes(dx2, dy2), bias0 = bias_lanes(dx0, dy0);
-    if (tile->pass->samples > 1) { /* pixels of which a sample may be inside: pack_samples.wide.c sees which */
-        bias1 += reach_lanes(tile->pass, e.pair1);
-        bias2 += reach_lanes(tile->pass, e.pair2);
-        bias0 += reach_lanes(tile->pass, lom_make_pair(dx0, dy0));
-    }
     const lom_float z0 = c.depth[0], z1 = z0 + (c.depth[1] - z0), z2 = z0 + (c.depth[2] - z0);
+    const lom_float low = lom_min(lom_min(z0, z1), z2), high = lom_max(lom_max(z0, z1), z2);
     store_slots(
         slots, SLOT_STEP1, number,
         (lom_float4){ lom_as_float(e.pair1), lom_as_float(e.pair2), lom_as_float(e.start1), lom_as_float(e.start2) });
-    store_slots(slots, SLOT_AREA, number,
-                (lom_float4){ lom_as_float(e.area), 1.0f / lom_to_float(e.area), z0, lom_min(lom_min(z0, z1), z2) });
-    store_slots(slots, SLOT_DEPTH1, number,
-                (lom_float4){ c.depth[1] - z0, c.depth[2] - z0, lom_max(lom_max(z0, z1), z2), head.w });
-    lom_int parts = find_parts(tile, first, last, lom_as_int(head.w)), origin = (parts & 255) | (parts & 0xff00) << 8;
-    lom_int cover1 = e.start1 + (lom_dot_pairs(origin, e.pair1) << SUBPIXEL_BITS) + bias1;
-    lom_int cover2 = e.start2 + (lom_dot_pairs(origin, e.pair2) << SUBPIXEL_BITS) + bias2;
+    store_slots(slots, SLOT_AREA, number, (lom_float4){ lom_as_float(e.area), 1.0f / lom_to_float(e.area), z0, low });
+    store_slots(slots, SLOT_DEPTH1, number, (lom_float4){ c.depth[1] - z0, c.depth[2] - z0, high, head.w });
+    if (tile->pass->samples > 1) {
+        fill_block_words(tile, number, &e, low, high,
+                         find_parts(tile, first, last, lom_as_int(head.w), STRIPS_WIDTH, STRIPS_HEIGHT));
+        return;
+    }
+    lom_int parts = find_parts(tile, first, last, lom_as_int(head.w), PART_WIDTH, PART_HEIGHT);
+    lom_int origin = (parts & 255) | (parts & 0xff00) << 8;
+    struct slot_biases bias = find_slot_biases(&e);
+    lom_int cover1 = e.start1 + (lom_dot_pairs(origin, e.pair1) << SUBPIXEL_BITS) + bias.of[1];
+    lom_int cover2 = e.start2 + (lom_dot_pairs(origin, e.pair2) << SUBPIXEL_BITS) + bias.of[2];
+    lom_int whole = e.area + bias.of[0] + bias.of[1] + bias.of[2];
     store_slots(slots, SLOT_COVER1, number,
-                (lom_float4){ lom_as_float(cover1), lom_as_float(cover2), lom_as_float(e.area + bias0 + bias1 + bias2),
-                              lom_as_float(parts) });
+                (lom_float4){ lom_as_float(cover1), lom_as_float(cover2), lom_as_float(whole), lom_as_float(parts) });
 }
 
 void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile)
@@ -299,7 +338,7 @@ int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from)
             lom_load_int(tile->offset + part * LOM_LANES) + (lane_x(part) << CODE_X) + (lane_y(part) << CODE_Y);
     int32_t *to = list->code + list->count, *end = list->code + LIST_SIZE;
     int slot = from, triangles = list->triangles;
-    const uint32_t fewest = tile->tests_early && tile->pass->samples == 1 ? TESTED_PARTS : UINT32_MAX;
+    const uint32_t fewest = tile->tests_early ? TESTED_PARTS : UINT32_MAX;
     for (; slot < triangles && to < end; slot++) {
         uint32_t state = (uint32_t)words[slot_word(SLOT_STATE, slot)];
         uint32_t parts = (uint32_t)words[slot_word(SLOT_PARTS, slot)];

@@ -111,14 +111,6 @@ static int32_t kept_bits(uint8_t mask_off)
     return (int32_t)kept;
 }
 
-/* A colour as four bytes, two of them in 16 bits each. */
-LOM_INLINE struct channels quantise(const lom_float4 *color)
-{
-    lom_int red = lom_unorm_of_lanes(color->x, 255.0f), green = lom_unorm_of_lanes(color->y, 255.0f);
-    lom_int blue = lom_unorm_of_lanes(color->z, 255.0f), alpha = lom_unorm_of_lanes(color->w, 255.0f);
-    return (struct channels){ (pairs)(red | blue << 16), (pairs)(green | alpha << 16) };
-}
-
 /* The bits of source s and target d by a logical operation. */
 static lom_int combine_bits(lom_logic logic, lom_int s, lom_int d)
 {

@@ -129,6 +129,21 @@ static void keep_triangles(struct lom_list *list)
     list->triangles = slot + 1;
 }
 
+/* Entries of the slots from `slot` on, as far as the list has room; the next slot. */
+static int cover_and_test(struct lom_tile *tile, int slot)
+{
+    struct lom_list *list = &tile->list;
+    const int before = list->count;
+    list->tested = before;
+    slot = LOM_WIDE(lom_cover_slots)(tile, slot);
+    if (tile->tests_early)
+        test_entries(tile);
+    tile->fragments += (uint64_t)(list->count - before);
+    if (tile->rejects_early)
+        test_entries(tile);
+    return slot;
+}
+
 void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
 {
     struct lom_list *list = &tile->list;
@@ -144,17 +159,7 @@ void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all)
 #endif
     int slot = list->kept;
     while (slot < list->triangles) {
-        int before = list->count;
-        list->tested = before;
-        slot = LOM_WIDE(lom_cover_slots)(tile, slot);
-        if (tile->pass->samples > 1)
-            LOM_WIDE(lom_test_entry_samples)(tile, before);
-        else if (tile->tests_early)
-            test_entries(tile);
-        if (tile->pass->samples == 1)
-            tile->fragments += (uint64_t)(list->count - before);
-        if (tile->rejects_early && tile->pass->samples == 1)
-            test_entries(tile);
+        slot = tile->pass->samples > 1 ? LOM_WIDE(lom_cover_samples)(tile, slot) : cover_and_test(tile, slot);
         if (shades)
             shade_entries(tile, false);
         else

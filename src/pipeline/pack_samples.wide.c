@@ -1,155 +1,276 @@
-/* Stage 5 of 7 for small triangles, packed, where pixels have several samples. In: entries of a tile's list, pixels of which
- * a sample may be covered. Out: those of which one is, and passes the early depth test, with its samples and the place where
- * it is shaded.
+/* Stage 5 of 7 for small triangles, packed, where pixels have several samples. In: the slots of a tile's list. Out: entries for
+ * the pixels of which a sample is covered and passes the early depth test, with its samples.
+ *
+ * The samples of two pixels side by side lie side by side in tile memory, so these strips of a triangle are tested in one
+ * vector of samples, or a few, and nothing is gathered. First the strips are found of which a sample may be covered, then they
+ * are tested one after the other, then their pixels become entries.
  *
  * Invariant: coverage, weights, depths and places are those of raster_samples.wide.c, which draws the same triangles one by
- * one; fragments at one sample are tested in their order. */
+ * one; a triangle's samples are tested after those of the triangles before it. */
 #include "pipeline/packed.h"
 
-/* -1 where the edge's own points are outside, as bias_of; the steps are pairs. */
-LOM_INLINE lom_int bias_of_pair(lom_int step)
-{
-    lom_int dx = step << 16, dy = step >> 16;
-    return ~((dx > 0) | ((dx == 0) & (dy > 0)));
-}
+/* ---- strips that may be covered ---- */
 
-/* What the top-left rule adds to the edge functions. */
-struct biases {
-    lom_int of[3];
+/* A strip is a row of a block of 2x2 pixels, or, where four samples of a row do not fill a vector, the block. LOM_LANES of them
+ * are a part (cover.wide.c). */
+enum { STRIP_HEIGHT = LOM_LANES > 8 ? 2 : 1, STRIP_PIXELS = 2 * STRIP_HEIGHT };
+enum { COLUMNS = STRIPS_WIDTH / 2, ROWS = STRIPS_HEIGHT / STRIP_HEIGHT };
+_Static_assert(COLUMNS *ROWS == LOM_LANES, "a part has a lane a strip");
+
+/* What a tile's parts have in common: the codes of their strips less that of their first, and the places of those as pairs in
+ * 1/SUBPIXELS. */
+struct frame {
+    lom_int codes, pairs;
+    int edge;
 };
 
-LOM_INLINE struct biases find_biases(const struct entry_edges *e)
+static struct frame find_frame(const struct lom_tile *tile)
 {
-    lom_int dx = -(e->step1 << 16 >> 16) - (e->step2 << 16 >> 16), dy = -(e->step1 >> 16) - (e->step2 >> 16);
-    return (struct biases){ { ~((dx > 0) | ((dx == 0) & (dy > 0))), bias_of_pair(e->step1), bias_of_pair(e->step2) } };
+    const lom_int x = (lom_lane_index() & (COLUMNS - 1)) * 2, y = lom_lane_index() / COLUMNS * STRIP_HEIGHT;
+    const lom_int index = (y & ~1) * tile->edge + (y & 1) * 2 + x * 2;
+    return (struct frame){ index + (x << CODE_X) + (y << CODE_Y), (x | y << 16) << SUBPIXEL_BITS, tile->edge };
 }
 
-LOM_INLINE lom_mask covers(const struct entry_edges *e, const struct biases *b)
+/* The words of a slot. */
+LOM_INLINE const float *find_slot(const struct lom_tile *tile, int slot)
 {
-    return ((e->area - e->e1 - e->e2 + b->of[0]) | (e->e1 + b->of[1]) | (e->e2 + b->of[2])) >= 0;
+    return tile->list.slots + slot_word(0, slot);
 }
 
-/* A row of four samples. */
-typedef float row __attribute__((vector_size(16), aligned(4), may_alias));
-typedef int32_t row_mask __attribute__((vector_size(16)));
-
-/* Leaves depths of rows of samples in memory, a lane after the other, since two may be of one pixel; gives what was there
- * before. Where a sample is not covered its depth is one that the rule leaves out, or taken is 0. */
-LOM_INLINE lom_float4 exchange(float *memory, const int32_t *at, lom_float4 depth, lom_float4 taken, depth_rule rule)
+LOM_INLINE int32_t integer_of(const float *slot, int word)
 {
-    float new[4 * LOM_LANES], old[4 * LOM_LANES], mask[4 * LOM_LANES];
-    const lom_int rows = lom_lane_index() * 4;
-    lom_scatter_rows(new, rows, depth);
-    if (rule == DEPTH_REPLACED)
-        lom_scatter_rows(mask, rows, taken);
-    for (int i = 0; i < LOM_LANES; i++) {
-        row *to = (row *)(void *)(memory + at[i]);
-        row before = *to, z = *(const row *)(const void *)(new + 4 * i);
-        row_mask moves = rule == DEPTH_LESSER    ? (row_mask)(z < before)
-                         : rule == DEPTH_GREATER ? (row_mask)(z > before)
-                                                 : (row_mask)(*(const row *)(const void *)(mask + 4 * i));
-        *(row *)(void *)(old + 4 * i) = before;
-        *to = (row)(((row_mask)z & moves) | ((row_mask)before & ~moves));
+    int32_t x;
+    memcpy(&x, slot + slot_word(word, 0), sizeof x);
+    return x;
+}
+
+LOM_INLINE float number_of(const float *slot, int word)
+{
+    return slot[slot_word(word, 0)];
+}
+
+/* The strips, from `at` on, of a slot's part at (x, y) of the tile; returns where the next ones go. */
+LOM_INLINE int find_part(struct lom_strips *strips, const struct frame *frame, const float *slot, int number, int x,
+                         int y, int at)
+{
+    const lom_int places = frame->pairs + ((x | y << 16) << SUBPIXEL_BITS);
+    const lom_int e1 =
+        lom_dot_pairs(places, lom_splat_int(integer_of(slot, SLOT_STEP1))) + integer_of(slot, SLOT_COVER1);
+    const lom_int e2 =
+        lom_dot_pairs(places, lom_splat_int(integer_of(slot, SLOT_STEP2))) + integer_of(slot, SLOT_COVER2);
+    const lom_mask some = (e1 | e2 | (integer_of(slot, SLOT_COVER) - (e1 + e2))) >= 0;
+    const uint32_t code =
+        ((uint32_t)number << CODE_TRIANGLE) + (uint32_t)(y * frame->edge + x * 2 + (x << CODE_X) + (y << CODE_Y));
+    lom_compress((float *)strips->code + at, some, lom_as_float(frame->codes + (int32_t)code));
+    lom_compress((float *)strips->place + at, some, lom_as_float(places));
+    return at + (int)lom_count(some);
+}
+
+/* Of a slot; most have one part. */
+LOM_INLINE int find_strips(struct lom_strips *strips, const struct frame *frame, const float *slot, int number, int at)
+{
+    const uint32_t parts = (uint32_t)integer_of(slot, SLOT_PARTS);
+    const int left = (int)(parts & 255), top = (int)(parts >> 8 & 255);
+    if (parts >> 16 == 0x0101)
+        return find_part(strips, frame, slot, number, left, top, at);
+    const int right = left + (int)(parts >> 16 & 255) * STRIPS_WIDTH, bottom = top + (int)(parts >> 24) * STRIPS_HEIGHT;
+    for (int y = top; y < bottom; y += STRIPS_HEIGHT)
+        for (int x = left; x < right; x += STRIPS_WIDTH)
+            at = find_part(strips, frame, slot, number, x, y, at);
+    return at;
+}
+
+/* ---- their samples ---- */
+
+/* How a tile's strips are tested: with constants where that is usual. */
+struct test {
+    int shift; /* words of a pixel: 1 << shift */
+    lom_compare compare;
+    bool tests, writes;
+    float scale; /* of depths that are whole numbers, else 0 */
+    bool cuts;
+};
+
+/* What a slot's triangle is made of, the same in all lanes. */
+struct plane {
+    lom_int step1, step2, corner1, corner2, bias1, bias2, whole;
+    lom_float inverse, depth, by1, by2, low, high;
+};
+
+LOM_INLINE struct plane find_plane(const float *slot)
+{
+    return (struct plane){ .step1 = lom_splat_int(integer_of(slot, SLOT_STEP1)),
+                           .step2 = lom_splat_int(integer_of(slot, SLOT_STEP2)),
+                           .corner1 = lom_splat_int(integer_of(slot, SLOT_CORNER1)),
+                           .corner2 = lom_splat_int(integer_of(slot, SLOT_CORNER2)),
+                           .bias1 = lom_splat_int(integer_of(slot, SLOT_BIAS1)),
+                           .bias2 = lom_splat_int(integer_of(slot, SLOT_BIAS2)),
+                           .whole = lom_splat_int(integer_of(slot, SLOT_WHOLE)),
+                           .inverse = lom_splat(number_of(slot, SLOT_INVERSE)),
+                           .depth = lom_splat(number_of(slot, SLOT_DEPTH0)),
+                           .by1 = lom_splat(number_of(slot, SLOT_DEPTH1)),
+                           .by2 = lom_splat(number_of(slot, SLOT_DEPTH2)),
+                           .low = lom_splat(number_of(slot, SLOT_LEAST)),
+                           .high = lom_splat(number_of(slot, SLOT_MOST)) };
+}
+
+/* Samples of a vector, a bit each: those that pass and those that are not covered. */
+struct bits {
+    uint32_t passed, outside;
+};
+
+/* Of the samples at `places` of the tile in 1/SUBPIXELS, as far as they are allowed, whose depths are in memory. */
+LOM_INLINE struct bits test_vector(const struct plane *p, const struct test *t, lom_int places, lom_mask allowed,
+                                   float *memory)
+{
+    const lom_int e1 = lom_dot_pairs(places, p->step1) + p->corner1, e2 = lom_dot_pairs(places, p->step2) + p->corner2;
+    lom_int signs = (e1 + p->bias1) | (e2 + p->bias2) | (p->whole - (e1 + e2));
+    if (t->cuts)
+        signs |= ~allowed;
+    if (!t->tests)
+        return (struct bits){ lom_bits(signs >= 0), lom_bits(signs < 0) };
+    const lom_float l1 = lom_to_float(e1) * p->inverse, l2 = lom_to_float(e2) * p->inverse;
+    lom_float z = lom_clamp(p->depth + l1 * p->by1 + l2 * p->by2, p->low, p->high);
+    if (t->scale != 0)
+        z = lom_to_float(lom_unorm_of_unit_lanes(z, t->scale));
+    const lom_float before = lom_load(memory);
+    const lom_mask passed = (signs >= 0) & lom_compare_depth(t->compare, z, before);
+    if (t->writes)
+        lom_store(memory, lom_select(passed, z, before));
+    return (struct bits){ lom_bits(passed), lom_bits(signs < 0) };
+}
+
+/* A strip's words of strips->found: of up to sixteen samples each, those that pass below, those that are covered above. */
+LOM_INLINE int found_words(int shift)
+{
+    return STRIP_PIXELS << shift > 16 ? STRIP_PIXELS << shift >> 4 : 1;
+}
+
+/* Of a strip's pixels those inside its triangle's bounds, in the lanes of their samples from `word` on. */
+static __attribute__((noinline)) void find_allowed(const struct lom_tile *tile, int32_t code, int shift, int word,
+                                                   lom_mask *allowed)
+{
+    const struct lom_bounds b = lom_bounds_of(&tile->chunk->primitives[tile->list.number[slot_of(code)]]);
+    const lom_int pixel = (lom_lane_index() + word) >> shift;
+    const lom_int x = (pixel & 1) + (tile->x + (code >> CODE_X & 63)),
+                  y = (pixel >> 1) + (tile->y + (code >> CODE_Y & 63));
+    *allowed = (x >= b.left) & (x <= b.right) & (y >= b.top) & (y <= b.bottom);
+}
+
+LOM_INLINE void test_strip(struct lom_tile *tile, const struct plane *p, const struct test *t, int i)
+{
+    const int32_t *samples = tile->pass->strip_pair, code = tile->strips.code[i];
+    const lom_int place = lom_splat_int(tile->strips.place[i]);
+    const int words = STRIP_PIXELS << t->shift;
+    float *memory = t->tests ? tile->depth + ((code & ((1 << CODE_X) - 1)) << t->shift) : NULL;
+    int32_t *found = tile->strips.found + i * found_words(t->shift);
+    for (int first = 0; first < words; first += 16) {
+        uint32_t passed = 0, outside = 0;
+        for (int at = first; at < words && at < first + 16; at += LOM_LANES) {
+            lom_mask allowed = { 0 };
+            if (t->cuts)
+                find_allowed(tile, code, t->shift, at, &allowed);
+            const struct bits bits = test_vector(p, t, place + lom_load_int(samples + at), allowed, memory + at);
+            passed |= bits.passed << (at - first);
+            outside |= bits.outside << (at - first);
+        }
+        *found++ = (int32_t)(passed | ~outside << ENTRY_COVERED);
     }
-    return lom_gather_rows(old, rows);
 }
 
-/* Of `count` samples, from `first` on, those that are covered and pass; the others leave what is there. */
-LOM_INLINE void test_row(struct lom_tile *tile, const struct packed *p, int first, int count, lom_mask *covered,
-                         const lom_float *units)
+/* Those of the slots from `slot` on, one after the other. */
+LOM_INLINE void test_strips(struct lom_tile *tile, int slot, int end, const struct test *t)
+{
+    for (int i = 0; slot < end; slot++) {
+        const struct plane p = find_plane(find_slot(tile, slot));
+        for (; i < tile->strips.end[slot]; i++)
+            test_strip(tile, &p, t, i);
+    }
+}
+
+/* With what most draws have as constants. `cuts`: the scissor cuts the bounds of a triangle. */
+static void test_all_strips(struct lom_tile *tile, int slot, int end, bool cuts)
 {
     const struct lom_draw *draw = tile->draw;
-    const depth_rule rule = rule_of(draw);
-    const lom_float none = lom_splat(rule == DEPTH_LESSER ? __builtin_inff() : -__builtin_inff());
-    lom_float z[4] = { none, none, none, none }, taken[4] = { { 0 }, { 0 }, { 0 }, { 0 } };
-    int32_t at[LOM_LANES];
-    lom_store_int(at, pixel_of(p->code) * tile->pass->sample_pitch + first);
-    for (int k = 0; k < count; k++) {
-        z[k] = lom_select(covered[k], units[k], none);
-        taken[k] = lom_as_float(covered[k]);
-    }
-    const lom_float4 depth = { z[0], z[1], z[2], z[3] }, mask = { taken[0], taken[1], taken[2], taken[3] };
-    lom_float4 old;
-    switch (rule) {
-    case DEPTH_LESSER:
-        old = exchange(tile->depth, at, depth, mask, DEPTH_LESSER);
-        break;
-    case DEPTH_GREATER:
-        old = exchange(tile->depth, at, depth, mask, DEPTH_GREATER);
-        break;
-    case DEPTH_REPLACED:
-        old = exchange(tile->depth, at, depth, mask, DEPTH_REPLACED);
-        break;
-    default:
-        old = lom_gather_rows(tile->depth, lom_load_int(at));
-        break;
-    }
-    const lom_float before[4] = { old.x, old.y, old.z, old.w };
-    for (int k = 0; k < count; k++)
-        covered[k] &= lom_compare_depth(draw->compare, units[k], before[k]);
+    const struct test nearer = { 2, LOM_COMPARE_GREATER, true, true, 0, false },
+                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false },
+                      t = { .shift = __builtin_ctz((unsigned)tile->pass->sample_pitch),
+                            .compare = draw->compare,
+                            .tests = tile->tests_early || tile->rejects_early,
+                            .writes = tile->tests_early && draw->depth_write,
+                            .scale = (float)tile->pass->depth_scale,
+                            .cuts = cuts };
+    const bool usual = t.shift == 2 && t.tests && t.writes && !cuts;
+    if (usual && t.compare == nearer.compare && t.scale == nearer.scale)
+        test_strips(tile, slot, end, &nearer);
+    else if (usual && t.compare == less.compare && t.scale == less.scale)
+        test_strips(tile, slot, end, &less);
+    else
+        test_strips(tile, slot, end, &t);
 }
 
-/* Samples and place of LOM_LANES entries, as list_samples holds them. Of `count` samples, which the callers know. Counts the
- * fragments: what the early test leaves, or, where it only spares the shader what fails after it, all. */
-LOM_INLINE lom_int find_samples(struct lom_tile *tile, const struct packed *p, int count)
-{
-    const struct entry_edges centre = find_entry_edges(&tile->list, p);
-    const struct entry_depth plane = find_entry_depth(&tile->list, p);
-    const struct biases biases = find_biases(&centre);
-    lom_mask entries = lom_lane_index() < p->count, placed = covers(&centre, &biases), covered[LOM_MAX_SAMPLES];
-    lom_float units[LOM_MAX_SAMPLES];
-    lom_int samples = { 0 }, place = { 0 };
-    for (int s = 0; s < count; s++) {
-        struct entry_edges e = move_entries(centre, lom_splat_int(tile->pass->offset_pair[s + 1]));
-        lom_float l[3];
-        covered[s] = entries & covers(&e, &biases);
-        place = lom_select_int(covered[s] & ~placed, lom_splat_int(s + 1), place);
-        placed |= covered[s];
-        weigh_entries(&e, l);
-        units[s] = lom_depth_units(tile->pass, interpolate_entries(&plane, l));
-    }
-    lom_mask counted = { 0 };
-    for (int s = 0; s < count && tile->rejects_early; s++)
-        counted |= covered[s];
-    for (int first = 0; first < count && (tile->tests_early || tile->rejects_early); first += 4)
-        test_row(tile, p, first, count - first < 4 ? count - first : 4, covered + first, units + first);
-    for (int s = 0; s < count; s++)
-        samples |= covered[s] & 1 << s;
-    tile->fragments += lom_count(tile->rejects_early ? counted : samples != 0);
-    return samples | place << ENTRY_PLACE;
-}
+/* ---- entries ---- */
 
-LOM_INLINE void test_entries(struct lom_tile *tile, int from, int count)
+/* The pixels of the first `count` strips, of which a sample passed, to the list. Counts the fragments: what the early test
+ * leaves, or, where it only spares the shader what fails after it, all. */
+static void list_pixels(struct lom_tile *tile, int count)
 {
     struct lom_list *list = &tile->list;
-    int passed = from;
-    for (int at = from, step; at < list->count; at += step) {
-        struct packed p = take(list, at, list->count);
-        lom_int samples = find_samples(tile, &p, count);
-        lom_mask left = (samples & ((1 << ENTRY_PLACE) - 1)) != 0;
-        step = p.count;
-        lom_int next = lom_load_int(list->code + at + step); /* the store of a whole packet may reach them */
-        lom_compress((float *)list->code + passed, left, lom_as_float(p.code));
-        lom_store_int(list->code + at + step, next);
-        lom_compress((float *)tile->list_samples + passed, left, lom_as_float(samples));
-        passed += (int)lom_count(left);
+    struct lom_strips *strips = &tile->strips;
+    const int shift = __builtin_ctz((unsigned)tile->pass->sample_pitch), words = found_words(shift);
+    const lom_int every = lom_splat_int(((1 << tile->pass->samples) - 1) * (1 + (1 << ENTRY_COVERED)));
+    const lom_int strip = lom_lane_index() / STRIP_PIXELS, k = lom_lane_index() & (STRIP_PIXELS - 1),
+                  pixels = k | (k & 1) << CODE_X | k >> 1 << CODE_Y, word = strip * words + (k << shift >> 4),
+                  bit = k << shift & 15;
+    int entries = list->count;
+    uint32_t covered = 0;
+    memset(strips->found + count * words, 0, LOM_LANES * sizeof *strips->found);
+    for (int i = 0; i < count; i += LOM_LANES / STRIP_PIXELS) {
+        const lom_int found = lom_as_int(lom_permute(lom_load((const float *)strips->found + i * words), word));
+        const lom_int samples = (lom_int)((lom_uint)found >> (lom_uint)bit) & every;
+        const lom_int first = lom_as_int(lom_permute(lom_load((const float *)strips->code + i), strip));
+        const lom_mask left = (samples & ((1 << ENTRY_COVERED) - 1)) != 0;
+        lom_compress((float *)list->code + entries, left, lom_as_float(first + pixels));
+        lom_compress((float *)tile->list_samples + entries, left, lom_as_float(samples));
+        entries += (int)lom_count(left);
+        if (tile->rejects_early)
+            covered += lom_count(samples != 0);
     }
-    list->count = passed;
+    tile->fragments += tile->rejects_early ? covered : (uint32_t)(entries - list->count);
+    list->count = entries;
 }
 
-void LOM_WIDE(lom_test_entry_samples)(struct lom_tile *tile, int from)
+int LOM_WIDE(lom_cover_samples)(struct lom_tile *tile, int slot)
 {
-    switch (tile->pass->samples) {
-    case 2:
-        test_entries(tile, from, 2);
-        break;
-    case 4:
-        test_entries(tile, from, 4);
-        break;
-    default:
-        test_entries(tile, from, tile->pass->samples);
-        break;
+    const struct frame frame = find_frame(tile);
+    const int first = slot;
+    int32_t states = 0;
+    int count = 0;
+    for (; slot < tile->list.triangles && count < STRIPS_SIZE; slot++) {
+        states |= integer_of(find_slot(tile, slot), SLOT_STATE);
+        count = find_strips(&tile->strips, &frame, find_slot(tile, slot), slot, count);
+        tile->strips.end[slot] = count;
     }
+    test_all_strips(tile, first, slot, states >> TRIANGLE_CUT & 1);
+    list_pixels(tile, count);
+    return slot;
+}
+
+/* ---- from entries to packets ---- */
+
+/* Where the triangles cover the centres. */
+LOM_INLINE lom_mask cover_centres(const struct lom_list *list, const struct packed *p, const struct entry_edges *e)
+{
+    const lom_float4 corner = load_slots(list->slots, SLOT_CORNER1, p->first, p->which),
+                     more = load_slots(list->slots, SLOT_WHOLE, p->first, p->which);
+    return ((e->e1 + lom_as_int(corner.z)) | (e->e2 + lom_as_int(corner.w)) | (lom_as_int(more.x) - (e->e1 + e->e2))) >=
+           0;
+}
+
+/* The number of the lowest bit that is set, the first being 1; below 2^16. */
+LOM_INLINE lom_int find_lowest(lom_int bits)
+{
+    return (lom_as_int(lom_to_float(bits & -bits)) >> 23) - 126;
 }
 
 void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct packed *p, int at,
@@ -157,10 +278,12 @@ void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct 
 {
     const struct lom_list *list = &tile->list;
     const struct entry_edges centre = find_entry_edges(list, p);
-    lom_int samples =
-        lom_select_int(lom_lane_index() < p->count, lom_load_int(tile->list_samples + at), (lom_int){ 0 });
-    packet->samples = samples & ((1 << ENTRY_PLACE) - 1);
-    packet->place = samples >> ENTRY_PLACE;
+    const lom_int none =
+        lom_splat_int(1 << ENTRY_COVERED); /* of lanes that are no entries: the first, and written nowhere */
+    const lom_int samples = lom_select_int(lom_lane_index() < p->count, lom_load_int(tile->list_samples + at), none);
+    packet->samples = samples & ((1 << ENTRY_COVERED) - 1);
+    packet->place = lom_select_int(cover_centres(list, p, &centre), (lom_int){ 0 },
+                                   find_lowest((lom_int)((lom_uint)samples >> ENTRY_COVERED)));
     struct entry_edges placed = move_entries(centre, lom_gather_int(tile->pass->offset_pair, packet->place));
     weigh_entries(&placed, packet->l);
     packet->sample_depth = (const float *)depth;

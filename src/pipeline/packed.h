@@ -111,11 +111,12 @@ LOM_INLINE depth_rule rule_of(const struct lom_draw *draw)
 }
 
 /* Where pixels have several samples an entry has more than its code, tile->list_samples: the samples that it is written to,
- * and above those its place of shading. */
-enum { ENTRY_PLACE = 16 };
+ * and above those the ones that its triangle covers, of which some may have failed the early depth test. */
+enum { ENTRY_COVERED = 16 };
 
-/* Leaves of the entries from `from` on those that cover a sample which passes the early depth test (pack_samples.wide.c). */
-void LOM_WIDE(lom_test_entry_samples)(struct lom_tile *tile, int from);
+/* Entries of the slots from `slot` on, as far as there is room, which cover a sample that passes the early depth test
+ * (pack_samples.wide.c); the next slot. */
+int LOM_WIDE(lom_cover_samples)(struct lom_tile *tile, int slot);
 /* What shading an entry needs of the list there, from entry `at` on: the weights at the place of shading, samples and places,
  * and, with draw->late_depth, depths at the samples, which are written to `depth`. */
 void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct packed *p, int at,

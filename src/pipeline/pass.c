@@ -198,6 +198,13 @@ static bool choose_samples(lom_device *device, struct lom_pass *pass)
         pass->reach_low = low * (SUBPIXELS / 16) < pass->reach_low ? low * (SUBPIXELS / 16) : pass->reach_low;
         pass->reach_high = high * (SUBPIXELS / 16) > pass->reach_high ? high * (SUBPIXELS / 16) : pass->reach_high;
     }
+    for (int i = 0; i < 4 * pass->sample_pitch; i++) {
+        const int pixel = i / pass->sample_pitch, sample = i % pass->sample_pitch % pass->samples;
+        const struct lom_sample_offset *at = &pass->offset[sample];
+        const int x = (2 * (pixel & 1) + 1) * SUBPIXELS / 2 + at->x * (SUBPIXELS / 16),
+                  y = (2 * (pixel >> 1) + 1) * SUBPIXELS / 2 + at->y * (SUBPIXELS / 16);
+        pass->strip_pair[i] = x | y << 16;
+    }
     return true;
 }
 

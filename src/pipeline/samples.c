@@ -185,8 +185,7 @@ static void spread(const struct lom_pass *pass, const uint32_t *from, uint32_t *
 /* Sample 0 of each pixel. */
 static void take_first(const struct lom_pass *pass, const uint32_t *from, uint32_t *to)
 {
-    for (size_t i = 0; i < tile_pixels(pass); i++)
-        to[i] = from[i * (size_t)pass->sample_pitch];
+    lom_stages_of(pass->device->variant)->take_first(from, pass->sample_pitch, tile_pixels(pass), to);
 }
 
 /* Every sample is the clear value. */

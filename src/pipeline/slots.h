@@ -23,8 +23,21 @@ enum {
     SLOT_COVER1, /* biased: the edge functions at the first part's first pixel, and what they and the third one add up to */
     SLOT_COVER2,
     SLOT_COVER,
-    SLOT_PARTS /* struct part_range, 8 bits each: x, y, columns, rows */
+    SLOT_PARTS, /* 8 bits each: x, y, columns, rows */
+    /* With several samples, where the words for coverage are of the tile's first pixel and biased by all that a sample of a
+     * strip adds to its first centre: the edge functions at the tile's corner, without bias, the biases of the top-left
+     * rule, twice the area with that of the third, and the range of depths as the attachment clamps it. */
+    SLOT_CORNER1,
+    SLOT_CORNER2,
+    SLOT_BIAS1,
+    SLOT_BIAS2,
+    SLOT_WHOLE,
+    SLOT_LEAST,
+    SLOT_MOST
 };
+
+/* Pixels of the parts in which several samples are covered, a lane two pixels or, of wide lanes, a block of four. */
+enum { STRIPS_WIDTH = LOM_LANES > 8 ? 8 : 4, STRIPS_HEIGHT = LOM_LANES > 8 ? 8 : LOM_LANES / 2 };
 
 /* Wide lanes read a word of neighbouring slots at once and permute it; narrow ones read four words of each slot. */
 enum { SLOTS_BY_WORD = LOM_LANES > 4 };
@@ -48,7 +61,7 @@ LOM_INLINE void store_slots(float *slots, int word, int first, lom_float4 x)
     lom_store(to + 3 * SLOT_PITCH, x.w);
 }
 
-/* The same of slot first + which[i] in lane i; which[i] < LOM_LANES. */
+/* Four words, from `word` on, of slot first + which[i] in lane i; which[i] < LOM_LANES. */
 LOM_INLINE lom_float4 load_slots(const float *slots, int word, int first, lom_int which)
 {
     const float *from = slots + slot_word(word, first);

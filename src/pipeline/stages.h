@@ -232,12 +232,14 @@ struct lom_pass {
     const struct lom_sample_offset *offset; /* of each */
     int32_t
         offset_pair[LOM_MAX_SAMPLES + 1]; /* of the centre, then of each, as pairs of 16 bits (lanes/pair_products.h) */
-    int reach_low, reach_high;            /* how far they lie from centres along x and y, in 1/SUBPIXELS; <= 0, >= 0 */
-    bool uses_depth, writes_depth;        /* a draw tests, reads or writes depth; one writes it */
-    bool has_stencil, uses_stencil;       /* the depth attachment has one; a draw tests it */
-    size_t queries;                       /* that its draws name: the first of the device's */
-    bool one_by_one;                      /* as lom_device's */
-    bool streams;                         /* the attachments are larger than the caches */
+    int32_t strip_pair
+        [4 * LOM_MAX_SAMPLES]; /* of a block of 2x2 pixels, a word after the other, from its corner, in 1/SUBPIXELS */
+    int reach_low, reach_high; /* how far they lie from centres along x and y, in 1/SUBPIXELS; <= 0, >= 0 */
+    bool uses_depth, writes_depth;                /* a draw tests, reads or writes depth; one writes it */
+    bool has_stencil, uses_stencil;               /* the depth attachment has one; a draw tests it */
+    size_t queries;                               /* that its draws name: the first of the device's */
+    bool one_by_one;                              /* as lom_device's */
+    bool streams;                                 /* the attachments are larger than the caches */
     int tile, tiles_x, tiles_y, tile_x0, tile_y0; /* tile grid, aligned to the frame */
     size_t tile_bytes;
     uint8_t *tile_memory;  /* tile_bytes for each tile, or for each worker when there is a single batch */

@@ -32,9 +32,13 @@ enum {
     LIST_SIZE = 512,     /* codes after which it is drained */
     LIST_PIXELS = 1024,  /* that one triangle's parts may have, covered or not */
     LIST_TRIANGLES = 64, /* of which some may be left from the last time */
-    LIST_ROOM = LIST_SIZE + LIST_PIXELS + 16,
+    STRIPS_SIZE = 256,   /* strips of pixels of several samples after which they are tested (pack_samples.wide.c) */
+    STRIPS_MOST = 512, /* that one triangle's parts may have, of two pixels; of four: 352, which is (w + 8) (h + 8) / 4
+                            where (w + 4) (h + 4) is at most LIST_PIXELS, and w and h 64 */
+    STRIPS_ROOM = STRIPS_SIZE + STRIPS_MOST + 16,
+    LIST_ROOM = 4 * (STRIPS_SIZE + 352) + 32, /* at least LIST_SIZE + LIST_PIXELS + 16 */
     SLOT_PITCH = LIST_TRIANGLES + 16,
-    SLOT_WORDS = 16,     /* slots.h */
+    SLOT_WORDS = 24,     /* slots.h */
     LIST_ONE_OVER_W = 0, /* of the values: words of the vertices' 1/w, of the others before the varyings, of a varying
                             (interpolate.wide.c) */
     LIST_HEADER = 8,
@@ -48,6 +52,14 @@ struct lom_list {
     int count, triangles;
     int kept;   /* triangles of which only the fragments that are there are left */
     int tested; /* codes whose early depth test is done */
+};
+
+/* Pixels side by side of one of the list's triangles, whose samples are tested together (pack_samples.wide.c): the code of the
+ * first, its place from the tile's corner as a pair in 1/SUBPIXELS, what was found of the samples, up to four words a strip;
+ * and where the strips of a slot end. */
+struct lom_strips {
+    int32_t code[STRIPS_ROOM], place[STRIPS_ROOM], found[4 * STRIPS_ROOM];
+    int32_t end[LIST_TRIANGLES];
 };
 
 /* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). What is the same for all of
@@ -105,6 +117,7 @@ struct lom_tile {
 
     struct lom_sample_queue sample_queue;
     int32_t list_samples[LIST_ROOM]; /* with the list's codes (packed.h) */
+    struct lom_strips strips;
 };
 
 #endif

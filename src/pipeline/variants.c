@@ -18,7 +18,8 @@
                              .fill_rectangle = lom_fill_rectangle_##variant,                                           \
                              .fill_words = lom_fill_words_##variant,                                                   \
                              .join_rows = lom_join_rows_##variant,                                                     \
-                             .find_means = lom_find_means_##variant },
+                             .find_means = lom_find_means_##variant,                                                   \
+                             .take_first = lom_take_first_##variant },
 
 static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, ) STAGES(, 4_recorded) };
 

@@ -37,6 +37,8 @@ struct lom_stages {
     void (*join_rows)(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);
     /* The means of the samples of colour attachment i of a tile, into its image, where flags are set. */
     void (*find_means)(const struct lom_pass *pass, const struct lom_tile *tile, int i);
+    /* The first of each `pitch` words, `count` of them, a multiple of 16. */
+    void (*take_first)(const uint32_t *from, int pitch, size_t count, uint32_t *to);
 };
 
 /* NULL where the variant is not built. */
@@ -60,7 +62,8 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
     void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
-    void lom_find_means_##variant(const struct lom_pass *pass, const struct lom_tile *tile, int i);
+    void lom_find_means_##variant(const struct lom_pass *pass, const struct lom_tile *tile, int i);                    \
+    void lom_take_first_##variant(const uint32_t *from, int pitch, size_t count, uint32_t *to);
 LOM_EACH_VARIANT(LOM_DECLARE_STAGES, )
 LOM_DECLARE_STAGES(, 4_recorded)
 

@@ -1,8 +1,9 @@
 /* Stages 6 and 7 of 7 where pixels have several samples, as far as they differ. In: a packet whose varyings are found. Out:
- * its colours in the samples that it covers, and the means of samples.
+ * its colours in the samples that it covers.
  *
  * Invariant: each sample ends as if the packets were drawn into it alone. A block of 2x2 pixels has one colour a
  * pixel as long as every fragment that comes to it covers all samples of its pixel: what is written then is the same in all. */
+#include "pipeline/blend_bytes.h"
 #include "pipeline/record.h"
 #include "pipeline/sample_tests.h"
 
@@ -118,7 +119,7 @@ static lom_int test_late(struct lom_tile *tile, const struct lom_packet *packet,
 }
 
 /* A block's colour goes to all its samples. */
-static void divide_block(struct lom_tile *tile, int i, int32_t block)
+static __attribute__((noinline)) void divide_block(struct lom_tile *tile, int i, int32_t block)
 {
     const size_t pixels = (size_t)count_pixels(tile), pitch = (size_t)tile->pass->sample_pitch,
                  first = 4 * (size_t)block;
@@ -177,6 +178,10 @@ LOM_INLINE void find_codes(struct lom_tile *tile, const lom_float4 *color, int32
     struct lom_places places = { .block = LOM_LANES < 16 }; /* those of 16 lanes are two runs */
     lom_mask all = lom_splat_int(-1);
     void *images = tile->color[0];
+    if (tile->draw->output == OUTPUT_BYTES) {
+        lom_store_int(code, join(quantise(color)));
+        return;
+    }
     lom_store_int(places.pixel, lom_lane_index());
     tile->color[0] = code;
     LOM_WIDE(lom_write_packet)(tile, &places, &all, color);
@@ -189,31 +194,39 @@ static const row row_masks[16] = { { 0, 0, 0, 0 },   { -1, 0, 0, 0 },   { 0, -1,
                                    { 0, 0, 0, -1 },  { -1, 0, 0, -1 },  { 0, -1, 0, -1 },  { -1, -1, 0, -1 },
                                    { 0, 0, -1, -1 }, { -1, 0, -1, -1 }, { 0, -1, -1, -1 }, { -1, -1, -1, -1 } };
 
+/* Of `pitch` words a pixel; a lane without samples leaves all as it is. */
+LOM_INLINE void store_rows(struct lom_tile *tile, const int32_t *pixel, const int32_t *covered, const int32_t *code,
+                           size_t pitch)
+{
+    const uint32_t every = (1u << count_samples(tile)) - 1;
+    int32_t *image = tile->color[0], *divided = tile->sample_color[0];
+    const uint8_t *several = tile->several[0];
+    for (int i = 0; i < LOM_LANES; i++) {
+        uint32_t left = (uint32_t)covered[i];
+        const uint32_t at = (uint32_t)pixel[i];
+        if (!several[at >> 2]) {
+            if (left == every)
+                image[at] = code[i];
+            if (left == every || left == 0)
+                continue;
+            divide_block(tile, 0, (int32_t)(at >> 2));
+        }
+        row *to = (row *)(void *)(divided + at * pitch), word = code[i] - (row){ 0 };
+        for (size_t k = 0; k < pitch; k += 4, left >>= 4, to++)
+            *to = (word & row_masks[left & 15]) | (*to & ~row_masks[left & 15]);
+    }
+}
+
 static void store_codes(struct lom_tile *tile, const struct lom_packet *packet, lom_int samples,
                         const lom_float4 *color)
 {
-    const int pitch = tile->pass->sample_pitch;
-    const uint32_t every = (1u << count_samples(tile)) - 1;
-    int32_t code[LOM_LANES], covered[LOM_LANES], *image = tile->color[0], *divided = tile->sample_color[0];
-    const uint8_t *several = tile->several[0];
+    int32_t code[LOM_LANES], covered[LOM_LANES];
     find_codes(tile, color, code);
     lom_store_int(covered, samples);
-    for (int i = 0; i < LOM_LANES; i++) {
-        uint32_t left = (uint32_t)covered[i];
-        const int32_t pixel = packet->places.pixel[i];
-        if (left == 0)
-            continue;
-        if (!several[pixel >> 2]) {
-            if (left == every) {
-                image[pixel] = code[i];
-                continue;
-            }
-            divide_block(tile, 0, pixel >> 2);
-        }
-        row *to = (row *)(void *)(divided + (size_t)pixel * (size_t)pitch), word = code[i] - (row){ 0 };
-        for (; left != 0; left >>= 4, to++)
-            *to = (word & row_masks[left & 15]) | (*to & ~row_masks[left & 15]);
-    }
+    if (tile->pass->sample_pitch == 4)
+        store_rows(tile, packet->places.pixel, covered, code, 4);
+    else
+        store_rows(tile, packet->places.pixel, covered, code, (size_t)tile->pass->sample_pitch);
 }
 
 /* Colours of an attachment to the samples of divided blocks. */
@@ -255,6 +268,10 @@ void LOM_WIDE(lom_write_samples)(struct lom_tile *tile, const struct lom_packet 
     bool late = draw->late_depth && (tile->depth != NULL || draw->full_tests),
          rounds = (late || draw->blends) && !apart;
     lom_int samples = packet->samples & *shaded;
+    if (!late && !draw->desc.alpha_to_coverage && stores_codes(tile)) {
+        store_codes(tile, packet, samples, out->color);
+        return;
+    }
     if (draw->desc.alpha_to_coverage)
         samples &= cover_by_alpha(tile, out->color[0].w);
     lom_mask mask = samples != 0;
@@ -267,101 +284,4 @@ void LOM_WIDE(lom_write_samples)(struct lom_tile *tile, const struct lom_packet 
         if (lom_any(now != 0))
             write(tile, packet, now, out->color);
     }
-}
-
-/* ---- the mean ---- */
-
-/* Of `count` values, a power of two, added in pairs; they are overwritten. */
-LOM_INLINE lom_float mean(lom_float *x, int count)
-{
-    for (int left = count; left > 1; left /= 2)
-        for (int i = 0; i < left / 2; i++)
-            x[i] = x[2 * i] + x[2 * i + 1];
-    return x[0] * (1.0f / (float)count);
-}
-
-/* Two channels of each word, the whole numbers nearest to their means: sums of 16 bytes fit 16 bits. */
-static lom_int mean_of_pairs(const lom_int *word, int count, int shift)
-{
-    lom_int sum = lom_splat_int((count / 2) * 0x10001);
-    for (int s = 0; s < count; s++)
-        sum += word[s] >> shift & 0xff00ff;
-    return (lom_int)((lom_uint)sum >> __builtin_ctz((unsigned)count)) & 0xff00ff;
-}
-
-/* Of `count` words of four codes. */
-static lom_int mean_of_codes(const lom_int *word, int count, bool srgb)
-{
-    lom_float light[LOM_MAX_SAMPLES];
-    lom_int result = mean_of_pairs(word, count, 0) | mean_of_pairs(word, count, 8) << 8;
-    for (int c = 0; c < 3 && srgb; c++) {
-        for (int s = 0; s < count; s++)
-            light[s] = lom_float_of_srgb8_lanes(word[s] >> 8 * c & 255);
-        result = (result & ~(255 << 8 * c)) | lom_srgb8_of_lanes(mean(light, count)) << 8 * c;
-    }
-    return result;
-}
-
-/* A finite float as the attachment's format holds it. */
-static lom_float round_to_format(lom_format format, lom_float x)
-{
-    const lom_format_info *info = lom_describe_format(format);
-    if (info->bits == 16)
-        return info->is_float ? lom_float_of_half_lanes(lom_half_of_lanes(x))
-                              : lom_float_of_unorm_lanes(lom_unorm_of_lanes(x, 65535.0f), 65535.0f);
-    return lom_make_finite(x);
-}
-
-/* The lanes, from pixel `at` on, whose blocks are divided. */
-LOM_INLINE lom_mask load_flags(const uint8_t *several, int at)
-{
-    lom_mask flags = { 0 };
-    for (int i = 0; i < LOM_LANES; i++)
-        flags[i] = -(int32_t)several[(at + i) >> 2];
-    return flags;
-}
-
-/* The samples of undivided pixels are not there: their image is read in their place. */
-static void find_mean_codes(const struct lom_pass *pass, const struct lom_tile *tile, int i)
-{
-    const int pixels = pass->tile * pass->tile, pitch = pass->sample_pitch;
-    int32_t *image = tile->color[i];
-    const float *samples = tile->sample_color[i];
-    for (int at = 0; at < pixels; at += LOM_LANES) {
-        lom_mask flags = load_flags(tile->several[i], at);
-        lom_int word[LOM_MAX_SAMPLES], old = lom_load_int(image + at);
-        if (!lom_any(flags))
-            continue;
-        for (int s = 0; s < pass->samples; s += 4) {
-            lom_float4 rows = lom_gather_rows(samples, (lom_lane_index() + at) * pitch + s);
-            const lom_float column[4] = { rows.x, rows.y, rows.z, rows.w };
-            for (int k = 0; k < 4 && s + k < pass->samples; k++)
-                word[s + k] = lom_select_int(flags, lom_as_int(column[k]), old);
-        }
-        lom_store_int(image + at, mean_of_codes(word, pass->samples, pass->color[i].kind == COLOR_SRGB8));
-    }
-}
-
-static void find_mean_floats(const struct lom_pass *pass, const struct lom_tile *tile, int i)
-{
-    const int pixels = pass->tile * pass->tile;
-    float *image = tile->color[i];
-    const float *samples = tile->sample_color[i];
-    for (int at = 0; at < 4 * pixels; at += LOM_LANES) {
-        lom_mask flags = load_flags(tile->several[i], at % pixels);
-        lom_float x[LOM_MAX_SAMPLES], old = lom_load(image + at);
-        if (!lom_any(flags))
-            continue;
-        for (int s = 0; s < pass->samples; s++)
-            x[s] = lom_select(flags, lom_load(samples + s * 4 * pixels + at), old);
-        lom_store(image + at, round_to_format(pass->color[i].format, mean(x, pass->samples)));
-    }
-}
-
-void LOM_WIDE(lom_find_means)(const struct lom_pass *pass, const struct lom_tile *tile, int i)
-{
-    if (pass->color[i].kind == COLOR_FLOAT)
-        find_mean_floats(pass, tile, i);
-    else
-        find_mean_codes(pass, tile, i);
 }
