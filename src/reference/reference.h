@@ -163,8 +163,9 @@ double lom_cloud_shadow(const lom_reference *reference, lom_vec3 place, double t
 struct lom_crossing {
     double t;
     lom_vec3 place;
+    double rest[2];  /* where the water of it is at rest, if the surface has waves */
     lom_vec3 facet;  /* the geometry's unit normal, upwards */
-    lom_vec3 normal; /* the one that mirrors and bends, upwards */
+    lom_vec3 normal; /* the one that mirrors and bends, upwards; it faces the ray, as the facet does */
 };
 /* Where a ray first crosses the surface of the water at low < t < high, from above or from below; false when it does
  * not. */

@@ -126,48 +126,84 @@ static lom_vec3 normal_of_slope(const double slope[2])
     return unit((lom_vec3){ -slope[0], 1, -slope[1] });
 }
 
-/* Ripples finer than any pixel: slopes normally distributed, as random numbers that belong to the place. */
-static lom_vec3 ripple(lom_vec3 normal, lom_vec3 place, double roughness)
+/* Ripples finer than any pixel: slopes normally distributed. */
+static lom_vec3 ripple(lom_vec3 normal, uint64_t key, uint64_t number, double roughness)
 {
     double slopes[2];
     if (!(roughness > 0))
         return normal;
-    lom_random_normal(lom_hash_bytes(LOM_HASH_START, &place.x, sizeof place.x),
-                      lom_hash_bytes(LOM_HASH_START, &place.z, sizeof place.z), slopes);
+    lom_random_normal(key, number, slopes);
     double deviation = lom_double_sqrt(roughness / 2), up = normal.y;
     return unit((lom_vec3){ normal.x + up * deviation * slopes[0], up, normal.z + up * deviation * slopes[1] });
 }
 
-static void find_normals(const lom_reference *reference, double time, struct lom_crossing *c)
+static lom_vec3 level_normal(const lom_reference *reference, const struct lom_crossing *c, double time)
 {
     const lom_reference_water *w = &reference->water;
-    c->facet = (lom_vec3){ 0, 1, 0 };
     if (w->slope != NULL) {
         double slope[2];
         w->slope(w->context, c->place.x, c->place.z, time, slope);
-        c->normal = normal_of_slope(slope);
-        c->facet = w->height != NULL ? c->normal : c->facet;
-    } else {
-        c->normal = reference->normal_map == LOM_NO_PICTURE ? c->facet : mapped_normal(reference, c->place, time);
+        return normal_of_slope(slope);
     }
-    c->normal = ripple(c->normal, c->place, reference->water.roughness);
+    return reference->normal_map == LOM_NO_PICTURE ? (lom_vec3){ 0, 1, 0 } : mapped_normal(reference, c->place, time);
 }
 
-bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
-                     double low, double high, struct lom_crossing *c)
+/* Of the part 0 .. 1 of the cell of the geometry around a crossing. */
+static lom_vec3 wave_normal(const lom_reference *reference, const struct lom_crossing *c, double time, double part)
+{
+    return reference->waves != NULL ? lom_wave_surface_normal(reference->waves, c->rest, part - 0.5)
+                                    : level_normal(reference, c, time);
+}
+
+/* The geometry that rays meet is coarser than the water: waves that are shorter than its triangles, and ripples, are
+ * normals n about the facet f. A ray along -v sees each by the area that it shows over its share of the facet's,
+ * (n.v) / (n.f); those that are turned away hide behind others, and the facet shows no more than its own (Smith 1967;
+ * Heitz 2014, section 3). One normal of so many of the place is taken with the probability of that share of theirs
+ * (resampling: Talbot, Cline, Egbert 2005); the random numbers are those of the place. */
+static lom_vec3 seen_normal(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
+                            const struct lom_crossing *c)
+{
+    enum { WAVES = 16, RIPPLES = 4 };
+    const double roughness = reference->water.roughness;
+    const uint64_t waves = reference->waves != NULL ? WAVES : 1;
+    const uint64_t ripples = roughness > 0 ? RIPPLES * WAVES / waves : 1;
+    const lom_vec3 v = scaled(ray->direction, from_below ? 1 : -1);
+    const uint64_t x = lom_hash_bytes(LOM_HASH_START, &c->place.x, sizeof c->place.x);
+    const uint64_t place = lom_hash_bytes(x, &c->place.z, sizeof c->place.z);
+    lom_vec3 seen = c->facet, wave = seen;
+    double whole = 0;
+    for (uint64_t i = 0; i < waves * ripples; i++) {
+        if (i % ripples == 0)
+            wave = wave_normal(reference, c, time, ((double)(i / ripples) + lom_random_uniform(place, 3 * i)) / WAVES);
+        const lom_vec3 n = ripple(wave, place, 3 * i + 1, roughness);
+        const double area = lom_larger(dot(n, v), 0) / lom_larger(dot(n, c->facet), 0.02);
+        whole += area;
+        if (lom_random_uniform(place, 3 * i + 2) * whole < area)
+            seen = n;
+    }
+    return seen;
+}
+
+static bool meet_surface(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
+                         double low, double high, struct lom_crossing *c)
 {
     const lom_reference_water *w = &reference->water;
-    if (reference->waves != NULL) {
-        if (!lom_hit_wave_surface(reference->waves, ray, from_below, low, high, c))
-            return false;
-        c->normal = ripple(c->normal, c->place, reference->water.roughness);
-        return true;
-    }
+    if (reference->waves != NULL)
+        return lom_hit_wave_surface(reference->waves, ray, from_below, low, high, c);
     if (!has_water(w) || !(w->height == NULL ? hit_plane(w, ray, from_below, low, high, &c->t)
                                              : hit_field(w, ray, time, from_below, low, high, &c->t)))
         return false;
     c->place = along(ray->origin, ray->direction, c->t);
     c->place.y = height_at(w, c->place.x, c->place.z, time);
-    find_normals(reference, time, c);
+    c->facet = w->height != NULL && w->slope != NULL ? level_normal(reference, c, time) : (lom_vec3){ 0, 1, 0 };
+    return true;
+}
+
+bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
+                     double low, double high, struct lom_crossing *c)
+{
+    if (!meet_surface(reference, ray, time, from_below, low, high, c))
+        return false;
+    c->normal = seen_normal(reference, ray, time, from_below, c);
     return true;
 }

@@ -84,28 +84,37 @@ static lom_vec3 kept_in_front(lom_vec3 d, lom_vec3 n)
     return dot(d, n) < 0 ? lom_reference_mirror(d, n) : d;
 }
 
-/* The ways that a path goes on after the water's surface. A normal that is turned away from the ray stands for a wave
- * that hides it: it reflects all, like the facet. What would come to lie on the wrong side of the facet is mirrored by
- * it. */
+/* A share of the light that a path finds on the same side of the water, or on the other. */
+static lom_vec3 leave(const struct tracer *tracer, const struct path *path, const lom_reference *met, lom_vec3 place,
+                      lom_vec3 direction, bool crosses, double share)
+{
+    const bool in_water = (path->inside != NULL) != crosses;
+    struct path next = {
+        .ray = { place, direction }, .depth = path->depth - 1, .inside = in_water ? met : NULL, .by_water = true
+    };
+    return share > 0 ? scaled(follow(tracer, &next), share) : (lom_vec3){ 0, 0, 0 };
+}
+
+/* The ways that a path goes on after the water's surface. What the normal mirrors to behind the facet meets the water
+ * again, as the facet lies; what it would bend to before the facet is mirrored by it. */
 static lom_vec3 divide(const struct tracer *tracer, const struct path *path, const lom_reference *met,
                        const struct lom_crossing *c)
 {
     const lom_reference_water *water = &met->water;
     const bool in_water = path->inside != NULL;
     double side = in_water ? -1 : 1, index = in_water ? 1 / water->index : water->index;
-    lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side);
-    struct path next = { .ray.origin = c->place, .depth = path->depth - 1, .inside = path->inside, .by_water = true };
-    double cosine = -dot(d, normal), share = cosine > 0 ? lom_reference_fresnel(cosine, index) : 1;
-    lom_vec3 light = { 0, 0, 0 };
-    if (share > 0) {
-        next.ray.direction = kept_in_front(lom_reference_mirror(d, cosine > 0 ? normal : facet), facet);
-        light = scaled(follow(tracer, &next), share);
+    lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side), bent;
+    lom_vec3 mirrored = lom_reference_mirror(d, normal), light = { 0, 0, 0 };
+    double share = lom_reference_fresnel(-dot(d, normal), index), again = share;
+    if (dot(mirrored, facet) < 0) {
+        again *= lom_reference_fresnel(-dot(mirrored, facet), index);
+        if (again < share && lom_reference_refract(mirrored, facet, index, &bent))
+            light = leave(tracer, path, met, c->place, bent, true, share - again);
+        mirrored = lom_reference_mirror(mirrored, facet);
     }
-    if (share < 1 && lom_reference_refract(d, normal, index, &next.ray.direction)) {
-        next.ray.direction = kept_in_front(next.ray.direction, scaled(facet, -1));
-        next.inside = in_water ? NULL : met;
-        light = along(light, follow(tracer, &next), 1 - share);
-    }
+    light = sum(light, leave(tracer, path, met, c->place, mirrored, false, again));
+    if (share < 1 && lom_reference_refract(d, normal, index, &bent))
+        light = sum(light, leave(tracer, path, met, c->place, kept_in_front(bent, scaled(facet, -1)), true, 1 - share));
     return light;
 }
 

@@ -1,5 +1,5 @@
 /* A surface with waves in double. In: the sea, or the wave vectors, amplitudes and phases that the water stands for,
- * surf and shallow water. Out: its surface as triangles for rays, with exact normals. A point at rest at (x, z) is
+ * surf and shallow water. Out: its surface as triangles for rays, and exact normals between their corners. A point at rest at (x, z) is
  * displaced by (-b k/|k| sin t, a cos t) summed over the waves, t = k.(x, z) + phase (A. Fournier, W. Reeves, SIGGRAPH
  * 1986). */
 #include "base/numbers.h"
@@ -75,9 +75,9 @@ struct mesh {
     double low[2], high[2], middle[2];
 };
 
-static double next_radius(const struct mesh *mesh, double radius)
+static double next_radius(double fine, double radius)
 {
-    return radius + lom_larger(mesh->fine, radius * SPACING);
+    return radius + lom_larger(fine, radius * SPACING);
 }
 
 static struct mesh plan_mesh(const lom_reference_water *water, lom_vec3 eye, double shortest)
@@ -94,7 +94,7 @@ static struct mesh plan_mesh(const lom_reference_water *water, lom_vec3 eye, dou
         far += away * away;
     }
     mesh.fine = lom_larger(mesh.fine, 1e-6 * lom_double_sqrt(far));
-    for (double radius = mesh.fine / 4; radius < lom_double_sqrt(far); radius = next_radius(&mesh, radius))
+    for (double radius = mesh.fine / 4; radius < lom_double_sqrt(far); radius = next_radius(mesh.fine, radius))
         mesh.rings++;
     mesh.rings += 2;
     return mesh;
@@ -103,7 +103,7 @@ static struct mesh plan_mesh(const lom_reference_water *water, lom_vec3 eye, dou
 static void place_points(struct lom_wave_surface *surface, const struct mesh *mesh)
 {
     double radius = mesh->fine / 4;
-    for (int ring = 0; ring < mesh->rings; ring++, radius = next_radius(mesh, radius))
+    for (int ring = 0; ring < mesh->rings; ring++, radius = next_radius(mesh->fine, radius))
         for (int column = 0; column < mesh->columns; column++) {
             size_t i = (size_t)ring * (size_t)mesh->columns + (size_t)column;
             double angle = lom_two_pi * column / mesh->columns;
@@ -159,6 +159,9 @@ bool lom_make_wave_surface(struct lom_wave_surface *surface, const lom_reference
     if (surface->points == NULL || surface->rest == NULL || surface->triangles == NULL)
         return false;
     place_points(surface, &mesh);
+    surface->fine = mesh.fine;
+    surface->eye[0] = mesh.middle[0];
+    surface->eye[1] = mesh.middle[1];
     surface->above = (struct lom_ray_triangles){ .points = surface->points, .triangles = surface->triangles };
     join_points(surface, &mesh);
     if (!lom_build_ray_triangles(&surface->above, error))
@@ -188,16 +191,23 @@ bool lom_hit_wave_surface(const struct lom_wave_surface *surface, const struct l
         return false;
     const uint32_t *corner = surface->triangles[hit.triangle].corner;
     lom_vec3 p[3];
-    double x = 0, z = 0;
+    c->rest[0] = c->rest[1] = 0;
     for (int i = 0; i < 3; i++) {
         p[i] = surface->points[corner[i]];
-        x += surface->rest[corner[i]][0] * hit.weight[i];
-        z += surface->rest[corner[i]][1] * hit.weight[i];
+        c->rest[0] += surface->rest[corner[i]][0] * hit.weight[i];
+        c->rest[1] += surface->rest[corner[i]][1] * hit.weight[i];
     }
-    struct lom_wave_place at = displace(surface, x, z);
     c->t = hit.t;
     c->place = blended(p[0], p[1], p[2], hit.weight);
     c->facet = unit(cross(difference(p[1], p[0]), difference(p[2], p[0])));
-    c->normal = normal_of(&at);
     return true;
+}
+
+lom_vec3 lom_wave_surface_normal(const struct lom_wave_surface *surface, const double rest[2], double part)
+{
+    const lom_vec3 out = { rest[0] - surface->eye[0], 0, rest[1] - surface->eye[1] };
+    const double radius = length(out), cell = next_radius(surface->fine, radius) - radius;
+    const lom_vec3 moved = scaled(unit(out), part * cell);
+    const struct lom_wave_place at = displace(surface, rest[0] + moved.x, rest[1] + moved.z);
+    return normal_of(&at);
 }

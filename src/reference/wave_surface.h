@@ -31,6 +31,7 @@ struct lom_wave_surface {
     lom_shallow_view shallow_view;
     float (*shallow_texels)[4];
     double level, middle[2]; /* the waves' x and z count from there */
+    double eye[2], fine;     /* the middle of the rings, and how far apart the first ones are */
     lom_vec3 *points;
     double (*rest)[2]; /* of each point: where its water is at rest */
     struct lom_ray_triangle *triangles;
@@ -60,9 +61,13 @@ void lom_free_ray_shore(struct lom_wave_surface *surface);
 /* Adds them at the rest position (x, z). */
 void lom_add_shore(struct lom_wave_place *place, const struct lom_wave_surface *surface, double x, double z);
 
-/* The crossing of a ray, without the ripples on it. */
+/* The crossing of a ray with the triangles, without a normal. */
 bool lom_hit_wave_surface(const struct lom_wave_surface *surface, const struct lom_ray *ray, bool from_below,
                           double low, double high, struct lom_crossing *crossing);
+
+/* The normal of the waves, upwards, by a part -0.5 .. 0.5 of the distance between rings further out than the place of a
+ * crossing: there are waves between the rings that the triangles do not have. */
+lom_vec3 lom_wave_surface_normal(const struct lom_wave_surface *surface, const double rest[2], double part);
 
 /* The height of the surface over (x, z) itself: the rest position is found by iteration. */
 double lom_wave_surface_height(const struct lom_wave_surface *surface, double x, double z);

@@ -1,6 +1,6 @@
 /* Rough water, over lanes (Cox and Munk 1954): slopes too small to be seen are normally distributed about the mean
- * slope with the covariance of wave_lanes.h. In: a point of the surface. Out: what such facets mirror of the scene and
- * of the sun. */
+ * slope with the covariance of wave_lanes.h. In: a point of the surface. Out: what such facets mirror of the sun and of
+ * lamps; of all else, seen_facets.h. */
 #ifndef LOM_WATER_FACETS_H
 #define LOM_WATER_FACETS_H
 
@@ -16,7 +16,6 @@ struct lom_surface_point {
     lom_float3 to_eye;  /* unit length */
     lom_float distance; /* to the eye */
     lom_float3 normal;  /* mean, upwards */
-    lom_float3 facet;   /* mean of the facets that the eye sees, upwards */
     struct lom_wave_slopes slopes;
 };
 
@@ -36,19 +35,6 @@ LOM_INLINE struct lom_view_slope lom_view_slope_of(const struct lom_surface_poin
     return (struct lom_view_slope){ c, s, flat, variance };
 }
 
-/* Facets lean towards an eye that looks along the surface: those that lean away hide behind others. Weighting slopes by
- * the cosine to the eye moves their mean by v tan(zenith), v their variance in that direction; a standard deviation at
- * most. */
-LOM_INLINE lom_float3 lom_visible_facet(const struct lom_surface_point *p)
-{
-    struct lom_view_slope view = lom_view_slope_of(p);
-    lom_float tangent = view.flat / lom_max(lom_abs(p->to_eye.y), lom_splat(1e-3f));
-    lom_float lean = lom_min(view.variance * tangent, lom_sqrt(view.variance));
-    lom_float up = 1.0f / p->normal.y;
-    return lom_normalize3(
-        (lom_float3){ p->normal.x * up + lean * view.x, lom_splat(1.0f), p->normal.z * up + lean * view.z });
-}
-
 /* Lambda of Smith's shadowing for normal slopes (Walter et al. 2007, equation 24, their rational fit). */
 LOM_INLINE lom_float lom_smith_lambda(lom_float cosine, lom_float variance)
 {
@@ -66,37 +52,6 @@ LOM_INLINE lom_float lom_surface_fresnel(const struct lom_surface_uniforms *u, l
     if (u->fresnel == LOM_FRESNEL_SCHLICK && u->eta < 1)
         return lom_fresnel_schlick(c, u->eta);
     return lom_fresnel_exact(c, lom_splat(u->eta));
-}
-
-/* What a surface of unseen facets reflects of the light, where their mean normal is `cosine` from the eye: the mirror's
- * share times how much less than a mirror such a surface reflects, since the facets that face the eye hide the others.
- * The factor is that of the fit r + (1 - r) (1 - c)^(5 exp(-2.69 s)) / (1 + 22.7 s^1.5) for a standard deviation s of
- * slopes (Bruneton, Neyret, Holzschuch 2010, section 4.3), by its value at s = 0. The mix of the reference works knows
- * no facets. */
-LOM_INLINE lom_float lom_mean_fresnel(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
-                                      lom_float cosine)
-{
-    lom_float mirror = lom_surface_fresnel(u, cosine);
-    if (u->fresnel == LOM_FRESNEL_DOT)
-        return mirror;
-    const float root = (1.0f - u->eta) / (1.0f + u->eta), least = root * root;
-    lom_float deviation = lom_sqrt(lom_view_slope_of(p).variance);
-    lom_float rest = lom_max(1.0f - lom_saturate(cosine), lom_splat(1e-6f)), square = rest * rest;
-    lom_float mean =
-        lom_exp(5.0f * lom_exp(-2.69f * deviation) * lom_log(rest)) / (1.0f + 22.7f * deviation * lom_sqrt(deviation));
-    return mirror * (least + (1.0f - least) * mean) / (least + (1.0f - least) * square * square * rest);
-}
-
-/* What is left of a mirrored ray that goes down, by its sine: it meets the water again, taken to be level there, which
- * mirrors it up by this share and sends for the rest what the water sends here. The mix of the reference works knows no
- * second surface. */
-LOM_INLINE lom_float lom_second_share(const struct lom_surface_uniforms *u, lom_float up)
-{
-    const lom_float one = lom_splat(1.0f);
-    lom_mask down = up < 0.0f;
-    if (u->fresnel == LOM_FRESNEL_DOT || !lom_any(down))
-        return one;
-    return lom_select(down, lom_surface_fresnel(u, -up), one);
 }
 
 /* A light in the facets, over its colour: E F p G / (4 cos h_y^4), p the density of slopes at the one that mirrors the

@@ -8,6 +8,7 @@
 
 #include "base/numbers.h"
 #include "water/foam_cover.h"
+#include "water/seen_facets.h"
 
 /* As long as no ray of a scene is. */
 static const float endless = 0x1p100f;
@@ -133,15 +134,16 @@ LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, co
     return u->eye.parallel ? p->w - 20.0f * u->eye.pixel : p->w * 0.98f;
 }
 
-/* Whether anything nearer than the surface stands at (s +- x, t +- y) of a picture. */
+/* Whether anything nearer than the surface stands at (s, t +- y) or (s +- x, t +- y) of a picture. */
 LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                   const struct lom_surface_point *p, struct lom_hit at, lom_float x, lom_float y)
 {
     lom_float bound = lom_before_surface(u, p);
     lom_mask hidden = { 0 };
-    for (int i = 0; i < 4; i++)
-        hidden =
-            hidden | ~(lom_picture_w(u, picture, i & 1 ? at.s + x : at.s - x, i & 2 ? at.t + y : at.t - y) > bound);
+    for (int i = 0; i < 6; i++) {
+        lom_float across = at.s + x * (float)(i % 3 - 1), down = i < 3 ? at.t - y : at.t + y;
+        hidden = hidden | ~(lom_picture_w(u, picture, across, down) > bound);
+    }
     return hidden;
 }
 
@@ -160,8 +162,8 @@ LOM_INLINE struct lom_blur lom_clear_blur(const struct lom_surface_uniforms *u,
     blur.apart = lom_clamp((moved - blur.width) * (2.0f / (float)LOM_BLUR_PLACES), (lom_float){ 0 }, blur.apart);
     blur.alone = hidden & (blur.width > 1.0f);
     blur.width = lom_select(hidden, lom_splat(1.0f), blur.width);
-    for (int i = 0; i < LOM_BLUR_PLACES / 2 && lom_any(blur.apart > 0.0f); i++)
-        hidden = hidden | lom_is_hidden(u, picture, p, hit, x, blur.apart * (((float)i + 0.5f) * u->pixel[1]));
+    for (int i = 1; i < LOM_BLUR_PLACES && lom_any(blur.apart > 0.0f); i++)
+        hidden = hidden | lom_is_hidden(u, picture, p, hit, x, y + blur.apart * (0.5f * (float)i * u->pixel[1]));
     blur.apart = lom_select(hidden, (lom_float){ 0 }, blur.apart);
     return blur;
 }
@@ -286,7 +288,6 @@ LOM_INLINE void lom_finish_point(const struct lom_surface_uniforms *u, struct lo
     p->slopes.vxx = p->slopes.vxx + 0.5f * u->roughness;
     p->slopes.vzz = p->slopes.vzz + 0.5f * u->roughness;
     p->normal = lom_wave_normal(&p->slopes);
-    p->facet = u->side > 0 ? lom_visible_facet(p) : p->normal;
 }
 
 LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
@@ -294,22 +295,17 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
 {
     bool above = u->side > 0;
     lom_float variance = p->slopes.vxx + p->slopes.vzz;
-    lom_float3 n = lom_scale3(p->facet, lom_splat(u->side)), d = lom_scale3(p->to_eye, lom_splat(-1.0f));
-    /* A mean normal that points away from the eye is turned towards it: what is seen faces the eye. */
-    lom_float turn = lom_max(0.08f - lom_dot3(n, p->to_eye), (lom_float){ 0 });
-    n = lom_normalize3(lom_add3(n, lom_scale3(p->to_eye, turn)));
-    lom_float share =
-        above ? lom_mean_fresnel(u, p, lom_dot3(p->normal, p->to_eye)) : lom_surface_fresnel(u, lom_dot3(n, p->to_eye));
+    lom_float3 d = lom_scale3(p->to_eye, lom_splat(-1.0f));
+    struct lom_seen_facets seen = above ? lom_see_facets(u, p) : lom_see_mean(u, p);
 
-    lom_float3 r = lom_reflect3(d, n);
-    if (above)
-        share = share * lom_second_share(u, r.y);
+    lom_float3 r = lom_reflect3(d, lom_facing_eye(u, p, seen.mirroring));
     r.y = u->side * lom_max(lom_abs(r.y), lom_splat(1e-3f));
     lom_float3 reflected = lom_arriving(u, &u->mirrored, p, lom_normalize3(r), above, u->marched, variance);
 
     lom_float3 bent = d;
+    lom_float share = seen.share;
     if (u->bent || !above) {
-        lom_mask passes = lom_refract3(d, n, lom_splat(u->eta), &bent);
+        lom_mask passes = lom_refract3(d, lom_facing_eye(u, p, seen.passing), lom_splat(u->eta), &bent);
         share = lom_select(passes, share, lom_splat(1.0f));
     }
     lom_float3 transmitted = lom_arriving(u, &u->behind, p, bent, !above, u->bent, 0.25f * variance);

@@ -25,7 +25,7 @@ words='scene.toml --size 20x20 --frame 2 --crop 1,2,12,10 --set water.level=0.1'
 
 drawn_again() {
     "$lom" render scene.toml --size 20x20 --frame 2 --crop 1,2,12,10 --set water.level=0.1 --set water.enabled=false -q -o was.png
-    for header in "lom 0.0.1 picture 4" "lom 9 picture 4 by lom-0.0.1" "lom 9 picture 4 by ./lom-0.0.1" "lom 9 picture 4 by $PWD/lom-0.0.1"; do
+    for header in "lom 0.0.1 picture 5" "lom 9 picture 5 by lom-0.0.1" "lom 9 picture 5 by ./lom-0.0.1" "lom 9 picture 5 by $PWD/lom-0.0.1"; do
         rm -rf out kept asked
         printf '%s\n%s %s\n' "$header" "$old" "$words" >some
         PATH=$PWD:$PATH exits 1 "$lom" verify some -o out --cache kept && cmp was.png out/2-scene.toml.expected.png &&
@@ -33,12 +33,12 @@ drawn_again() {
         PATH=$PWD:$PATH exits 1 "$lom" verify some -o out --cache kept && [ "$(wc -l <asked)" -eq 1 ] || return 1
     done
     # another picture than the expected one is none; nobody is asked for what nobody looks at
-    printf 'lom 0.0.1 picture 4\n%s0 %s\n' "${old%?}" "$words" >some && rm -rf out asked
-    [ "${old%?}0" != "$old" ] || printf 'lom 0.0.1 picture 4\n%s1 %s\n' "${old%?}" "$words" >some
+    printf 'lom 0.0.1 picture 5\n%s0 %s\n' "${old%?}" "$words" >some && rm -rf out asked
+    [ "${old%?}0" != "$old" ] || printf 'lom 0.0.1 picture 5\n%s1 %s\n' "${old%?}" "$words" >some
     PATH=$PWD:$PATH exits 1 "$lom" verify some -o out && [ "$(ls out)" = 2-scene.toml.png ] && [ -e asked ] && rm asked &&
         PATH=$PWD:$PATH exits 1 "$lom" verify some && [ ! -e asked ] &&
-        printf 'lom 0.0.1 picture 4 by\n- scene.toml\n' >some && exits 2 "$lom" verify some && complains 'behind by stands' &&
-        printf 'lom 0.0.1 picture 4 of x\n- scene.toml\n' >some && exits 2 "$lom" verify some && complains 'by PROGRAM'
+        printf 'lom 0.0.1 picture 5 by\n- scene.toml\n' >some && exits 2 "$lom" verify some && complains 'behind by stands' &&
+        printf 'lom 0.0.1 picture 5 of x\n- scene.toml\n' >some && exits 2 "$lom" verify some && complains 'by PROGRAM'
 }
 
 # Thirty pictures of four scenes, some wrong, some that cannot be drawn: the same words and the same XML by any number.
@@ -58,7 +58,7 @@ any_number_draws() {
 }
 
 lists() {
-    printf 'lom 0.0.1 picture 4\n%s %s # kept\n- scene.toml --size 8x8\n' "$old" "$words" >some && cp some before
+    printf 'lom 0.0.1 picture 5\n%s %s # kept\n- scene.toml --size 8x8\n' "$old" "$words" >some && cp some before
     printf '# looked at\n\nsome:2: %s %s\r\n' "$old" "$new" >list && exits 0 "$lom" approve - <list &&
         says 'some: 1 picture approved' && sed "s/^$old/$new/" before | cmp - some || return 1
     exits 2 "$lom" approve list && complains 'list:3: line 2 of some has another hash by now' && sed "s/^$old/$new/" before | cmp - some &&
@@ -89,7 +89,7 @@ LINES
 
 # What a browser finds: the modes, what slides and flicks, the list that approves the two that can be.
 page() {
-    printf 'lom 0.0.1 picture 4\n%s %s --set "camera.position = [0, 2, 6]" # <&\n- scene.toml --size 8x8\n- </script>.toml\n%s scene.toml\n%s\n' \
+    printf 'lom 0.0.1 picture 5\n%s %s --set "camera.position = [0, 2, 6]" # <&\n- scene.toml --size 8x8\n- </script>.toml\n%s scene.toml\n%s\n' \
         "$old" "$words" "$(hash_of scene.toml)" "0123456789abcdef scene.toml --size 9x9" >some
     old2=$(hash_of scene.toml --size 20x20 --frame 2 --crop 1,2,12,10 --set water.level=0.1 --set water.enabled=false --set "camera.position = [0, 2, 6]")
     sed -i "2s/^$old/$old2/" some

@@ -67,7 +67,7 @@ approval() {
     good=$(hash_of scene.toml)
     other=$(hash_of scene.toml --size 20x20)
     manifest() { # HASH HASH
-        printf '# "kept"\r\n\nlom 0.1.0 picture 4\n\t%s   scene.toml  # as it is\n%s scene.toml --size 20x20' "$1" "$2"
+        printf '# "kept"\r\n\nlom 0.1.0 picture 5\n\t%s   scene.toml  # as it is\n%s scene.toml --size 20x20' "$1" "$2"
     }
     manifest "$good" - >some && chmod 640 some && manifest "$good" "$other" >expected &&
         exits 0 "$lom" verify some --approve && cmp some expected && [ "$(stat -c %a some)" = 640 ] || return 1
@@ -102,7 +102,7 @@ bad:2:1: a line begins with a hash|scene.toml
 bad:2:1: a line begins with a hash|cac75e24435e2f9 scene.toml
 bad:2:1: a line begins with a hash|cac75e24435e2f911 scene.toml
 bad:2:1: a line begins with a hash|CAC75E24435E2F91 scene.toml
-bad:2:1: a line begins with a hash|lom 0.1.0 picture 4
+bad:2:1: a line begins with a hash|lom 0.1.0 picture 5
 bad:2:3: behind the hash stands the file of a scene| -
 bad:2:3: behind the hash stands the file of a scene|- # scene.toml
 bad:2:3: the quote " is not closed|- "scene.toml

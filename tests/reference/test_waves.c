@@ -1,6 +1,7 @@
 /* Proves the surface with waves that rays meet: a sine's places and normals, no gaps below or above, the height at a
  * place, ripples of the stated slope. */
 #include "check.h"
+#include "rough_water.h"
 #include "reference/wave_surface.h"
 #include "scene_files.h"
 
@@ -52,7 +53,8 @@ static void a_sine_lies_where_it_should(void)
         CHECK(__builtin_fabs(c.place.y - 0.5 - w->amplitude * lom_double_cos(t)) < 0.035 * w->amplitude);
         double slope = -w->amplitude * lom_double_sin(t);
         lom_vec3 normal = unit((lom_vec3){ -slope * w->kx, 1, -slope * w->kz });
-        CHECK(length(difference(normal, c.normal)) < 1e-9 && dot(c.facet, normal) > 0.98);
+        CHECK(length(difference(normal, lom_wave_surface_normal(&surface, c.rest, 0))) < 1e-9 &&
+              dot(c.facet, normal) > 0.98);
         CHECK(length(difference(along(eye, ray.direction, c.t), c.place)) < 1e-9);
     }
     close_waves();
@@ -68,7 +70,7 @@ static void steep_waves_have_no_gap(void)
         struct lom_ray down = { eye, downwards(i) }, up = { { 3, -4, 1 }, scaled(downwards(i), -1) };
         struct lom_crossing c;
         CHECK(lom_hit_wave_surface(&surface, &down, false, 0, 1e300, &c), "ray %d", (int)i);
-        CHECK(c.normal.y > 0 &&
+        CHECK(lom_wave_surface_normal(&surface, c.rest, 0).y > 0 &&
               __builtin_fabs(lom_wave_surface_height(&surface, c.place.x, c.place.z) - c.place.y) < 0.01);
         CHECK(lom_hit_wave_surface(&surface, &up, true, 0, 1e300, &c) && c.facet.y > 0);
         CHECK(!lom_hit_wave_surface(&surface, &up, false, 0, c.t, &c));
@@ -161,6 +163,31 @@ static void ripples_have_their_slope(void)
     lom_free_scene(scene);
 }
 
+/* Of ripples a ray meets those that face it, each by the area that it shows: what they mirror is the mean over the slopes
+ * that are seen from there (tests/rough_water.h), however flat the ray comes in. */
+static void ripples_mirror_as_they_are_seen(void)
+{
+    static const double rises[] = { 1, 0.3, 0.1, 0.03, 0.01 };
+    const rough_water water = { 0.01, 0.01, 1.34 };
+    scene = make_scene("[water]\nsize = 1e6\n[water.optics]\nroughness = 0.02\n");
+    reference = scene == NULL ? NULL : lom_create_reference(scene, NULL);
+    for (int k = 0; reference != NULL && k < 5; k++) {
+        enum { RAYS = 20000 };
+        double share = 0, want = 0;
+        for (int i = 0; i < RAYS; i++) {
+            const lom_vec3 d = unit((lom_vec3){ 1, -rises[k], 0 });
+            struct lom_ray ray = { { 0.37 * i, 1, -0.19 * i }, d };
+            struct lom_crossing c;
+            CHECK(lom_cross_water(reference, &ray, 0, false, 0, 1e300, &c) && dot(c.normal, d) < 0);
+            share += lom_reference_fresnel(-dot(c.normal, d), water.index) / RAYS;
+            want = i == 0 ? mean_reflectance(&water, (double[3]){ -d.x, -d.y, 0 }) : want;
+        }
+        CHECK(__builtin_fabs(share / want - 1) < 0.02, "rise %g: %g, not %g", rises[k], share, want);
+    }
+    lom_free_reference(reference);
+    lom_free_scene(scene);
+}
+
 int main(int argc, char **argv)
 {
     RUN(a_sine_lies_where_it_should);
@@ -169,5 +196,6 @@ int main(int argc, char **argv)
     RUN(the_border_has_no_curtain);
     RUN(still_water_is_no_mesh);
     RUN(ripples_have_their_slope);
+    RUN(ripples_mirror_as_they_are_seen);
     return check_result();
 }

@@ -2,7 +2,7 @@
  * Snell's law, total reflection, extremes, and the distance of each approximation from the exact equations. */
 #include "check.h"
 
-#include "water/surface_radiance.h"
+#include "water/seen_facets.h"
 
 #include <lom/water.h>
 
@@ -226,26 +226,23 @@ static void absorption_of_lengths_adds_up(void)
     CHECK(lom_transmittance(clear, lom_splat(1e9f)).x[0] == 1, "clear water absorbs");
 }
 
-/* A mirrored ray that goes up arrives whole; one that goes down is mirrored again as level water mirrors, all of it
- * where it grazes; the mix of the reference works has no second surface. */
+/* A share of light that smooth water mirrors up arrives whole; what goes down is mirrored again by the same share. Rough
+ * water lets more of it through the steeper it goes up, and never less than it mirrors again. */
 static void mirrored_rays_that_go_down_are_mirrored_again(void)
 {
-    const float eta = 1 / 1.333f;
-    struct lom_surface_uniforms u = { .eta = eta, .fresnel = LOM_FRESNEL_EXACT };
-    double before = 1;
-    for (int i = 0; i <= 100; i++) {
-        float sine = (float)i / 100;
-        double down = lom_second_share(&u, lom_splat(-sine))[0];
-        CHECK(lom_second_share(&u, lom_splat(sine))[0] == 1, "up by %g", (double)sine);
-        CHECK(down == fresnel((double)sine, (double)eta) && down <= before, "down by %g: %g", (double)sine, down);
-        before = down;
+    const lom_float share = lom_splat(0.25f), none = { 0 };
+    double before = 0.0625;
+    for (int i = 1; i <= 100; i++) {
+        lom_float sine = lom_splat((float)i / 100), variance = lom_splat(0.03f);
+        double up = lom_unhidden_share(share, none, sine, variance)[0];
+        CHECK(lom_unhidden_share(share, none, sine, none)[0] == 0.25f, "up by %d of 100", i);
+        CHECK(lom_unhidden_share(share, none, -sine, variance)[0] == 0.0625f, "down by %d of 100", i);
+        CHECK(up >= before - 1e-4 && up <= 0.2501, "rough, up by %d of 100: %g after %g", i, up, before);
+        before = up;
     }
-    CHECK(__builtin_fabs(before - 0.333 * 0.333 / (2.333 * 2.333)) < 1e-4, "straight down %g", before);
     lom_float mixed = lom_splat(0.5f);
     mixed[0] = -1;
-    CHECK(lom_second_share(&u, mixed)[LOM_LANES - 1] == 1, "a lane that goes up beside one that goes down");
-    u.fresnel = LOM_FRESNEL_DOT;
-    CHECK(lom_second_share(&u, lom_splat(-1))[0] == 1, "the reference works' mix");
+    CHECK(lom_unhidden_share(share, none, mixed, none)[LOM_LANES - 1] == 0.25f, "a lane up beside one that goes down");
 }
 
 int main(int argc, char **argv)
