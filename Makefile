@@ -284,6 +284,8 @@ $(patsubst %.c,$(BUILD)/%,$(wildcard tests/cli/*.c)): $(BUILD)/cli.a
 # The calls that tests/faults lets fail in turn.
 FAULTS = aligned_alloc lom_release pthread_create read write openat linkat fsync close renameat
 $(BUILD)/tests/faults/%: private LDFLAGS += $(FAULTS:%=-Wl,--wrap=%)
+$(BUILD)/tests/faults/test_trade_faults: private LDLIBS := $(BUILD)/measure.a $(BUILD)/liblom.a $(LDLIBS)
+$(BUILD)/tests/faults/test_trade_faults: $(BUILD)/measure.a
 
 # Outside witnesses, for make check-long alone: no library of theirs is ever linked with lom.
 $(BUILD)/tests/witness/witness_mathematics.w4: private LDLIBS := -lmpfr -lgmp $(LDLIBS)

@@ -52,11 +52,6 @@ static const lom_command_line line = {
     .maximum_arguments = -1,
 };
 
-static int64_t given_or(const lom_option_integers *option, int64_t otherwise)
-{
-    return option->given ? option->value[0] : otherwise;
-}
-
 /* Three decimals: finer is noise. */
 static const char *milliseconds(char text[32], double ms)
 {
@@ -108,9 +103,9 @@ static bool run_one(const bench_options *o, const char *name, lom_device *device
     lom_workload *workload = lom_create_workload(name, width, height, filtering_of(o->filtering, LOM_FILTERING_FIXED),
                                                  filtering_of(o->march, LOM_FILTERING_FLOAT), error);
     if (workload != NULL)
-        lom_set_workload_samples(workload, (int)given_or(&o->samples, 1));
-    bool done = workload != NULL && lom_time_workload(workload, device, (int)given_or(&o->warm_up, 2),
-                                                      (int)given_or(&o->frames, 20), &timing, error);
+        lom_set_workload_samples(workload, (int)lom_given_or(&o->samples, 1));
+    bool done = workload != NULL && lom_time_workload(workload, device, (int)lom_given_or(&o->warm_up, 2),
+                                                      (int)lom_given_or(&o->frames, 20), &timing, error);
     lom_image *picture = done ? lom_workload_picture(workload, device, error) : NULL;
     done = picture != NULL && (o->output == NULL || lom_write_image(o->output, NULL, picture, error));
     if (done)
@@ -132,7 +127,7 @@ static lom_device *open_device(const bench_options *o, lom_error *error)
         const char *word;
         int lanes;
     } widths[] = { { "4", 4 }, { "8", 8 }, { "16", 16 } };
-    lom_device_desc desc = { .threads = (int)given_or(&o->threads, 0), .plain = o->plain };
+    lom_device_desc desc = { .threads = (int)lom_given_or(&o->threads, 0), .plain = o->plain };
     for (int i = 0; i < 3; i++)
         if (o->lanes != NULL && strcmp(o->lanes, widths[i].word) == 0)
             desc.lanes = widths[i].lanes;

@@ -90,7 +90,7 @@ static void choose_view(lom_explain_desc *desc, const lom_scene *scene)
 static bool explain(const struct values *v, const char *path, const lom_scene *scene, int x, int y, lom_error *error)
 {
     lom_device_desc device = lom_device_of_options(&v->scene);
-    int number = v->frame.given ? (int)v->frame.value[0] : 0;
+    int number = (int)lom_given_or(&v->frame, 0);
     lom_explain_desc desc = { .frame = lom_frame_of_options(&v->scene, number),
                               .x = x,
                               .y = y,

@@ -38,6 +38,11 @@ typedef struct lom_option_integers {
     int64_t value[4]; /* as many as the pattern has capital letters */
 } lom_option_integers;
 
+static inline int64_t lom_given_or(const lom_option_integers *option, int64_t otherwise)
+{
+    return option->given ? option->value[0] : otherwise;
+}
+
 enum { LOM_OPTION_LIST_MAX = 256 };
 typedef struct lom_option_list {
     int count;

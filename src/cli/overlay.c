@@ -70,7 +70,7 @@ static bool check(const struct values *v, const lom_overlay_kind *kind, lom_erro
         return lom_fail(error, LOM_ERROR_USAGE, "A scale needs both of --low and --high.");
     if (v->low.given && v->low.value == v->high.value)
         return lom_fail(error, LOM_ERROR_USAGE, "A scale goes from a number to a greater one.");
-    if (v->run.given && v->run.value[0] > (v->frame.given ? v->frame.value[0] : 0))
+    if (v->run.given && v->run.value[0] > lom_given_or(&v->frame, 0))
         return lom_fail(error, LOM_ERROR_USAGE,
                         "There are not so many frames before the frame: --run is at most --frame.");
     return kind != NULL;
@@ -93,7 +93,7 @@ static bool draw_run(lom_renderer *renderer, const struct values *v, int number,
 static bool draw(const lom_scene *scene, const struct values *v, const lom_overlay_kind *kind, lom_error *error)
 {
     lom_device_desc device = lom_device_of_options(&v->scene);
-    int number = v->frame.given ? (int)v->frame.value[0] : 0;
+    int number = (int)lom_given_or(&v->frame, 0);
     lom_overlay_desc desc = { .frame = lom_frame_of_options(&v->scene, number),
                               .kind = kind,
                               .pass = v->pass,

@@ -63,7 +63,7 @@ int lom_command_plan(int argc, char **argv)
     if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
         return status;
     lom_device_desc device = lom_device_of_options(&values.scene);
-    lom_frame_desc desc = lom_frame_of_options(&values.scene, values.frame.given ? (int)values.frame.value[0] : 0);
+    lom_frame_desc desc = lom_frame_of_options(&values.scene, (int)lom_given_or(&values.frame, 0));
     lom_frame frame = { .image = NULL };
     lom_scene *scene = lom_open_scene(arguments.items[0], &values.scene, &error);
     bool drawable = scene != NULL && lom_check_frame(scene, &desc, &error);

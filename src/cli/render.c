@@ -144,7 +144,7 @@ static bool draw_frame(struct run *run, int number, struct moving *moving, lom_e
 static void find_frames(const struct run *run, int *first, int *last)
 {
     const struct values *v = run->values;
-    *first = *last = v->frame.given ? (int)v->frame.value[0] : 0;
+    *first = *last = (int)lom_given_or(&v->frame, 0);
     if (v->frames.given) {
         *first = v->frames.is_word ? 0 : (int)v->frames.value[0];
         *last = v->frames.is_word ? run->scene->output.frames - 1 : (int)v->frames.value[1];

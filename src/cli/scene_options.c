@@ -81,3 +81,13 @@ lom_frame_desc lom_frame_of_options(const struct lom_scene_options *options, int
                                 (int)options->crop.value[3] };
     return desc;
 }
+
+lom_frame_desc lom_small_frame_of_options(const struct lom_scene_options *options, int frame)
+{
+    lom_frame_desc desc = lom_frame_of_options(options, frame);
+    if (!options->size.given) {
+        desc.width = 320;
+        desc.height = 180;
+    }
+    return desc;
+}

@@ -78,5 +78,7 @@ lom_scene *lom_open_scene(const char *path, const struct lom_scene_options *opti
 lom_device_desc lom_device_of_options(const struct lom_scene_options *options);
 /* The frame that the options ask for. */
 lom_frame_desc lom_frame_of_options(const struct lom_scene_options *options, int frame);
+/* The same, of 320x180 pixels where no size was asked for: what is drawn many times, or shown in many pictures. */
+lom_frame_desc lom_small_frame_of_options(const struct lom_scene_options *options, int frame);
 
 #endif

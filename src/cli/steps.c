@@ -78,12 +78,8 @@ static bool move_bar(void *context, double done)
 static bool draw_steps(const struct values *v, const char *path, const lom_scene *scene, lom_error *error)
 {
     lom_device_desc device = lom_device_of_options(&v->scene);
-    int number = v->frame.given ? (int)v->frame.value[0] : 0;
-    lom_stages_desc desc = { .frame = lom_frame_of_options(&v->scene, number), .pass = v->pass };
-    if (!v->scene.size.given) {
-        desc.frame.width = 320;
-        desc.frame.height = 180;
-    }
+    int number = (int)lom_given_or(&v->frame, 0);
+    lom_stages_desc desc = { .frame = lom_small_frame_of_options(&v->scene, number), .pass = v->pass };
     if (!lom_check_frame(scene, &desc.frame, error))
         return false;
     lom_renderer *renderer = lom_create_renderer(scene, &device, error);

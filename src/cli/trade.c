@@ -14,27 +14,22 @@
 
 struct values {
     struct lom_scene_options scene;
-    const char *output, *dials, *reference;
-    lom_option_integers frame, samples, pairs, combine;
+    struct lom_trade_options common;
+    const char *output;
+    lom_option_integers combine;
     bool cpu, quiet;
 };
 
 static const lom_option options[] = {
     { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "DIR", 0, 0,
       "the folder for what is found; made when it is not there" },
-    { "dials", 0, LOM_OPTION_TEXT, offsetof(struct values, dials), "A,B", 0, 0,
-      "these alone, as docs/dials.md names them; all that act when not given" },
-    { "reference", 0, LOM_OPTION_TEXT, offsetof(struct values, reference), "KIND", 0, 0,
-      "traced (when not given), rendered: every dial at its most exact, or a picture's file" },
-    { "samples", 0, LOM_OPTION_INTEGER, offsetof(struct values, samples), "N", 1, 65536,
-      "rays a pixel of the traced reference, 64 when not given" },
-    { "pairs", 0, LOM_OPTION_INTEGER, offsetof(struct values, pairs), "N", 1, LOM_MAX_PAIRS,
+    { "pairs", 0, LOM_OPTION_INTEGER, offsetof(struct values, common.pairs), "N", 1, LOM_MAX_PAIRS,
       "frames of each setting, in turn with the default, 9 when not given" },
     { "cpu", 0, LOM_OPTION_FLAG, offsetof(struct values, cpu), NULL, 0, 0,
       "milliseconds of processor time, of all threads, instead of the clock's" },
     { "combine", 0, LOM_OPTION_INTEGER, offsetof(struct values, combine), "N", 0, 4,
       "combine the best N dials, 3 when not given" },
-    { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9, "the frame, 0 when not given" },
+    LOM_TRADE_OPTIONS(struct values),
     { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, quiet), NULL, 0, 0, "no progress bar, no table" },
     LOM_SCENE_OPTIONS(struct values),
 };
@@ -57,17 +52,10 @@ static const lom_command_line line = {
 struct trade {
     const struct values *values;
     const char *scene;
-    lom_dials dials;
-    const lom_dial *chosen[LOM_MAX_DIALS];
-    size_t chosen_count;
+    struct lom_chosen_dials dials;
     struct lom_trade_reference reference;
     lom_sweep_desc sweep;
 };
-
-static int64_t given_or(const lom_option_integers *option, int64_t otherwise)
-{
-    return option->given ? option->value[0] : otherwise;
-}
 
 /* ---- what is found ---- */
 
@@ -154,12 +142,12 @@ static void print_command(char text[600], const struct trade *t, const lom_sweep
     size_t length = (size_t)snprintf(text, 600, "lom trade %s -o DIR --size %dx%d --frame %d --pairs %d --combine %d",
                                      t->scene, desc->subject.frame.width, desc->subject.frame.height,
                                      desc->subject.frame.frame, desc->pairs, desc->combined);
-    if (v->reference != NULL && length < 600)
-        length += (size_t)snprintf(text + length, 600 - length, " --reference %s", v->reference);
+    if (v->common.reference != NULL && length < 600)
+        length += (size_t)snprintf(text + length, 600 - length, " --reference %s", v->common.reference);
     if (t->reference.samples > 0 && length < 600)
         length += (size_t)snprintf(text + length, 600 - length, " --samples %d", t->reference.samples);
-    if (v->dials != NULL && length < 600)
-        length += (size_t)snprintf(text + length, 600 - length, " --dials %s", v->dials);
+    if (v->common.dials != NULL && length < 600)
+        length += (size_t)snprintf(text + length, 600 - length, " --dials %s", v->common.dials);
     if (v->cpu && length < 600)
         length += (size_t)snprintf(text + length, 600 - length, " --cpu");
     if (v->scene.threads.given && length < 600)
@@ -219,26 +207,16 @@ static bool run(struct trade *t, bool *equal, lom_error *error)
 static bool prepare(struct trade *t, lom_error *error)
 {
     const struct values *v = t->values;
-    lom_frame_desc frame = lom_frame_of_options(&v->scene, (int)given_or(&v->frame, 0));
-    if (!v->scene.size.given) {
-        frame.width = 320;
-        frame.height = 180;
-    }
-    const lom_subject subject = {
-        .path = t->scene, .frame = frame, .device = lom_device_of_options(&v->scene), .of_processors = v->cpu
-    };
-    lom_list_dials(&t->dials);
-    if (!lom_choose_dials(&t->dials, v->dials, t->chosen, &t->chosen_count, error) ||
-        !lom_prepare_trade_reference(&t->reference, v->reference, v->output, &v->scene, &subject,
-                                     (int)given_or(&v->samples, 64), error))
+    const lom_subject subject = { .path = t->scene, .of_processors = v->cpu };
+    if (!lom_prepare_trade(&t->reference, &t->dials, &v->common, &v->scene, subject, v->output, error))
         return false;
     t->sweep = (lom_sweep_desc){ .subject = t->reference.subject,
                                  .whole = t->reference.whole,
                                  .reference_name = t->reference.name,
-                                 .dials = t->chosen,
-                                 .dial_count = t->chosen_count,
-                                 .pairs = (int)given_or(&v->pairs, 9),
-                                 .combined = (int)given_or(&v->combine, 3) };
+                                 .dials = t->dials.chosen,
+                                 .dial_count = t->dials.count,
+                                 .pairs = (int)lom_given_or(&v->common.pairs, 9),
+                                 .combined = (int)lom_given_or(&v->combine, 3) };
     return true;
 }
 

@@ -13,9 +13,9 @@
 
 struct values {
     struct lom_scene_options scene;
-    const char *output, *dials, *reference;
+    struct lom_trade_options common;
+    const char *output;
     lom_option_number max_flip, min_psnr, budget;
-    lom_option_integers frame, samples, pairs;
     bool clock, quiet;
 };
 
@@ -30,15 +30,9 @@ static const lom_option options[] = {
       "the most exact settings that cost at most WORK; milliseconds with --clock" },
     { "clock", 0, LOM_OPTION_FLAG, offsetof(struct values, clock), NULL, 0, 0,
       "cost is time by the clock, not declared work: another answer each time" },
-    { "dials", 0, LOM_OPTION_TEXT, offsetof(struct values, dials), "A,B", 0, 0,
-      "these alone, as docs/dials.md names them; all that act when not given" },
-    { "reference", 0, LOM_OPTION_TEXT, offsetof(struct values, reference), "KIND", 0, 0,
-      "traced (when not given), rendered: every dial at its most exact, or a picture's file" },
-    { "samples", 0, LOM_OPTION_INTEGER, offsetof(struct values, samples), "N", 1, 65536,
-      "rays a pixel of the traced reference, 64 when not given" },
-    { "pairs", 0, LOM_OPTION_INTEGER, offsetof(struct values, pairs), "N", 1, LOM_MAX_PAIRS,
+    { "pairs", 0, LOM_OPTION_INTEGER, offsetof(struct values, common.pairs), "N", 1, LOM_MAX_PAIRS,
       "with --clock: frames of each way, in turn with the default, 9 when not given" },
-    { "frame", 0, LOM_OPTION_INTEGER, offsetof(struct values, frame), "N", 0, 1e9, "the frame, 0 when not given" },
+    LOM_TRADE_OPTIONS(struct values),
     { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, quiet), NULL, 0, 0, "no progress bar, no report" },
     LOM_SCENE_OPTIONS(struct values),
 };
@@ -59,16 +53,10 @@ static const lom_command_line line = {
 struct tune {
     const struct values *values;
     const char *scene;
-    lom_dials dials;
-    const lom_dial *chosen[LOM_MAX_DIALS];
+    struct lom_chosen_dials dials;
     struct lom_trade_reference reference;
     lom_tuner_desc desc;
 };
-
-static int64_t given_or(const lom_option_integers *option, int64_t otherwise)
-{
-    return option->given ? option->value[0] : otherwise;
-}
 
 /* Which of the three limits was given. */
 static bool find_goal(const struct values *v, lom_tuner_desc *desc)
@@ -150,21 +138,14 @@ static bool run(struct tune *t, lom_tuning *tuning, lom_error *error)
 static bool prepare(struct tune *t, lom_error *error)
 {
     const struct values *v = t->values;
-    lom_frame_desc frame = lom_frame_of_options(&v->scene, (int)given_or(&v->frame, 0));
-    if (!v->scene.size.given) {
-        frame.width = 320;
-        frame.height = 180;
-    }
-    const lom_subject subject = { .path = t->scene, .frame = frame, .device = lom_device_of_options(&v->scene) };
-    lom_list_dials(&t->dials);
-    if (!lom_choose_dials(&t->dials, v->dials, t->chosen, &t->desc.dial_count, error) ||
-        !lom_prepare_trade_reference(&t->reference, v->reference, NULL, &v->scene, &subject,
-                                     (int)given_or(&v->samples, 64), error))
+    const lom_subject subject = { .path = t->scene };
+    if (!lom_prepare_trade(&t->reference, &t->dials, &v->common, &v->scene, subject, NULL, error))
         return false;
     t->desc.subject = t->reference.subject;
-    t->desc.dials = t->chosen;
+    t->desc.dials = t->dials.chosen;
+    t->desc.dial_count = t->dials.count;
     t->desc.by_clock = v->clock;
-    t->desc.pairs = (int)given_or(&v->pairs, 9);
+    t->desc.pairs = (int)lom_given_or(&v->common.pairs, 9);
     return true;
 }
 

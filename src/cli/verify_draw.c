@@ -115,7 +115,7 @@ static lom_verified judge(const struct lom_verifier *verifier, const struct lom_
 
 static bool verify_picture(struct lom_verifier *verifier, const struct lom_golden *golden, struct lom_outcome *o)
 {
-    int number = golden->frame.given ? (int)golden->frame.value[0] : 0;
+    int number = (int)lom_given_or(&golden->frame, 0);
     lom_frame_desc desc = lom_frame_of_options(&golden->options, number);
     lom_frame frames[2] = { { .image = NULL }, { .image = NULL } };
     bool done = provide_scene(verifier, golden, &desc, o);

@@ -54,15 +54,14 @@ static bool measure(const struct base *base, const lom_sweep_desc *desc, lom_tri
     return true;
 }
 
-/* A scene may refuse a setting, and a build a width of lanes; memory that runs out, and what else fails, ends the
- * sweep. */
+/* What is refused is told in its trial; all else ends the sweep. */
 static bool try_choices(struct base *base, const lom_sweep_desc *desc, lom_trial *trial, lom_error *error)
 {
     lom_error refused = { .code = LOM_OK };
     trial->reference = trial->is_equal ? "default" : base->name;
     if (lom_set_drawer(&base->other, base->subject, &trial->choices, &refused))
         return measure(base, desc, trial, error);
-    if (refused.code == LOM_ERROR_MEMORY || refused.code == LOM_ERROR_FILE)
+    if (!lom_is_refusal(&refused))
         return lom_fail(error, refused.code, "%s", refused.text);
     snprintf(trial->failed, sizeof trial->failed, "%.*s", (int)sizeof trial->failed - 1, refused.text);
     return true;

@@ -69,6 +69,11 @@ bool lom_set_drawer(lom_drawer *drawer, const lom_subject *subject, const lom_ch
     return true;
 }
 
+bool lom_is_refusal(const lom_error *error)
+{
+    return error->code != LOM_ERROR_MEMORY && error->code != LOM_ERROR_FILE && error->code != LOM_ERROR_THREAD;
+}
+
 void lom_end_drawer(lom_drawer *drawer)
 {
     lom_free_renderer(drawer->renderer);

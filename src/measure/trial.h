@@ -38,6 +38,9 @@ typedef struct lom_drawer {
 /* Makes it draw the subject this way; false on failure: a setting that the scene refuses. It draws what it drew
  * before, then. */
 bool lom_set_drawer(lom_drawer *drawer, const lom_subject *subject, const lom_choices *choices, lom_error *error);
+/* Whether it was the setting's fault, which the scene or the build refuses: other ways may be drawn. What fails for want
+ * of memory, a file or a thread fails for all. */
+bool lom_is_refusal(const lom_error *error);
 void lom_end_drawer(lom_drawer *drawer);
 /* The picture of the subject's frame, after the frames before it where plates of clouds depend on them. NULL on
  * failure; freed with lom_free_image. */

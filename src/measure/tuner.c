@@ -75,7 +75,7 @@ static bool look_at(struct tuner *tuner, lom_tuned *way, bool *drawn, lom_error 
     lom_error refused = { .code = LOM_OK };
     *drawn = lom_set_drawer(&tuner->drawer, &tuner->desc->subject, &way->choices, &refused);
     if (!*drawn)
-        return refused.code != LOM_ERROR_MEMORY || lom_fail(error, refused.code, "%s", refused.text);
+        return lom_is_refusal(&refused) || lom_fail(error, refused.code, "%s", refused.text);
     lom_image *picture = lom_draw_subject(&tuner->drawer, &tuner->desc->subject, error);
     const bool done = picture != NULL && lom_measure_error(tuner->desc->reference, picture, &way->error, error) &&
                       find_cost(tuner, way, error);
