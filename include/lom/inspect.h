@@ -32,7 +32,7 @@ typedef struct lom_explained {
     int depth;                   /* pictures between it and the pixel */
     const lom_pixel_record *record;
     const lom_triangle_record *owner; /* the last triangle that is stored there; NULL: none */
-    lom_vec3 eye;                  /* of the picture's pass, in the world: places less the eye plus this are places */
+    lom_vec3 eye; /* of the picture's pass, as in the scene's file: places less the eye plus this are places */
     char verdict[LOM_MAX_VERDICT]; /* a sentence */
 } lom_explained;
 

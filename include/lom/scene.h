@@ -232,6 +232,7 @@ typedef struct lom_terrain {
     bool present;
     const char *height_map;
     double size[2];         /* width along x and length along z, metres; the terrain is centred on x = z = 0 */
+    double position[2];     /* x and z of that middle in the file's coordinates: taken off all places of the scene */
     double height;          /* metres from black to white */
     double base;            /* y of black, metres */
     const char *texture;    /* colour texture, or NULL */
@@ -339,6 +340,8 @@ typedef struct lom_quality {
 
 /* ---- the scene ---- */
 
+/* Places are metres from the middle of the terrain: the reader has taken terrain.position off every x and z, so that a
+ * scene is drawn as exactly far from the origin as at it. */
 typedef struct lom_scene {
     bool present;
     const char *title; /* or NULL */
@@ -381,6 +384,9 @@ lom_scene *lom_read_scene(const char *path, const char *const *overrides, size_t
 lom_scene *lom_decode_scene(const char *text, size_t size, const char *path, const char *const *overrides,
                             size_t override_count, lom_error *error);
 void lom_free_scene(lom_scene *scene);
+
+/* A place of the scene in the coordinates of its file: terrain.position is added. */
+lom_vec3 lom_place_in_file(const lom_scene *scene, lom_vec3 place);
 
 /* Every file the scene names, the scene file first, each once: what --watch looks at. The list belongs to the scene. */
 const char *const *lom_scene_files(const lom_scene *scene, size_t *count);

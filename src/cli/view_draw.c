@@ -79,7 +79,7 @@ char *lom_view_command(const struct lom_view *view, lom_error *error)
         char eye[LOM_MAX_SETTING], value[LOM_MAX_SETTING + 8];
         const size_t followed = view->eye.followed;
         lom_print_eye(eye, sizeof eye, &view->eye, followed != 0 ? view->scene->entities[followed - 1].name : NULL,
-                      &view->scene->camera);
+                      view->scene, &view->scene->camera);
         snprintf(value, sizeof value, "camera=%s", eye);
         add_setting(out, value);
     }

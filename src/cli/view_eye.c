@@ -124,10 +124,15 @@ static size_t print_projection(char *text, size_t room, const lom_camera *camera
                                ", receding_angle = ", camera->receding_angle / lom_radians_per_degree);
 }
 
-size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const char *name, const lom_camera *like)
+size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const char *name, const lom_scene *scene,
+                     const lom_camera *like)
 {
     lom_camera camera = *like;
     lom_eye_camera(eye, &camera);
+    if (name == NULL) {
+        camera.position = lom_place_in_file(scene, camera.position);
+        camera.target = lom_place_in_file(scene, camera.target);
+    }
     size_t used = print_place(text, room, "{ position = [", camera.position);
     used += print_place(text + used, room - used, "], target = [", camera.target);
     used += print_number(text + used, room - used, "], field_of_view = ", eye->degrees);

@@ -33,7 +33,8 @@ void lom_eye_camera(const struct lom_eye *eye, lom_camera *camera);
 lom_camera_view lom_eye_view(const struct lom_eye *eye, const lom_scene *scene, double time);
 /* The same camera as the value of the key "camera" in a scene file: "{ position = ... }". name: the followed entity's;
  * like: the camera whose projection and planes it has. The number of characters, at most room - 1. */
-size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const char *name, const lom_camera *like);
+size_t lom_print_eye(char *text, size_t room, const struct lom_eye *eye, const char *name, const lom_scene *scene,
+                     const lom_camera *like);
 
 /* Turns it by radians to the left and upwards; a third person goes around. Never over the zenith. */
 void lom_turn_eye(struct lom_eye *eye, double left, double up);

@@ -30,7 +30,7 @@ static void set_camera(struct lom_view *view)
         return;
     }
     char text[LOM_MAX_SETTING];
-    lom_print_eye(text, sizeof text, &view->eye, followed_name(view, view->eye.followed), &camera);
+    lom_print_eye(text, sizeof text, &view->eye, followed_name(view, view->eye.followed), view->scene, &camera);
     view->has_changed = lom_set_setting(&view->settings, "camera", text) || view->has_changed;
 }
 

@@ -95,9 +95,10 @@ static bool place(struct lom_view *view)
 {
     const struct lom_pilot *pilot = &view->pilot;
     lom_vec3 turn = lom_rotation_of_flight(pilot->yaw, pilot->pitch, pilot->roll);
-    const double numbers[6] = { pilot->position.x,
-                                pilot->position.y,
-                                pilot->position.z,
+    const lom_vec3 position = lom_place_in_file(view->scene, pilot->position);
+    const double numbers[6] = { position.x,
+                                position.y,
+                                position.z,
                                 turn.x / lom_radians_per_degree,
                                 turn.y / lom_radians_per_degree,
                                 turn.z / lom_radians_per_degree };

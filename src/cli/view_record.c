@@ -14,6 +14,12 @@ static const double seconds_between_keys = 0.25;
 
 /* ---- the way ---- */
 
+/* A place of the scene as its file has it; what follows an entity is in the entity's coordinates. */
+static lom_vec3 place_in_file(const struct lom_view *view, const lom_scene *scene, lom_vec3 place)
+{
+    return view->eye.followed != 0 ? place : lom_place_in_file(scene, place);
+}
+
 static void add_key(struct lom_view *view)
 {
     struct lom_recording *r = &view->recording;
@@ -23,8 +29,12 @@ static void add_key(struct lom_view *view)
     lom_eye_camera(&view->eye, &camera);
     double time = r->start + r->seconds;
     if (r->count == 0 || time > r->keys[r->count - 1].time)
-        r->keys[r->count++] =
-            (lom_camera_key){ true, time, camera.position, camera.target, view->eye.degrees, view->eye.height };
+        r->keys[r->count++] = (lom_camera_key){ true,
+                                                time,
+                                                place_in_file(view, view->scene, camera.position),
+                                                place_in_file(view, view->scene, camera.target),
+                                                view->eye.degrees,
+                                                view->eye.height };
 }
 
 void lom_step_recording(struct lom_view *view, double seconds)
@@ -158,9 +168,12 @@ static bool check_text(const struct lom_view *view, const char *text, size_t siz
     lom_scene *scene = lom_decode_scene(text, size, name, NULL, 0, error);
     bool same =
         scene != NULL && scene->camera.key_count == r->count && scene->entity_count == view->scene->entity_count;
-    for (size_t i = 0; same && i < r->count; i++)
-        same = memcmp(&scene->camera.keys[i].position, &r->keys[i].position, sizeof(lom_vec3)) == 0 &&
-               memcmp(&scene->camera.keys[i].target, &r->keys[i].target, sizeof(lom_vec3)) == 0;
+    for (size_t i = 0; same && i < r->count; i++) {
+        const lom_vec3 position = place_in_file(view, scene, scene->camera.keys[i].position);
+        const lom_vec3 target = place_in_file(view, scene, scene->camera.keys[i].target);
+        same = memcmp(&position, &r->keys[i].position, sizeof position) == 0 &&
+               memcmp(&target, &r->keys[i].target, sizeof target) == 0;
+    }
     if (scene != NULL && !same)
         lom_fail(error, LOM_ERROR_INPUT, "%s: its camera cannot be replaced: it is not in tables of its own.",
                  view->path);

@@ -190,7 +190,7 @@ static const lom_key clouds[] = {
     { "area", LOM_KEY_NUMBER, OF_ALL(area), 2, .flags = LOM_KEY_SPREAD, .minimum = 1, .maximum = 1e6,
       .initial = { 16000, 16000 }, .unit = "m", .text = "Along x and z: where the middles of clouds are." },
     { "middle", LOM_KEY_NUMBER, OF_ALL(middle), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
-      .text = "x and z of the middle of that area." },
+      .initial_text = "the terrain's, else 0", .text = "x and z of the middle of that area." },
     { "sizes", LOM_KEY_NUMBER, OF_ALL(sizes), 2, .minimum = 0.001, .maximum = 100, .initial = { 0.7, 1.3 },
       .text = "The least and the largest cloud, in parts of its kind's size. A cover that is nearly reached may be "
               "ended by "

@@ -32,10 +32,20 @@ static void way_at(const lom_clouds *params, double height, double time, double 
         way[k] += (above[k] - way[k]) * part;
 }
 
-/* Whole 64ths of a metre: clouds of one wind then keep the same distances to the bit, and so their light. */
-static double round_way(double way)
+/* Ways are whole 64ths of a metre, so that clouds of one wind keep the same distances to the bit, and so their light; of a
+ * cloud smaller than 4 m they are parts by a power of two, a 4096th of it or less. */
+static double find_grain(const lom_cloud *cloud)
 {
-    return lom_double_floor(way * 64 + 0.5) / 64;
+    const double *size = cloud->size, smallest = lom_smaller(lom_smaller(size[0], size[1]), size[2]);
+    double grain = 64;
+    while (smallest < 4 && grain * smallest < 4096 && grain < 0x1p40)
+        grain *= 2;
+    return grain;
+}
+
+static double round_way(double way, double grain)
+{
+    return lom_double_floor(way * grain + 0.5) / grain;
 }
 
 lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double time)
@@ -43,7 +53,8 @@ lom_vec3 lom_cloud_way(const lom_clouds *params, const lom_cloud *cloud, double 
     double way[2] = { 0, 0 };
     if (params->wind_count != 0)
         way_at(params, cloud->position.y + cloud->size[1] / 2, time, way);
-    return (lom_vec3){ round_way(way[0]), 0, round_way(way[1]) };
+    const double grain = find_grain(cloud);
+    return (lom_vec3){ round_way(way[0], grain), 0, round_way(way[1], grain) };
 }
 
 void lom_move_clouds(struct lom_cloud_set *set, double time)

@@ -207,8 +207,8 @@ static lom_vec3 find_eye(const lom_renderer *r, const lom_explained *e)
     lom_vec3 eye = lom_camera_eye(&r->moment.camera);
     for (const lom_pass_record *p = e->record->passes; p != NULL; p = p->next)
         if (p->label != NULL && strcmp(p->label, "reflection") == 0)
-            return (lom_vec3){ eye.x, 2 * r->scene->water.level - eye.y, eye.z };
-    return eye;
+            eye.y = 2 * r->scene->water.level - eye.y;
+    return lom_place_in_file(r->scene, eye);
 }
 
 static void describe(const lom_renderer *r, lom_explanation *explanation)

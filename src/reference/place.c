@@ -10,7 +10,7 @@ static lom_vec3 vector_of_floats(const float v[3])
 
 /* ---- triangles ---- */
 
-/* Appends the vertices of a mesh; NULL matrices: as they are. Returns the index of the first. */
+/* Appends the vertices of a mesh; NULL: as they are. Returns the index of the first. */
 static uint32_t add_points(lom_reference *reference, const lom_mesh *mesh, const lom_mat4 *place,
                            const lom_mat4 *normals)
 {
@@ -55,10 +55,10 @@ static bool add_ground(lom_reference *reference, lom_error *error)
     const lom_terrain *t = &reference->scene->terrain;
     if (reference->ground_columns == 0)
         return true;
-    lom_mesh *ground =
-        lom_make_terrain(reference->world->height_map, t->size[0], t->size[1], t->height, t->base, error);
+    const lom_mat4 raised = lom_translation((lom_vec3){ 0, t->base, 0 });
+    lom_mesh *ground = lom_make_terrain(reference->world->height_map, t->size[0], t->size[1], t->height, 0, error);
     if (ground != NULL) {
-        uint32_t first = add_points(reference, ground, NULL, NULL);
+        uint32_t first = add_points(reference, ground, &raised, NULL);
         add_triangles(reference, ground, &ground->parts[0], first, LOM_TERRAIN_MATERIAL, false);
     }
     lom_free_mesh(ground);

@@ -1,5 +1,6 @@
 /* Shadows. In: a place, the way to a light. Out: whether an opaque triangle stands on it; what is transparent throws no
  * shadow. */
+#include "base/numbers.h"
 #include "reference/reference.h"
 
 /* What throws it. */
@@ -25,7 +26,9 @@ static bool is_blocked(const lom_reference *reference, const struct lom_ray *ray
 
 static bool is_open(const lom_reference *reference, const struct lom_ray *ray, struct casters casters, double high)
 {
-    double low = 1e-6 * (1 + lom_double_sqrt(dot(ray->origin, ray->origin)));
+    /* past the triangle that it starts on, by more than places are rounded */
+    const double from = lom_double_sqrt(dot(ray->origin, ray->origin));
+    double low = 1e-6 * (1 + lom_smaller(from, 4096)) + 0x1p-46 * from;
     return !is_blocked(reference, ray, casters, false, low, high) &&
            !is_blocked(reference, ray, casters, true, low, high);
 }

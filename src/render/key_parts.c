@@ -25,7 +25,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_HEIGHTS, "terrain.height_map terrain.size terrain.height terrain.base" },
     { LOM_PART_GROUND_MAPS, "terrain.texture terrain.detail_map terrain.normal_map terrain.layer terrain.layer.map "
                             "terrain.layer.grain" },
-    { each_frame, "terrain.material.*" },
+    { each_frame, "terrain.material.* terrain.position" },
     { LOM_PART_GROUND_LAYERS, "terrain.tile terrain.detail_tile terrain.layer.tile terrain.layer.from_height "
                               "terrain.layer.to_height terrain.layer.from_slope terrain.layer.to_slope "
                               "terrain.layer.blend terrain.layer.slope_blend terrain.layer.mapping" },

@@ -43,6 +43,14 @@ lom_key_check lom_check_of(lom_reader *reader, const lom_toml_value *table)
     return (lom_key_check){ is_given, fail, element, path, reader->error, reader, table };
 }
 
+lom_key_check lom_check_inside(const lom_key_check *check, const char *key)
+{
+    const lom_toml_value *value = child(check->table, key);
+    if (value != NULL && value->type == LOM_TOML_ARRAY)
+        return element(check, key, 0);
+    return lom_check_of(check->reader, value);
+}
+
 bool lom_check_rising_time(const lom_key_check *check, double before, double time)
 {
     return time - before >= least_interval ||

@@ -31,9 +31,14 @@ bool lom_add_scene_file(lom_scene *scene, const char *path, lom_error *error);
 
 /* key_check.c: what the check of a table that was read from this value (NULL: it is not in the file) asks and says. */
 lom_key_check lom_check_of(lom_reader *reader, const lom_toml_value *table);
+/* The check of the table under a key of a checked table; of an array of them the first. */
+lom_key_check lom_check_inside(const lom_key_check *check, const char *key);
 
 /* scene_override.c: puts the value of "KEY=VALUE", or what "@FILE" holds, into the tree under root. */
 bool lom_apply_override(lom_reader *reader, lom_toml_value *root, const char *text);
+
+/* scene_places.c: takes terrain.position off every place of a scene that was read from this root. */
+void lom_measure_from_terrain(lom_scene *scene, const lom_key_check *root);
 
 /* scene_check.c: what concerns several tables at once. */
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root);

@@ -8,15 +8,6 @@
 
 #include <string.h>
 
-/* The check of a table inside the root; of an array of them the first. */
-static lom_key_check table_of(const lom_key_check *root, const char *key)
-{
-    const lom_toml_value *table = root->table, *value = lom_toml_find(table, key, strlen(key));
-    if (value != NULL && value->type == LOM_TOML_ARRAY)
-        return root->element(root, key, 0);
-    return lom_check_of(root->reader, value);
-}
-
 /* ---- names ---- */
 
 /* Things of an array that have names. */
@@ -77,7 +68,7 @@ static size_t find_entity(const lom_scene *scene, const char *name)
 
 static bool check_ground(lom_scene *scene, const lom_key_check *root)
 {
-    const lom_key_check surf = table_of(root, "surf");
+    const lom_key_check surf = lom_check_inside(root, "surf");
     if (scene->surf.height > 0 && !scene->terrain.present)
         return surf.fail(&surf, "height", "waves come in to a shore: there is no terrain.");
     for (size_t i = 0; i < scene->entity_count; i++)
@@ -91,7 +82,7 @@ static bool check_ground(lom_scene *scene, const lom_key_check *root)
 static bool check_waters(lom_scene *scene, const lom_key_check *root)
 {
     const size_t count = scene->other_water_count;
-    const lom_key_check first = table_of(root, "water");
+    const lom_key_check first = lom_check_inside(root, "water");
     if (count > LOM_MAX_OTHER_WATERS) {
         const lom_key_check at = root->element(root, "water", LOM_MAX_OTHER_WATERS + 1);
         return at.fail(&at, "", "a scene has at most 8 waters.");
@@ -113,7 +104,7 @@ static bool check_waters(lom_scene *scene, const lom_key_check *root)
 static bool check_shallow(lom_scene *scene, const lom_key_check *root)
 {
     lom_shallow_water *shallow = &scene->shallow;
-    const lom_key_check table = table_of(root, "shallow");
+    const lom_key_check table = lom_check_inside(root, "shallow");
     if (!shallow->present)
         return true;
     if (!scene->water.present)
@@ -132,14 +123,14 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     lom_camera *camera = &scene->camera;
     camera->followed = camera->follow == NULL ? 0 : find_entity(scene, camera->follow);
     if (camera->follow != NULL && camera->followed == 0) {
-        const lom_key_check table = table_of(root, "camera");
+        const lom_key_check table = lom_check_inside(root, "camera");
         return table.fail(&table, "follow", "no entity has this name.");
     }
     for (size_t i = 0; i < scene->view_count; i++) {
         lom_camera *own = &scene->views[i].camera;
         own->followed = own->follow == NULL ? 0 : find_entity(scene, own->follow);
         if (own->follow != NULL && own->followed == 0) {
-            const lom_key_check at = root->element(root, "view", i), table = table_of(&at, "camera");
+            const lom_key_check at = root->element(root, "view", i), table = lom_check_inside(&at, "camera");
             return table.fail(&table, "follow", "no entity has this name.");
         }
     }
@@ -155,7 +146,7 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
         lom_shallow_body *body = &scene->shallow.bodies[i];
         body->followed = body->entity == NULL ? 0 : find_entity(scene, body->entity);
         if (body->entity != NULL && body->followed == 0) {
-            const lom_key_check table = table_of(root, "shallow"), at = table.element(&table, "body", i);
+            const lom_key_check table = lom_check_inside(root, "shallow"), at = table.element(&table, "body", i);
             return at.fail(&at, "entity", "no entity has this name.");
         }
     }
@@ -224,6 +215,7 @@ static bool add_sky(lom_scene *scene, lom_reader *reader)
 bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
 {
     const lom_key_check check = lom_check_of(reader, root);
+    lom_measure_from_terrain(reader->scene, &check);
     return check_all_names(reader->scene, &check) && check_waters(reader->scene, &check) &&
            check_ground(reader->scene, &check) && check_shallow(reader->scene, &check) &&
            check_followed(reader->scene, &check) && check_drops(reader->scene, &check) &&

@@ -14,6 +14,7 @@ static const lom_key keys[] = {
     { "level", LOM_KEY_NUMBER, AT(level), .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Height (y) of the surface." },
     { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .initial_text = "the terrain's, else 0",
       .text = "x and z of the middle of the quad; waves, ripples and foam move with it." },
     { "size",
       LOM_KEY_NUMBER,

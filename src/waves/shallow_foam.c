@@ -31,10 +31,11 @@ static double foam_at(const struct lom_shallow_region *region, const lom_shallow
 static void carry(struct lom_shallow_region *region, const lom_shallow_view *v, double left)
 {
     const size_t columns = (size_t)v->columns;
+    const double least = shallowest * lom_shallow_film(v->cell);
     for (int z = 0; z < v->rows; z++)
         for (int x = 0; x < v->columns; x++) {
             const size_t at = cell_of(v, x, z), face = (size_t)z * (columns + 1) + (size_t)x;
-            const double per_depth = v->step / (v->cell * lom_larger(v->depth[at], shallowest));
+            const double per_depth = v->step / (v->cell * lom_larger(v->depth[at], least));
             const double dx = (v->flow_x[face] + v->flow_x[face + 1]) / 2 * per_depth;
             const double dz = (v->flow_z[at] + v->flow_z[at + columns]) / 2 * per_depth;
             const double made = v->depth[at] > 0 ? lom_shallow_froude_foam(v, x, z) : 0;
@@ -50,7 +51,8 @@ static void churn(struct lom_shallow_region *region, const lom_shallow_view *v, 
                   const lom_shallow_obstacle *before)
 {
     const double x = body->x - before->x, z = body->z - before->z;
-    const double speed = lom_double_sqrt(x * x + z * z) / v->step, strength = lom_smaller(speed / churning, 1);
+    const double speed = lom_double_sqrt(x * x + z * z) / v->step;
+    const double strength = lom_smaller(speed / (churning * lom_double_sqrt(lom_shallow_film(v->cell))), 1);
     const double along[2] = { lom_double_cos(body->heading), lom_double_sin(body->heading) };
     const double reach = lom_larger(body->half[0], body->half[1]) / v->cell;
     const double low[2] = { body->x / v->cell - reach, body->z / v->cell - reach };

@@ -1,10 +1,22 @@
 /* The surface over shallow water and over what is dry. In: depths of cells; out: heights, slopes and foam. Invariant: a
  * texel is a function of its cell and the eight around it. */
+#include "base/numbers.h"
 #include "waves/shallow_surface.h"
 
 enum { FADE = 6 };   /* cells at the border */
 enum { PIECE = 16 }; /* rows that a worker fills at a time */
-static const double least_depth = 1e-3, below_bed = 0.05, gravity = 9.80665;
+/* metres, at cells of 0.25 m; m/s^2 */
+static const double least_depth = 1e-3, below_bed = 0.05, thinnest = 0.02, gravity = 9.80665;
+
+double lom_shallow_film(double cell)
+{
+    double film = 1;
+    while (film > 4 * cell)
+        film /= 2;
+    while (2 * film <= 4 * cell)
+        film *= 2;
+    return film;
+}
 
 /* Cell (x, z), moved into the grid. */
 static size_t cell_of(const lom_shallow_view *v, int x, int z)
@@ -16,7 +28,7 @@ static size_t cell_of(const lom_shallow_view *v, int x, int z)
 
 static bool is_wet(const lom_shallow_view *v, size_t cell)
 {
-    return v->depth[cell] > least_depth;
+    return v->depth[cell] > least_depth * lom_shallow_film(v->cell);
 }
 
 static double surface_of(const lom_shallow_view *v, size_t cell)
@@ -38,7 +50,8 @@ static double hidden_surface(const lom_shallow_view *v, int x, int z)
                 wet++;
             }
         }
-    double own = v->bed[cell_of(v, x, z)] - below_bed, around = wet > 0 ? sum / wet : lowest - below_bed;
+    const double below = below_bed * lom_shallow_film(v->cell);
+    double own = v->bed[cell_of(v, x, z)] - below, around = wet > 0 ? sum / wet : lowest - below;
     return around < own ? around : own;
 }
 
@@ -53,12 +66,12 @@ static double slope(const lom_shallow_view *v, size_t before, size_t at, size_t 
 
 double lom_shallow_froude_foam(const lom_shallow_view *v, int x, int z)
 {
-    const double depth = v->depth[cell_of(v, x, z)];
+    const double depth = lom_larger(v->depth[cell_of(v, x, z)], thinnest * lom_shallow_film(v->cell));
     size_t columns = (size_t)v->columns, row = (size_t)z * (columns + 1) + (size_t)x;
     double qx = (v->flow_x[row] + v->flow_x[row + 1]) / 2;
     double qz = (v->flow_z[(size_t)z * columns + (size_t)x] + v->flow_z[(size_t)(z + 1) * columns + (size_t)x]) / 2;
-    double speed = lom_double_sqrt(qx * qx + qz * qz) / (depth > 0.02 ? depth : 0.02);
-    double froude = speed / lom_double_sqrt(gravity * (depth > 0.02 ? depth : 0.02)), foam = (froude - 0.7) / 0.8;
+    double speed = lom_double_sqrt(qx * qx + qz * qz) / depth;
+    double froude = speed / lom_double_sqrt(gravity * depth), foam = (froude - 0.7) / 0.8;
     return foam < 0 ? 0 : foam > 1 ? 1 : foam;
 }
 

@@ -16,6 +16,10 @@ enum { LOM_SHALLOW_BOUND = 1000 };
 int lom_fill_shallow_surface(const lom_shallow_view *view, lom_pool *pool, double level, bool fades,
                              const float *carried, float (*surface)[4], float (*moments)[4], float bounds[2]);
 
+/* By what thicknesses are multiplied from which on water is wet, or carries foam, so that a model of a lake is as wet as
+ * the lake: the power of two at or below the cell (metres, 1e-3..1e5) over 0.25, for which they are given. */
+double lom_shallow_film(double cell);
+
 /* Foam that water makes in a cell, 0 none .. 1. */
 double lom_shallow_froude_foam(const lom_shallow_view *view, int x, int z);
 

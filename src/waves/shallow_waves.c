@@ -63,7 +63,8 @@ static void bound(const void *memory, struct lom_waves_uniform *out, double time
 {
     (void)time;
     const struct state *state = memory;
-    out->lowest += (float)(state->region.lowest - 0.1); /* the surface of what is dry, too */
+    out->lowest += (float)(state->region.lowest -
+                           0.1 * lom_shallow_film(state->region.cell)); /* the surface of what is dry, too */
     out->highest += LOM_SHALLOW_BOUND;
 }
 

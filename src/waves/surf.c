@@ -4,6 +4,7 @@
 #include "waves/surf_work.h"
 
 static const double gravity = 9.80665;
+static const double thinnest = 0.02; /* metres of a sheet that runs up; less where depths are closer than 10 m */
 static const double stable_ratio = 0.4, decay = 0.15;
 enum { ROUNDS = 6, NEWTON = 12 };
 
@@ -260,11 +261,12 @@ static bool take_memory(struct surf *s, struct lom_surf_map *map, size_t count, 
 bool lom_make_surf_map(struct lom_surf_map *map, const struct lom_surf_desc *desc, lom_error *error)
 {
     const size_t count = (size_t)desc->width * (size_t)desc->height;
+    const double least = lom_smaller(desc->spacing[0], desc->spacing[1]);
     struct surf s = { .desc = desc,
                       .width = desc->width,
                       .height = desc->height,
                       .frequency = lom_two_pi / desc->surf.period,
-                      .shallowest = lom_larger(0.1 * desc->surf.height, 0.02) };
+                      .shallowest = lom_larger(0.1 * desc->surf.height, thinnest * lom_smaller(1, 0.1 * least)) };
     *map = (struct lom_surf_map){ .width = desc->width, .height = desc->height };
     memcpy(map->spacing, desc->spacing, sizeof map->spacing);
     bool done = take_memory(&s, map, count, error);

@@ -50,7 +50,7 @@ static void check_eye(const lom_scene *scene, const struct lom_eye *eye, double 
 {
     char text[LOM_MAX_SETTING], override[LOM_MAX_SETTING + 8];
     const char *name = eye->followed != 0 ? scene->entities[eye->followed - 1].name : NULL;
-    lom_print_eye(text, sizeof text, eye, name, &scene->camera);
+    lom_print_eye(text, sizeof text, eye, name, scene, &scene->camera);
     snprintf(override, sizeof override, "camera=%s", text);
     const char *overrides[] = { override };
     lom_scene *other = read_text(overrides, 1);
