@@ -4,17 +4,19 @@
  * Stomakhin: The affine particle-in-cell method, SIGGRAPH 2015). In each step they are summed into the faces of a grid
  * of cells twice as wide as they are apart (F. Harlow, J. Welch: Numerical calculation of time-dependent viscous
  * incompressible flow, Physics of Fluids 8, 1965; Y. Zhu, R. Bridson: Animating sand as a fluid, SIGGRAPH 2005). There
- * gravity acts, viscosity (docs/fluid.md), and a pressure that leaves no divergence and is 0 at the surface, whose place
- * within a cell follows from the density (F. Gibou and others: A second-order-accurate symmetric discretization of the
- * Poisson equation on irregular domains, J. Comput. Phys. 176, 2002). Then the particles take the motion back and go
- * with it, and a second solution pushes apart those that are too dense, so that the volume stays (T. Kugelstadt, A.
- * Longva, N. Thuerey, J. Bender: Implicit density projection for volume conserving liquids, IEEE TVCG 27, 2021).
+ * gravity acts, viscosity (docs/fluid.md), and a pressure that leaves no divergence and is 0 at the surface, whose
+ * place within a cell follows from the density (F. Gibou and others: A second-order-accurate symmetric discretization
+ * of the Poisson equation on irregular domains, J. Comput. Phys. 176, 2002). Then the particles take the motion back
+ * and go with it, and a second solution pushes apart those that are too dense, so that the volume stays (T.
+ * Kugelstadt, A. Longva, N. Thuerey, J. Bender: Implicit density projection for volume conserving liquids, IEEE TVCG
+ * 27, 2021).
  *
  * Everything is double and summed in a fixed order: the same calls give the same bytes on every machine and with any
  * number of workers. Conventions: y up; metres, seconds; temperatures in degrees of any scale. */
 #ifndef LOM_FLUID_H
 #define LOM_FLUID_H
 
+#include <lom/geometry.h>
 #include <lom/pipeline.h>
 
 LOM_API_BEGIN
@@ -30,6 +32,7 @@ typedef enum lom_fluid_shape { LOM_FLUID_BOX, LOM_FLUID_ELLIPSOID } lom_fluid_sh
 
 /* A box, or the ellipsoid that touches its six sides from within. */
 typedef struct lom_fluid_body {
+    bool present; /* in a scene file */
     lom_fluid_shape shape;
     double low[3], high[3]; /* metres, |x| <= 1e6, low < high; what lies outside of the basin is not there */
     double velocity[3];     /* m/s, |v| <= 1000: of liquid at the beginning */
@@ -55,6 +58,27 @@ typedef struct lom_fluid_desc {
     const lom_fluid_body *solids; /* obstacles: cells whose middles lie in them */
     size_t solid_count;           /* 0..LOM_FLUID_BODIES */
 } lom_fluid_desc;
+
+/* ---- [[fluid]] ---- */
+
+enum { LOM_MAX_FLUIDS = 8 };
+
+typedef struct lom_fluid_params {
+    bool present;
+    const char *name; /* NULL when it has none; unique in the scene */
+    bool visible;
+    double start; /* seconds: until then it stands still */
+    double low[3], high[3], spacing, step, gravity[3], viscosity, solid_viscosity, melting[2],
+        conductivity; /* as of lom_fluid_desc */
+    lom_fluid_body *blocks, *solids;
+    size_t block_count, solid_count;
+    double index;         /* of refraction */
+    double absorption[3]; /* 1/m of red, green and blue */
+    double color[3];      /* linear: what its matter sends back of the light where none comes through */
+    double highlight, shininess;
+} lom_fluid_params;
+
+/* ---- the solver ---- */
 
 typedef struct lom_fluid lom_fluid;
 
@@ -88,6 +112,14 @@ lom_fluid_particle lom_fluid_particle_at(const lom_fluid *fluid, size_t i);
 
 /* Pascal at the cell that holds a place, of the last step; 0 where there is no liquid. */
 double lom_fluid_pressure_at(const lom_fluid *fluid, const double place[3]);
+
+/* The surface of the liquid as closed triangles with normals, one part without a material, places less `origin`
+ * (metres): for what is drawn, compared or written (lom_encode_obj). A field of distances from the mean of the
+ * particles around a node (Zhu and Bridson 2005), nodes a spacing apart, is cut at 0 by surface nets (S. Gibson:
+ * Constrained elastic surface nets, MICCAI 1998). The walls of the basin cut it off flat. On the device's workers, or
+ * NULL. NULL when memory runs out. The particles may be in another order afterwards; what steps compute does not
+ * change. */
+lom_mesh *lom_make_fluid_mesh(lom_fluid *fluid, const double origin[3], lom_device *device, lom_error *error);
 
 LOM_API_END
 

@@ -118,7 +118,7 @@ typedef struct lom_spray_counters {
 } lom_spray_counters;
 
 /* The time of a stage of a frame. */
-enum { LOM_MAX_STAGES = 16 };
+enum { LOM_MAX_STAGES = 20 };
 typedef struct lom_stage_time {
     const char *name;
     double milliseconds; /* by the clock: this and the next are all that differs here from run to run */
@@ -133,6 +133,7 @@ typedef struct lom_frame {
     lom_impostor_counters impostors;
     lom_spray_counters spray;
     uint64_t shallow_steps;               /* of shallow water, run for this frame */
+    uint64_t fluid_steps;                 /* of liquids of particles, likewise */
     lom_stage_time stage[LOM_MAX_STAGES]; /* in their order; name NULL behind the last */
 } lom_frame;
 

@@ -9,6 +9,7 @@
 
 #include <lom/cloud.h>
 #include <lom/fixed.h>
+#include <lom/fluid.h>
 #include <lom/geometry.h>
 #include <lom/particles.h>
 #include <lom/sky.h>
@@ -308,6 +309,7 @@ typedef struct lom_quality {
     bool cloud_jitter;        /* samples are shifted along the ray by a table of blue noise */
     double cloud_light_scale; /* voxels of the light's grid a voxel of the density, along each axis */
     bool spray;               /* the drops of [[spray]] are drawn */
+    bool fluid;               /* the liquids of [[fluid]] are */
     lom_impostor_rule impostors;
     lom_impostor_dials impostor;
     lom_shading shading;
@@ -366,6 +368,8 @@ typedef struct lom_scene {
     size_t cloud_count;
     lom_spray *sprays; /* [[spray]] */
     size_t spray_count;
+    lom_fluid_params *fluids;        /* [[fluid]] */
+    size_t fluid_count;              /* at most LOM_MAX_FLUIDS */
     lom_picture_view *views;         /* [[view]] */
     size_t view_count;               /* at most LOM_MAX_VIEWS */
     const char *path;                /* of the scene file, as it was named */

@@ -53,6 +53,7 @@ static void print_stats(FILE *out, const lom_renderer *renderer, const lom_frame
                   { "impostors_skipped", (uint64_t)frame->impostors.skipped },
                   { "clouds_culled", (uint64_t)frame->impostors.culled },
                   { "shallow_steps", frame->shallow_steps },
+                  { "fluid_steps", frame->fluid_steps },
                   { "drops_moved", frame->spray.moved },
                   { "drops_drawn", frame->spray.drawn } };
     char ran[LOM_MAX_STEPS * 25] = "";

@@ -65,15 +65,15 @@ static bool resolve_desc(lom_fluid_desc *d, int cells[3], lom_error *error)
         cells[i] = lom_int_of((d->high[i] - d->low[i]) / (2 * d->spacing) + 0.5);
         if (cells[i] < 1 || cells[i] > LOM_FLUID_CELLS)
             return lom_fail(error, LOM_ERROR_LIMIT,
-                            "The basin of a fluid is %d cells of two spacings wide; 1 to %d are "
-                            "possible.",
+                            "The basin of a fluid is %d cells of two spacings from low to high; 1 to %d are possible.",
                             cells[i], LOM_FLUID_CELLS);
         d->high[i] = d->low[i] + cells[i] * 2 * d->spacing;
         all *= cells[i];
     }
     if (all > LOM_FLUID_ALL_CELLS)
-        return lom_fail(error, LOM_ERROR_LIMIT, "The basin of a fluid has %lld cells; %d are possible.", (long long)all,
-                        LOM_FLUID_ALL_CELLS);
+        return lom_fail(error, LOM_ERROR_LIMIT,
+                        "The basin of a fluid has %lld cells of two spacings from low to high; %d are possible.",
+                        (long long)all, LOM_FLUID_ALL_CELLS);
     return check_bodies(d->blocks, d->block_count, 1, "block", error) &&
            check_bodies(d->solids, d->solid_count, 0, "solid", error);
 }
@@ -233,7 +233,8 @@ lom_fluid *lom_create_fluid(const lom_fluid_desc *desc, lom_error *error)
     whole.point_count = fill_blocks(&whole, NULL);
     if (whole.point_count == 0 || whole.point_count > LOM_FLUID_PARTICLES) {
         lom_fail(error, LOM_ERROR_LIMIT,
-                 "The blocks of a fluid have %llu particles in the basin; 1 to %d are possible.",
+                 "The blocks of a fluid have %llu particles between low and high of the basin, a spacing apart; 1 to "
+                 "%d are possible.",
                  (unsigned long long)whole.point_count, LOM_FLUID_PARTICLES);
         return NULL;
     }

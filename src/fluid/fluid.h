@@ -21,6 +21,7 @@ enum lom_fluid_kind { LOM_FLUID_AIR, LOM_FLUID_LIQUID, LOM_FLUID_SOLID };
 struct lom_fluid_face {
     double mass;     /* 1: of a particle */
     double velocity; /* the momentum, until all have been added */
+    double push;     /* cells that particles are moved along the axis by their density */
 };
 
 enum { LOM_FLUID_NONE = -1, LOM_FLUID_REST = 8 }; /* no unknown; particles of a cell at rest */

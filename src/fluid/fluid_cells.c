@@ -3,8 +3,8 @@
  * cells.
  *
  * The potential is 0 at the surface, which lies where the density, between the middles of a wet cell and of one with
- * air, falls through half of that at rest: theta cells away. The difference through that face is the wet cell's potential
- * over theta (lom/fluid.h: Gibou). A face of a solid lets nothing through. */
+ * air, falls through half of that at rest: theta cells away. The difference through that face is the wet cell's
+ * potential over theta (lom/fluid.h: Gibou). A face of a solid lets nothing through. */
 #include "fluid/fluid.h"
 
 #include "base/numbers.h"

@@ -4,8 +4,8 @@
  * A cell's particles are its heat capacity m, their mean its temperature T. The implicit step (finite volumes)
  *     m (T' - T) = K sum over wet neighbours (T'_n - T') + 2 K sum over hot faces (T_solid - T'),
  *     K = capacity at rest * conductivity dt / side^2,
- * divided by K is a row of the system of potentials with another diagonal. All particles of a cell change by T' - T; what
- * makes them differ from their mean fades with the slowest wave that fits into a cell, exp(-pi^2 conductivity dt /
+ * divided by K is a row of the system of potentials with another diagonal. All particles of a cell change by T' - T;
+ * what makes them differ from their mean fades with the slowest wave that fits into a cell, exp(-pi^2 conductivity dt /
  * side^2). Air and other solids keep heat in. */
 #include "fluid/fluid.h"
 

@@ -1,10 +1,11 @@
 /* Particles and the grid (the affine particle-in-cell method: lom/fluid.h). Compiled for speed. In: particles; faces
  * with velocities. Out: masses and momenta of faces, densities; particles that have moved. Invariant: what several
- * particles add to is added to in one order: slab after slab of cells, of each colour, and in it particle after particle.
+ * particles add to is added to in one order: slab after slab of cells, of each colour, and in it particle after
+ * particle.
  *
  * A particle reaches the eight nodes around it with the products of tents. Beyond a wall of the basin lies what lies
- * before it where it lets the liquid slide: there the nearest node takes the whole weight. Where it holds the liquid the
- * opposite lies beyond it, so that the velocity is 0 at the wall. */
+ * before it where it lets the liquid slide: there the nearest node takes the whole weight. Where it holds the liquid
+ * the opposite lies beyond it, so that the velocity is 0 at the wall. */
 #include "fluid/fluid.h"
 
 #include "base/numbers.h"
@@ -148,31 +149,45 @@ static inline double hold(double slope[3], int axis, double past, double velocit
     return velocity * share;
 }
 
+/* Between the eight values: along x, then y, then z; and what it changes by along each of them. */
+static inline double interpolate(const double v[8], const struct reach *r, double slope[3])
+{
+    const double x = r->weight[0][1], y = r->weight[1][1], z = r->weight[2][1];
+    double a[4], dx[4], b[2], dbx[2], dby[2];
+    for (int i = 0; i < 4; i++) {
+        dx[i] = v[2 * i + 1] - v[2 * i];
+        a[i] = v[2 * i] + x * dx[i];
+    }
+    for (int i = 0; i < 2; i++) {
+        dby[i] = a[2 * i + 1] - a[2 * i];
+        b[i] = a[2 * i] + y * dby[i];
+        dbx[i] = dx[2 * i] + y * (dx[2 * i + 1] - dx[2 * i]);
+    }
+    slope[0] = dbx[0] + z * (dbx[1] - dbx[0]);
+    slope[1] = dby[0] + z * (dby[1] - dby[0]);
+    slope[2] = b[1] - b[0];
+    return b[0] + z * slope[2];
+}
+
 /* Velocity and its gradient from the faces; and how far the potential of densities pushes along the axis. */
 static inline double take_axis(const struct lom_fluid *f, struct lom_fluid_point *point, int axis, const double at[3])
 {
     struct reach r;
     find_reach(f, at, axis, &r);
-    double velocity = 0, slope[3] = { 0, 0, 0 }, push = 0;
+    double v[8], pushes[8], slope[3], unused[3];
     for (int corner = 0; corner < 8; corner++) {
-        const size_t n = node_of(f, &r, corner);
-        const double v = f->face[axis][n].velocity, weight = weight_of(&r, corner);
-        velocity += weight * v;
-        for (int i = 0; i < 3; i++) {
-            const int j = (i + 1) % 3, k = (i + 2) % 3;
-            const double others = r.weight[j][corner >> j & 1] * r.weight[k][corner >> k & 1];
-            slope[i] += (corner >> i & 1 ? v : -v) * others;
-        }
-        if (f->open[n] >> axis & 1)
-            push += weight * (f->push[n - f->stride[axis]] - f->push[n]);
+        const struct lom_fluid_face *face = &f->face[axis][node_of(f, &r, corner)];
+        v[corner] = face->velocity;
+        pushes[corner] = face->push;
     }
+    double velocity = interpolate(v, &r, slope);
     for (int i = 0; i < 3; i++)
         point->affine[axis][i] = slope[i] * r.slope[i];
     for (int i = 0; i < 3; i++)
         if (r.past[i] != 0)
             velocity = hold(point->affine[axis], i, r.past[i], velocity);
     point->velocity[axis] = velocity;
-    return velocity * f->desc.step + push;
+    return velocity * f->desc.step + interpolate(pushes, &r, unused);
 }
 
 /* A particle that would be in a solid stays along the axes that lead there. */

@@ -1,6 +1,6 @@
 /* Two potentials of the same system: one whose gradient takes the divergence from the faces, and one whose gradient
- * pushes particles from cells that are too dense. Compiled for speed. In: faces, densities, wet cells. Out: faces without
- * divergence, pressures, pushes. Invariant: a potential begins as that of the step before.
+ * pushes particles from cells that are too dense. Compiled for speed. In: faces, densities, wet cells. Out: faces
+ * without divergence, pressures, pushes. Invariant: a potential begins as that of the step before.
  *
  * Velocities in cells/s, the potential q = dt p / (rho cell^2) in cells^2/s: the face between cells a and b changes by
  * q_a - q_b, so that the sum over a cell's faces is 0 when A q = -div. */
@@ -98,8 +98,8 @@ static double mean_beside(const struct lom_fluid *f, int axis, size_t n, bool ho
     return count > 0 ? sum / count : 0;
 }
 
-/* Faces that particles reach but nothing has been solved for have what those beside them have: within solids, and in the
- * air where the liquid has viscosity, which does not let its outermost layer fall alone. */
+/* Faces that particles reach but nothing has been solved for have what those beside them have: within solids, and in
+ * the air where the liquid has viscosity, which does not let its outermost layer fall alone. */
 static void extend(void *context, size_t first, size_t end)
 {
     struct lom_fluid *f = context;
@@ -143,10 +143,19 @@ void lom_project_fluid(struct lom_fluid *f)
         lom_share_fluid(f, f->count, LOM_FLUID_PIECE, extend, f);
 }
 
+static void find_pushes(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    for (int axis = 0; axis < 3; axis++)
+        for (size_t n = first; n < end; n++)
+            f->face[axis][n].push = is_wall(f, axis, n) ? 0 : f->push[n - f->stride[axis]] - f->push[n];
+}
+
 /* Air keeps the potential 0: at the surface particles are pushed less than half a cell, however near it is. */
 void lom_push_fluid(struct lom_fluid *f)
 {
     lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, find_excess, f);
     f->rounds[1] = lom_solve_fluid(f, 1e-2, 100);
     keep(f, f->push);
+    lom_share_fluid(f, f->count, LOM_FLUID_PIECE, find_pushes, f);
 }

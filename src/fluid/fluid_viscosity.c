@@ -1,15 +1,15 @@
-/* Viscosity, with a value a cell. Compiled for speed. In: faces before their pressure. Out: faces that have rubbed along
- * each other for a step. Invariant: what one face loses another gains, but at walls.
+/* Viscosity, with a value a cell. Compiled for speed. In: faces before their pressure. Out: faces that have rubbed
+ * along each other for a step. Invariant: what one face loses another gains, but at walls.
  *
  * The implicit step u' makes
  *     1/2 sum over faces (u' - u)^2 + dt/2 sum over samples of strain k (sum of +-u')^2
  * least: k = 2 nu in the middle of a cell, where the strain along an axis is the difference of its two faces; k = nu in
- * the middle of an edge, where the shear is the differences of two pairs of faces (C. Batty, R. Bridson: Accurate viscous
- * free surfaces for buckling, coiling, and rotating liquids, SCA 2008). A sample that air touches is left out: nothing
- * pulls at a free surface. Along a wall of solids the shear is that to the face's mirror image, 2 u over half the
- * volume: k = 2 nu of the face alone. Turning and moving as a whole have no strain, so that nothing brakes them; one
- * viscosity for what melts and what has melted is M. Carlson, P. Mucha, R. Van Horn, G. Turk: Melting and flowing, SCA
- * 2002. The least is found by conjugate gradients with the diagonal as preconditioner. */
+ * the middle of an edge, where the shear is the differences of two pairs of faces (C. Batty, R. Bridson: Accurate
+ * viscous free surfaces for buckling, coiling, and rotating liquids, SCA 2008). A sample that air touches is left
+ * out: nothing pulls at a free surface. Along a wall of solids the shear is that to the face's mirror image, 2 u over
+ * half the volume: k = 2 nu of the face alone. Turning and moving as a whole have no strain, so that nothing brakes
+ * them; one viscosity for what melts and what has melted is M. Carlson, P. Mucha, R. Van Horn, G. Turk: Melting and
+ * flowing, SCA 2002. The least is found by conjugate gradients with the diagonal as preconditioner. */
 #include "fluid/fluid.h"
 
 #include "base/numbers.h"

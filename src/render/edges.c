@@ -1,18 +1,19 @@
 /* Edges of a frame that are smoothed after they are drawn (lom_smooth_edges). In: the scene and its water, drawn with where
  * their triangles end. Out: the picture that clouds and drops go on with; the same of what water mirrors.
  *
- * Invariant: a crop is smoothed as the whole is: what is drawn is larger by as much as the filter looks at. */
+ * Invariant: a crop is smoothed as the whole is: what is drawn is larger by as much as the filter looks at, and as the
+ * rays look beyond it that liquids bend. */
 #include "pipeline/device.h"
 #include "render/frame.h"
 
 enum { MARGIN = 2 }; /* pixels on each side */
 
 /* A range of pixels, grown on both sides within 0..size; by how many before it. */
-static int grow(int *from, int *count, int size)
+static int grow(int *from, int *count, int size, int margin)
 {
-    const int before = *from < MARGIN ? *from : MARGIN, rest = size - *from - *count;
+    const int before = *from < margin ? *from : margin, rest = size - *from - *count;
     *from -= before;
-    *count += before + (rest < MARGIN ? rest : MARGIN);
+    *count += before + (rest < margin ? rest : margin);
     return before;
 }
 
@@ -27,10 +28,10 @@ void lom_begin_edges(struct frame *f)
     f->smooths = lom_smooths_edges(f->scene) && f->renderer->reference == NULL && !is_tallied(f->renderer);
     f->target = f->smooths ? LOM_TARGET_SHARP : LOM_TARGET_COLOR;
     f->asked = (lom_rect){ 0, 0, f->crop.width, f->crop.height };
-    if (f->smooths) {
-        f->asked.x = grow(&f->crop.x, &f->crop.width, f->width);
-        f->asked.y = grow(&f->crop.y, &f->crop.height, f->height);
-    }
+    const bool bends = lom_count_fluids(f->scene) != 0 && f->renderer->reference == NULL;
+    const int margin = (f->smooths ? MARGIN : 0) + (bends ? lom_fluid_reach(f->height) : 0);
+    f->asked.x = grow(&f->crop.x, &f->crop.width, f->width, margin);
+    f->asked.y = grow(&f->crop.y, &f->crop.height, f->height, margin);
 }
 
 static bool smooth(struct frame *f, const lom_edge_filter *filter, const lom_pass_desc *pass)
@@ -75,8 +76,8 @@ void lom_begin_smooth_picture(struct frame *f, lom_pass_desc *pass)
     lom_texture *const *of = f->renderer->targets.of;
     pass->color[0] = of[LOM_TARGET_REFLECTION_SHARP];
     pass->edges = of[LOM_TARGET_REFLECTION_EDGES];
-    grow(&pass->scissor.x, &pass->scissor.width, lom_texture_width(pass->color[0]));
-    grow(&pass->scissor.y, &pass->scissor.height, lom_texture_height(pass->color[0]));
+    grow(&pass->scissor.x, &pass->scissor.width, lom_texture_width(pass->color[0]), MARGIN);
+    grow(&pass->scissor.y, &pass->scissor.height, lom_texture_height(pass->color[0]), MARGIN);
 }
 
 bool lom_smooth_picture(struct frame *f, lom_pass_desc *pass, lom_texture *color, lom_rect scissor)

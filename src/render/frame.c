@@ -26,6 +26,7 @@ static const struct stage {
     { lom_draw_lakes, "lake" },              /* tinted or planar water over them */
     { lom_find_surfaces, "sea_waves" },      /* the waves of a sea where one is seen */
     { lom_draw_surfaces, "sea" },            /* or water with waves */
+    { lom_draw_fluids, "fluid" },            /* liquids of particles over both */
     { lom_smooth_frame, "edges" },           /* the edges of all that, smoothed */
     { lom_draw_clouds, "clouds" },           /* clouds over all */
     { lom_draw_transparent, "transparent" }, /* what entities have that is transparent */
@@ -272,11 +273,12 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     lom_enter_float_state(&state); /* before the sizes and the time, which are computed too */
     desc = desc != NULL ? desc : &defaults;
     const lom_counters before = lom_device_counters(renderer->device);
-    const uint64_t steps = steps_of(renderer);
+    const uint64_t steps = steps_of(renderer), fluid_steps = renderer->fluids.run;
     *out = (lom_frame){ .image = NULL };
     bool drawn = lom_has_views(renderer->scene, desc) ? lom_draw_views(renderer, desc, out, error)
                                                       : lom_draw_part(renderer, desc, out, error);
     out->shallow_steps = steps_of(renderer) - steps;
+    out->fluid_steps = renderer->fluids.run - fluid_steps;
     out->counters = subtract(lom_device_counters(renderer->device), before);
     lom_leave_float_state(&state);
     return drawn;

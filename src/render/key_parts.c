@@ -81,6 +81,13 @@ const struct lom_key_row lom_key_rows[] = {
                   "spray.drag spray.jets spray.jet_time spray.jet_width spray.life spray.height spray.size "
                   "spray.stretch spray.color spray.opacity spray.soft spray.forward" },
 
+    { LOM_PART_FLUIDS | LOM_PART_TARGETS, "fluid fluid.visible quality.fluid" },
+    { LOM_PART_FLUIDS, "fluid.low fluid.high fluid.spacing fluid.step fluid.gravity fluid.viscosity "
+                       "fluid.solid_viscosity fluid.melting fluid.conductivity fluid.block fluid.block.* fluid.solid "
+                       "fluid.solid.*" },
+    { each_frame, "fluid.name fluid.start fluid.index fluid.absorption fluid.color fluid.highlight "
+                  "fluid.shininess" },
+
     { LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES | LOM_PART_TARGETS, "quality.water" },
     { LOM_PART_CLOUDS, "quality.clouds quality.cloud_jitter quality.cloud_light_scale" },
     { LOM_PART_CLOUD_LIGHT, "quality.march" },

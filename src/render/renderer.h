@@ -5,6 +5,7 @@
 
 #include "render/clouds/clouds.h"
 #include "render/entities/entities.h"
+#include "render/fluid/fluid.h"
 #include "render/ground/ground.h"
 #include "render/lamps.h"
 #include "render/sky.h"
@@ -33,6 +34,7 @@ struct lom_renderer {
         *water; /* and the one that is looked at, whose keys `scene->water` has (lom_turn_to_water) */
     struct lom_drawn_clouds clouds;
     struct lom_drawn_spray spray;
+    struct lom_drawn_fluids fluids;
     struct lom_drawn_lamps lamps;
     struct lom_targets targets; /* of this frame */
     struct lom_targets

@@ -42,6 +42,11 @@ static bool has_drops(const lom_scene *scene)
     return lom_count_drops(scene) != 0;
 }
 
+static bool has_fluids(const lom_scene *scene)
+{
+    return lom_count_fluids(scene) != 0;
+}
+
 /* The members from the one to the other. */
 #define MEMBERS(first, last)                                                                                           \
     offsetof(lom_renderer, first),                                                                                     \
@@ -66,6 +71,7 @@ const struct lom_room lom_rooms[LOM_ROOMS] = {
       lom_load_other_waters, lom_free_other_waters },
     { LOM_PART_CLOUDS, "clouds", MEMBERS(clouds, clouds), has_clouds, lom_load_clouds, lom_free_clouds },
     { LOM_PART_SPRAY, "spray", MEMBERS(spray, spray), has_drops, lom_load_spray, lom_free_spray },
+    { LOM_PART_FLUIDS, "fluids", MEMBERS(fluids, fluids), has_fluids, lom_load_fluids, lom_free_fluids },
 };
 
 bool lom_load_rooms(lom_renderer *renderer, unsigned parts, lom_error *error)

@@ -21,16 +21,17 @@ enum {
     LOM_PART_SPRAY = 1 << 12,
     LOM_PART_FOLLOWED = 1 << 13,     /* the waves of bodies that go with an entity */
     LOM_PART_OTHER_WATERS = 1 << 14, /* all that a scene's waters beside the first have */
-    LOM_PARTS_LOADED = (1 << 15) - 1,
+    LOM_PART_FLUIDS = 1 << 15,
+    LOM_PARTS_LOADED = (1 << 16) - 1,
     /* What frames make for the frames after them. */
-    LOM_PART_GROUND_SHADOW = 1 << 15,
-    LOM_PART_ENTITY_SHADOWS = 1 << 16,
-    LOM_PART_CAUSTICS = 1 << 17,
-    LOM_PART_CLOUD_LIGHT = 1 << 18,
-    LOM_PART_TARGETS = 1 << 19,
-    LOM_PART_GROUND_LAYERS = 1 << 20, /* composed */
-    LOM_PART_LAMP_SHADOWS = 1 << 21,
-    LOM_PARTS_ALL = (1 << 22) - 1
+    LOM_PART_GROUND_SHADOW = 1 << 16,
+    LOM_PART_ENTITY_SHADOWS = 1 << 17,
+    LOM_PART_CAUSTICS = 1 << 18,
+    LOM_PART_CLOUD_LIGHT = 1 << 19,
+    LOM_PART_TARGETS = 1 << 20,
+    LOM_PART_GROUND_LAYERS = 1 << 21, /* composed */
+    LOM_PART_LAMP_SHADOWS = 1 << 22,
+    LOM_PARTS_ALL = (1 << 23) - 1
 };
 
 /* A part that is loaded: the members of a renderer that are its own, from which load makes it when they are zeros. */
@@ -43,7 +44,7 @@ struct lom_room {
     void (*free)(lom_renderer *renderer); /* also after a load that failed; the members are of no use then */
 };
 
-enum { LOM_ROOMS = 12 };
+enum { LOM_ROOMS = 13 };
 extern const struct lom_room lom_rooms[LOM_ROOMS]; /* in the order in which they are loaded */
 
 /* Loads these parts of the renderer's world. */

@@ -132,7 +132,7 @@ static struct lom_reflection_uniform reflection_uniform(const lom_quality *quali
     return u;
 }
 
-static struct lom_view_uniform view_uniform(const lom_renderer *renderer, const struct lom_scene_view *view)
+struct lom_view_uniform lom_view_uniform_of(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
     struct lom_view_uniform u = { .clip_from_offset = lom_round_matrix(&clip_from_offset),
@@ -177,7 +177,7 @@ struct lom_culler lom_culler_of(const struct lom_scene_view *view, const struct 
 
 void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
-    struct lom_view_uniform uniform = view_uniform(renderer, view);
+    struct lom_view_uniform uniform = lom_view_uniform_of(renderer, view);
     struct lom_culler culler = lom_culler_of(view, view->window);
     lom_draw_ground(renderer, view, &culler, &uniform);
     lom_draw_entities(renderer, view, &culler, &uniform);
@@ -187,7 +187,7 @@ void lom_draw_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 
 size_t lom_draw_transparent_scene(lom_renderer *renderer, const struct lom_scene_view *view)
 {
-    struct lom_view_uniform uniform = view_uniform(renderer, view);
+    struct lom_view_uniform uniform = lom_view_uniform_of(renderer, view);
     struct lom_culler culler = lom_culler_of(view, view->window);
     return lom_draw_transparent_entities(renderer, view, &culler, &uniform);
 }

@@ -15,7 +15,7 @@ struct lom_caustics {
 };
 
 /* What draws are of, in records. */
-enum { LOM_OBJECT_TERRAIN = 1, LOM_OBJECT_WATER = 2, LOM_OBJECT_ENTITY = 16 };
+enum { LOM_OBJECT_TERRAIN = 1, LOM_OBJECT_WATER = 2, LOM_OBJECT_FLUID = 3, LOM_OBJECT_ENTITY = 16 };
 
 /* A part of a view, in normalised device coordinates: left and bottom, right and top. */
 struct lom_window {
@@ -58,6 +58,9 @@ bool lom_shows_transparent(const lom_renderer *renderer, const struct lom_scene_
 /* Whether any of it but the sky would be drawn; whether any of the terrain would. */
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view);
 bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view *view);
+
+/* What every draw of a pass that looks so at the scene shares. */
+struct lom_view_uniform lom_view_uniform_of(const lom_renderer *renderer, const struct lom_scene_view *view);
 
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* The same for places less the eye, with the shadows of clouds and terrain that the frame has made. */

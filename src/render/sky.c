@@ -3,6 +3,7 @@
 #include "pipeline/check_device.h"
 #include "render/renderer.h"
 #include "sky/sky_draw.h"
+#include "water/surface.h"
 
 bool lom_load_sun(lom_renderer *renderer, lom_error *error)
 {
@@ -50,4 +51,17 @@ void lom_draw_sky(lom_renderer *renderer, const struct lom_scene_view *view, con
     lom_draw_sky_box(renderer->device, sky, renderer->sky.box, light->to_light, &view->projection, &view->view);
     if (renderer->sky.sun != NULL && view->projection.m[3][2] != 0) /* parallel rays all see one place of the sky */
         lom_draw_sun(renderer->device, sky, renderer->sky.sun, light, &view->projection, &view->view);
+}
+
+void lom_set_sky(struct lom_sky_uniform *sky, const lom_renderer *renderer)
+{
+    const lom_sky_params *params = &renderer->scene->sky;
+    sky->box = renderer->sky.box;
+    sky->cosine = (float)lom_double_cos(-params->rotation);
+    sky->sine = (float)lom_double_sin(-params->rotation);
+    sky->size = renderer->sky.box != NULL ? (float)lom_texture_width(renderer->sky.box) : 0;
+    sky->gradient = lom_sky_gradient_of(params, renderer->sky.box, lom_scene_light(renderer->scene).to_light);
+    bool is_factor = renderer->sky.box != NULL || sky->gradient.on;
+    for (int i = 0; i < 3; i++)
+        sky->color[i] = (float)(params->intensity * (is_factor ? 1 : params->color[i]));
 }

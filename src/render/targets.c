@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES, FOR_EDGES, FOR_MIRRORED_EDGES };
+enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES, FOR_EDGES, FOR_MIRRORED_EDGES, FOR_FLUIDS };
 enum size { DRAWN, REFLECTED, REFRACTED }; /* of the part that is drawn; of the frame, scaled as quality says */
 enum kind { COLOR, DEPTH, MASK, LAYER, MARKS };
 
@@ -72,6 +72,8 @@ static const struct row {
     [LOM_TARGET_EDGES] = { "edges", FOR_EDGES, DRAWN, MARKS, .keeps = false },
     [LOM_TARGET_REFLECTION_SHARP] = { "sharp reflection", FOR_MIRRORED_EDGES, REFLECTED, COLOR, .keeps = false },
     [LOM_TARGET_REFLECTION_EDGES] = { "edges of the reflection", FOR_MIRRORED_EDGES, REFLECTED, MARKS, .keeps = false },
+    [LOM_TARGET_FLUID_SCENE] = { "behind the fluid", FOR_FLUIDS, DRAWN, LAYER, .keeps = false },
+    [LOM_TARGET_FLUID_LENGTH] = { "lengths in the fluid", FOR_FLUIDS, DRAWN, LAYER, .keeps = false },
 };
 
 bool lom_smooths_edges(const lom_scene *scene)
@@ -88,6 +90,7 @@ static void describe(const lom_scene *scene, const struct lom_targets *size, lom
                             [FOR_EDGES] = smooths,
                             [FOR_MIRRORED_EDGES] = smooths && has_water,
                             [FOR_SPRAY] = lom_count_drops(scene) != 0,
+                            [FOR_FLUIDS] = lom_count_fluids(scene) != 0,
                             [FOR_WIRES] = scene->quality.wireframe == LOM_WIREFRAME_VISIBLE };
     const double scale[] = {
         [REFLECTED] = scene->quality.reflection_scale, [REFRACTED] = scene->quality.refraction_scale

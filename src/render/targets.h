@@ -19,6 +19,8 @@ enum lom_target {
     LOM_TARGET_EDGES,      /* where triangles end in them */
     LOM_TARGET_REFLECTION_SHARP,
     LOM_TARGET_REFLECTION_EDGES,
+    LOM_TARGET_FLUID_SCENE,  /* what is behind a liquid, with its reach; */
+    LOM_TARGET_FLUID_LENGTH, /* how far rays go through it */
     LOM_TARGETS
 };
 

@@ -73,6 +73,8 @@ static const lom_key quality[] = {
                                      .needs = "cloud quality.clouds=octaves|forward|single" } },
     { "spray", LOM_KEY_BOOL, AT(lom_quality, spray), .initial = { 1 }, .text = "Draw the drops of `[[spray]]`.",
       .dial = &(const lom_key_dial){ .none = "says what is shown: drops or none" }, .untraced = "false" },
+    { "fluid", LOM_KEY_BOOL, AT(lom_quality, fluid), .initial = { 1 }, .text = "Draw the liquids of `[[fluid]]`.",
+      .dial = &(const lom_key_dial){ .none = "says what is shown: liquids or none" }, .untraced = "false" },
     { "impostors", LOM_KEY_CHOICE, AT(lom_quality, impostors), .choices = { "off", "reference", "bounded" },
       .text =
           "Whether a cloud's picture is kept on a plate and shown again while the camera moves: never; by the "

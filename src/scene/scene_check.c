@@ -47,6 +47,7 @@ static bool check_all_names(lom_scene *scene, const lom_key_check *root)
         NAMED("entity", "another entity has this name already.", scene->entities, scene->entity_count),
         NAMED("lamp", "another lamp has this name already.", scene->lamps, scene->lamp_count),
         NAMED("cloud", "another cloud has this name already.", scene->cloud, scene->cloud_count),
+        NAMED("fluid", "another liquid has this name already.", scene->fluids, scene->fluid_count),
         NAMED("spray", "another emitter has this name already.", scene->sprays, scene->spray_count),
     };
     for (size_t i = 0; i < sizeof things / sizeof *things; i++)
@@ -186,6 +187,14 @@ static bool check_views(const lom_scene *scene, const lom_key_check *root)
     return at.fail(&at, "name", "a picture has at most 8 views.");
 }
 
+static bool check_fluids(const lom_scene *scene, const lom_key_check *root)
+{
+    if (scene->fluid_count <= LOM_MAX_FLUIDS)
+        return true;
+    const lom_key_check at = root->element(root, "fluid", LOM_MAX_FLUIDS);
+    return at.fail(&at, "low", "a scene has at most 8 liquids.");
+}
+
 /* The sky of many that [clouds] asks for, behind the clouds of the file. */
 static bool add_sky(lom_scene *scene, lom_reader *reader)
 {
@@ -219,5 +228,5 @@ bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
     return check_all_names(reader->scene, &check) && check_waters(reader->scene, &check) &&
            check_ground(reader->scene, &check) && check_shallow(reader->scene, &check) &&
            check_followed(reader->scene, &check) && check_drops(reader->scene, &check) &&
-           check_views(reader->scene, &check) && add_sky(reader->scene, reader);
+           check_views(reader->scene, &check) && check_fluids(reader->scene, &check) && add_sky(reader->scene, reader);
 }

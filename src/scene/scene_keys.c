@@ -5,6 +5,7 @@
 
 #include "cloud/cloud_keys.h"
 #include "sky/sky_keys.h"
+#include "fluid/fluid_keys.h"
 #include "spray/spray_keys.h"
 #include "water/water_keys.h"
 #include "waves/wave_keys.h"
@@ -120,6 +121,8 @@ static const lom_key root[] = {
       .length_offset = AT(lom_scene, cloud_count), .text = "Clouds in the scene." },
     { "spray", LOM_KEY_TABLES, AT(lom_scene, sprays), .table = &lom_spray_keys,
       .length_offset = AT(lom_scene, spray_count), .text = "Drops of spray and of waterfalls." },
+    { "fluid", LOM_KEY_TABLES, AT(lom_scene, fluids), .table = &lom_fluid_keys,
+      .length_offset = AT(lom_scene, fluid_count), .text = "Volumes of liquid that move freely." },
     { "quality", LOM_KEY_TABLE, AT(lom_scene, quality), .table = &lom_quality_keys },
 };
 const lom_key_table lom_scene_keys = {

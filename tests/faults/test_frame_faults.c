@@ -104,6 +104,14 @@ static const struct frame_scene {
       "emissive_map = 'color.png'\n[quality]\nwater = 'reference'\n[quality.reference]\nsamples = 1\n",
       NULL,
       60 },
+    { "a liquid of particles",
+      { camera, land, clouds },
+      "[[fluid]]\nlow = [-2, 0, -2]\nhigh = [2, 3, 2]\nspacing = 0.4\nviscosity = 0.1\nconductivity = 0.1\nstart = "
+      "-0.05\n"
+      "[[fluid.block]]\nlow = [-2, 0, -2]\nhigh = [0, 2, 2]\n[[fluid.solid]]\nlow = [1, 0, -1]\nhigh = [2, 1, 1]\n"
+      "heats = true\n",
+      NULL,
+      100 },
     { "tinted water", { camera, land, "[water]\n" }, "[quality]\nwater = 'tinted'\n", "output.format='rgb32f'", 50 },
     { "the reference of a sea, surf, spray and clouds",
       { camera, land, clouds, "[water]\nsize = 60\n", sea, surf },

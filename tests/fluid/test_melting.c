@@ -1,6 +1,6 @@
 /* Proves of liquids with viscosity and heat: between plates the flow is Poiseuille's; turning as a whole is not braked;
- * heat is conducted as erf says, none is lost, and a melting front goes as deep as erfc says; what is stiff stands until
- * it has melted. */
+ * heat is conducted as erf says, none is lost, and a melting front goes as deep as erfc says; what is stiff stands
+ * until it has melted. */
 #include "fluid_state.h"
 
 /* ---- viscosity ---- */

@@ -150,6 +150,17 @@ static const struct base bases[] = {
     { "hits", "spray.0.source spray.0.kick spray.0.from spray.0.to spray.0.jet_time surf.variation surf.period",
       VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\n[[spray]]\nsource = \"surf\"\nfrom = [-20, 0, -20]\n"
                              "to = [20, 0, 20]\ncount = 40\nkick = 2\nsize = 0.4\nlife = 2\n" },
+    { "far_fluid", "fluid.0.high fluid.0.spacing",
+      VIEW "[[fluid]]\nlow = [998000, 998000, 998000]\nhigh = [1e6, 1e6, 1e6]\nspacing = 200\n"
+           "[[fluid.block]]\nlow = [998000, 998000, 998000]\nhigh = [1e6, 1e6, 1e6]\n" },
+    { "fluid",
+      "fluid.0.visible fluid.0.low fluid.0.start fluid.0.step fluid.0.gravity fluid.0.viscosity "
+      "fluid.0.solid_viscosity fluid.0.melting fluid.0.conductivity fluid.0.block fluid.0.solid fluid.0.index "
+      "fluid.0.absorption fluid.0.color fluid.0.highlight fluid.0.shininess quality.fluid",
+      VIEW TERRAIN "[[fluid]]\nlow = [-3, 0, -3]\nhigh = [3, 4, 3]\nspacing = 0.5\nviscosity = 0.1\n"
+                   "solid_viscosity = 10\nmelting = [20, 80]\nconductivity = 0.1\nabsorption = 0.3\n"
+                   "[[fluid.block]]\nlow = [-2, 1, -2]\nhigh = [1, 3, 2]\ntemperature = 50\n"
+                   "[[fluid.solid]]\nlow = [-3, 0, -3]\nhigh = [3, 1, 3]\nheats = true\ntemperature = 500\n" },
     { "falls", "spray.0.height spray.0.velocity",
       VIEW "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\nspread = 0.3\nheight = 4\n" },
     { "reference", "quality.reference water.optics light.elevation",

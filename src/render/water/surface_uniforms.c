@@ -2,7 +2,6 @@
  * as offsets from the eye. */
 #include "render/water/surface.h"
 #include "scene/scene_light.h"
-#include "sky/sky_draw.h"
 
 static void set_rays(float out[3][3], const struct lom_scene_view *view)
 {
@@ -26,19 +25,6 @@ static void set_medium(struct lom_medium_uniform *medium, const lom_scene *scene
         medium->absorption[i] = (float)optics->absorption[i];
         medium->source[i] = (float)(optics->scatter[i] * (sun + scene->light.ambient[i]) * (1 + slant));
     }
-}
-
-static void set_sky(struct lom_sky_uniform *sky, const lom_renderer *renderer)
-{
-    const lom_sky_params *params = &renderer->scene->sky;
-    sky->box = renderer->sky.box;
-    sky->cosine = (float)lom_double_cos(-params->rotation);
-    sky->sine = (float)lom_double_sin(-params->rotation);
-    sky->size = renderer->sky.box != NULL ? (float)lom_texture_width(renderer->sky.box) : 0;
-    sky->gradient = lom_sky_gradient_of(params, renderer->sky.box, lom_scene_light(renderer->scene).to_light);
-    bool is_factor = renderer->sky.box != NULL || sky->gradient.on;
-    for (int i = 0; i < 3; i++)
-        sky->color[i] = (float)(params->intensity * (is_factor ? 1 : params->color[i]));
 }
 
 static void set_foam(struct lom_foam_uniform *foam, const struct frame *f)
@@ -103,7 +89,7 @@ void lom_look_at_surface(struct surface *surface, const struct frame *f)
     u->clip_from_offset = lom_round_matrix(&surface->clip_from_offset);
     set_optics(u, f->scene);
     u->light = lom_renderer_light(f->renderer, f->view.eye);
-    set_sky(&u->sky, f->renderer);
+    lom_set_sky(&u->sky, f->renderer);
     set_foam(&u->foam, f);
     set_rays(u->ray, &f->view);
     u->waves = f->waves;
