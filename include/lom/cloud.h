@@ -50,8 +50,16 @@ lom_image *lom_light_cloud_in_advance(const lom_image *density, const double to_
 /* A flat cloud, RGBA8 of size x size (8..1024): a round shape times noise of four octaves (32, 64, 128 and 256 cells at
  * a size of 256 and more), eaten into by detail, with gray that darkens towards the base. NULL on failure. */
 lom_image *lom_make_cloud_picture(int size, uint64_t seed, lom_error *error);
+/* A round puff, white, RGBA8 of size x size (8..1024): its opacity is (1 - r^2)^2, r the distance from the middle in
+ * parts of half a side, times noise of the same octaves about 1. NULL on failure. */
+lom_image *lom_make_cloud_puff(int size, uint64_t seed, lom_error *error);
 
 /* ---- [[cloud]] ---- */
+
+typedef struct lom_cloud_transfer { /* [[cloud.transfer_function]]: values do not fall */
+    bool present;
+    double value, extinction, color[3]; /* as in lom_transfer_point */
+} lom_cloud_transfer;
 
 typedef struct lom_cloud {
     bool present;
@@ -69,6 +77,9 @@ typedef struct lom_cloud {
     double detail;      /* 0..1: how far tiling noise eats into thin parts */
     double detail_size; /* metres of one repetition of that noise */
     bool visible;
+    lom_cloud_transfer *transfer;
+    size_t transfer_count; /* at most LOM_MAX_TRANSFER; 0: extinction is the density, white */
+    lom_volume_look look;  /* of it */
 } lom_cloud;
 
 /* ---- [clouds]: the light and the air that all clouds share ---- */
@@ -162,7 +173,9 @@ typedef enum lom_cloud_model {
     LOM_CLOUDS_ORIGINAL,    /* the reference work's fixed steps and light */
     LOM_CLOUDS_BILLBOARD,   /* a flat picture */
     LOM_CLOUDS_OFF,
-    LOM_CLOUDS_REFERENCE /* random paths in double precision, as part of the reference's picture */
+    LOM_CLOUDS_REFERENCE, /* random paths in double precision, as part of the reference's picture */
+    LOM_CLOUDS_SPRITES,   /* many soft billboards, each turned at random */
+    LOM_CLOUDS_GROUPS     /* a group of billboards with pictures of whole clouds */
 } lom_cloud_model;
 
 /* ---- quality.impostors and [quality.impostor] ---- */

@@ -116,18 +116,22 @@ typedef struct lom_reference_volume_desc {
     double extinction;        /* 1/m where the density is 1 */
     double albedo[3];         /* share of what meets it that is scattered, 0..1 */
     lom_reference_phase phase;
+    const lom_transfer_point *transfer; /* what each density looks like, as lom_make_transfer_function takes it; NULL:
+                                           its extinction is itself, and it is white */
+    size_t transfer_count;
+    lom_volume_look look; /* of it: what is met scatters by the phase function, sends as a Lambert surface across the
+                             gradient of the density does, or ends the path with its colour */
 } lom_reference_volume_desc;
 
 typedef struct lom_reference_volume lom_reference_volume;
-/* Copies the density. NULL for a box without extent, a format that is none of these, negative or infinite extinction or
- * an albedo outside 0..1. Freed with lom_free_reference_volume. */
+/* Copies the density. NULL for a box without extent, a format that is none of these, negative or infinite extinction, an
+ * albedo outside 0..1, or what is no transfer function. Freed with lom_free_reference_volume. */
 lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_desc *desc, lom_error *error);
 void lom_free_reference_volume(lom_reference_volume *volume); /* NULL is allowed */
 
 /* Integral of the extinction from origin + from d to origin + to d, d the unit vector along direction: exact but for
- * rounding, since between two planes of voxels the density is a cubic of the distance. 0 for a direction without
- * length.
- */
+ * rounding, since between two planes of voxels the density is a cubic of the distance; with a transfer function the
+ * density counts as even over each quarter of such a way. 0 for a direction without length. */
 double lom_volume_optical_depth(const lom_reference_volume *volume, lom_vec3 origin, lom_vec3 direction, double from,
                                 double to);
 

@@ -2,8 +2,8 @@
  * the eye and, as alpha, the share of what lies behind that it takes. Invariant: a pixel's ray depends on the pixel
  * alone; a ray that meets no density gives 0 and alpha 0, which leaves the picture as it is. */
 #include "cloud/cloud_uniforms.h"
+#include "cloud/cloud_phases.h"
 #include "cloud/cloud_rays.h"
-#include "cloud/phase.h"
 
 enum { SHADOW_X, SHADOW_Z, SHADOW_VARYINGS };
 
@@ -15,22 +15,13 @@ static lom_float jitter_of(const struct lom_cloud_uniforms *cloud, const lom_var
     return lom_gather(cloud->jitter, y * 64 + x);
 }
 
-static void set_phases(const struct lom_cloud_uniforms *cloud, lom_medium_rays *rays, lom_float3 direction)
-{
-    lom_float mu = lom_dot3(direction, lom_uniform3(cloud->to_light));
-    for (int k = 0; k < cloud->march.octaves; k++)
-        rays->phase[k] = lom_phase_octave(cloud->phase, cloud->forward, cloud->backward, cloud->blend, mu, k);
-    if (cloud->silver > 0)
-        rays->phase[0] = lom_max(rays->phase[0], cloud->silver * lom_phase_henyey_greenstein(mu, cloud->silver_cosine));
-}
-
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
     lom_float3 direction;
     lom_medium_rays rays = lom_cloud_rays(cloud, in, &direction);
     rays.shift = jitter_of(cloud, in);
-    set_phases(cloud, &rays, direction);
+    lom_set_cloud_phases(cloud, &rays, direction);
     lom_medium_result seen;
     LOM_WIDE(lom_march_medium)(&seen, &rays, &cloud->march, NULL);
     lom_float alpha = 1.0f - seen.transmittance;
@@ -42,6 +33,22 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     LOM_NAME_AS(ground, seen.ground);
     LOM_NAME_AS(distance, seen.distance);
     color = lom_cloud_haze(cloud, color, alpha, seen.distance);
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
+}
+
+/* The same with colours by value. */
+static void transfer_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_cloud_uniforms *cloud = uniforms;
+    lom_float3 direction;
+    lom_medium_rays rays = lom_cloud_rays(cloud, in, &direction);
+    rays.shift = jitter_of(cloud, in);
+    lom_set_cloud_phases(cloud, &rays, direction);
+    lom_transfer_result seen;
+    LOM_WIDE(lom_march_transfer)(&seen, &rays, &cloud->march, &cloud->transfer, NULL);
+    lom_float alpha = 1.0f - seen.transmittance;
+    LOM_NAME_AS(distance, seen.distance);
+    lom_float3 color = lom_cloud_haze(cloud, seen.color, alpha, seen.distance);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, alpha };
 }
 
@@ -66,7 +73,10 @@ static void shadow_fragment(lom_fragment *out, const lom_varyings *in, const voi
                              .along = lom_uniform3(shadow->along),
                              .active = in->covered };
     LOM_WIDE(lom_cross_box)(&rays);
-    LOM_WIDE(lom_medium_depth)(&depth, &rays, &shadow->march, shadow->steps);
+    if (shadow->transfer != NULL)
+        LOM_WIDE(lom_transfer_depth)(&depth, &rays, &shadow->march, shadow->transfer, shadow->steps);
+    else
+        LOM_WIDE(lom_medium_depth)(&depth, &rays, &shadow->march, shadow->steps);
     lom_float through = lom_exp(-depth);
     out->color[0] = (lom_float4){ through, through, through, lom_splat(1.0f) };
 }
@@ -75,3 +85,6 @@ LOM_SHADER(lom_cloud_shadow_shader, shadow_vertex, shadow_fragment, .varyings = 
            .reads = LOM_VARYINGS(SHADOW_X, 2), .colors = 1, .uniforms_size = sizeof(struct lom_cloud_shadow_uniforms))
 LOM_SHADER(lom_cloud_shader, lom_cloud_vertex, fragment, .varyings = RAY_VARYINGS, .reads = LOM_VARYINGS(OFFSET, 3),
            .reads_position = true, .colors = 1, .uniforms_size = sizeof(struct lom_cloud_uniforms))
+LOM_SHADER(lom_cloud_transfer_shader, lom_cloud_vertex, transfer_fragment, .varyings = RAY_VARYINGS,
+           .reads = LOM_VARYINGS(OFFSET, 3), .reads_position = true, .colors = 1,
+           .uniforms_size = sizeof(struct lom_cloud_uniforms))

@@ -3,6 +3,7 @@
  * file's order reversed, so that the first in the file is drawn last. */
 #include "shading/square.h"
 #include "cloud/cloud_draw.h"
+#include "cloud/cloud_sprites.h"
 #include "cloud/cloud_uniforms.h"
 
 #include "base/counting_sort.h"
@@ -40,11 +41,9 @@ void lom_cloud_corners(const struct lom_placed_cloud *cloud, lom_vec3 corner[8])
     }
 }
 
-/* What tells the nearer one of two clouds: the square of the distance; of parallel rays the distance along the view
- * axis. */
-static double nearness(const struct lom_placed_cloud *cloud, const struct lom_cloud_view *view)
+double lom_cloud_nearness(lom_vec3 place, const struct lom_cloud_view *view)
 {
-    const lom_vec3 away = lom_vec3_subtract(cloud->middle, view->eye);
+    const lom_vec3 away = lom_vec3_subtract(place, view->eye);
     if (view->projection.m[3][2] != 0)
         return away.x * away.x + away.y * away.y + away.z * away.z;
     const double *axis = view->view.m[2];
@@ -65,7 +64,7 @@ size_t lom_order_clouds(const struct lom_cloud_set *set, const struct lom_cloud_
     for (size_t n = set->count; n-- > 0;) {
         if (cull && lom_box_visibility(&frustum, lom_cloud_bounds(&set->clouds[n])) == LOM_OUTSIDE)
             continue;
-        keys[n] = lom_sorting_key((float)nearness(&set->clouds[n], view));
+        keys[n] = lom_sorting_key((float)lom_cloud_nearness(set->clouds[n].middle, view));
         numbers[count++] = (uint32_t)n;
     }
     lom_sort_by_key(order_key, keys, 4, count, numbers, scratch);
@@ -85,7 +84,8 @@ size_t lom_count_capped_clouds(const struct lom_cloud_set *set, int *steps)
 {
     size_t count = 0;
     *steps = most_steps;
-    if (set->quality.model == LOM_CLOUDS_ORIGINAL || set->quality.model == LOM_CLOUDS_BILLBOARD)
+    if (set->quality.model == LOM_CLOUDS_ORIGINAL || set->quality.model == LOM_CLOUDS_BILLBOARD ||
+        lom_has_cloud_sprites(set->quality.model))
         return 0;
     for (size_t i = 0; i < set->count; i++) {
         const double *side = set->clouds[i].cloud->size;
@@ -105,6 +105,11 @@ static void fade_detail(lom_medium_desc *march, double grains)
     march->detail_far = (float)((1 - faded) * far);
 }
 
+static bool has_octaves(int model)
+{
+    return model == LOM_CLOUDS_OCTAVES || lom_has_cloud_sprites(model);
+}
+
 static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, const struct lom_placed_cloud *placed,
                       const struct lom_cloud_view *view)
 {
@@ -120,7 +125,7 @@ static void set_march(lom_medium_desc *march, const struct lom_cloud_set *set, c
                                 .step = step_of(set, placed),
                                 .stop = (float)set->quality.stop,
                                 .most_steps = most_steps,
-                                .octaves = set->quality.model == LOM_CLOUDS_OCTAVES ? set->quality.octaves : 1,
+                                .octaves = has_octaves(set->quality.model) ? set->quality.octaves : 1,
                                 .filtering = set->quality.march };
     if (view->projection.m[3][2] == 0)
         fade_detail(march, view->pixel_angle / grain);
@@ -150,6 +155,23 @@ static void set_light(struct lom_cloud_uniforms *u, const struct lom_cloud_set *
     u->silver = (float)p->silver;
     u->silver_cosine = (float)(1 - p->silver_spread);
     u->haze_rate = p->haze_distance > 0 ? (float)(1 / p->haze_distance) : 0;
+}
+
+static void set_transfer(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed)
+{
+    lom_transfer_desc *look = &u->transfer;
+    const float shared = placed->cloud->look == LOM_LOOK_SURFACE ? (float)(1 / sun_share) : 1;
+    *look = (lom_transfer_desc){ .transfer = &placed->transfer, .look = placed->cloud->look };
+    for (int i = 0; i < 3; i++) {
+        look->sun[i] = u->sun[i] * shared; /* a surface that faces the sun sends all of its colour */
+        look->sky[i] = u->sky[i];
+        look->ground[i] = u->ground[i];
+        look->size[i] = (float)placed->cloud->size[i];
+        double along = 0;
+        for (int k = 0; k < 3; k++)
+            along += placed->axes[i][k] * (double)u->to_light[k];
+        look->to_light[i] = (float)along;
+    }
 }
 
 void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
@@ -230,6 +252,32 @@ static void set_picture(struct lom_cloud_uniforms *u, const struct lom_cloud_set
     }
 }
 
+static void draw_sprites(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
+                         const struct lom_cloud_view *view, struct lom_cloud_uniforms *u)
+{
+    const lom_vec3 away = lom_vec3_subtract(cloud->middle, view->eye);
+    const double middle[3] = { away.x, away.y, away.z };
+    lom_sort_cloud_sprites(cloud->sprites, cloud, view);
+    u->picture = set->picture;
+    u->sprites = cloud->sprites->drawn;
+    u->sprite_depth = cloud->sprites->depth;
+    for (int i = 0; i < 3; i++) {
+        u->corner[0][i] = (float)middle[i];
+        u->right[i] = (float)view->view.m[0][i];
+        u->up[i] = (float)view->view.m[1][i];
+    }
+    if (cloud->sprites->count > 0)
+        lom_draw(device, &(lom_draw_desc){ .shader = &lom_cloud_sprite_shader,
+                                           .uniforms = u,
+                                           .count = 6 * cloud->sprites->count,
+                                           .topology = LOM_TRIANGLES,
+                                           .vertex_count = 6 * cloud->sprites->count,
+                                           .cull = LOM_CULL_NONE,
+                                           .depth_test_off = true,
+                                           .blend = { lom_blend_over },
+                                           .label = "cloud" });
+}
+
 void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
                            const struct lom_cloud_view *view)
 {
@@ -241,13 +289,21 @@ void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, 
     set_light(&u, set, view);
     set_march(&u.march, set, cloud, view);
     bool is_flat = set->quality.model == LOM_CLOUDS_BILLBOARD, is_original = set->quality.model == LOM_CLOUDS_ORIGINAL;
+    bool has_transfer = cloud->transfer.count > 0;
+    if (cloud->sprites != NULL) {
+        draw_sprites(device, set, cloud, view, &u);
+        return;
+    }
+    if (has_transfer)
+        set_transfer(&u, cloud);
     if (is_original)
         set_original(&u, set, cloud, view);
     if (is_flat)
         set_picture(&u, set, cloud, view);
-    lom_draw(device, &(lom_draw_desc){ .shader = is_flat       ? &lom_cloud_picture_shader
-                                                 : is_original ? &lom_cloud_original_shader
-                                                               : &lom_cloud_shader,
+    lom_draw(device, &(lom_draw_desc){ .shader = is_flat        ? &lom_cloud_picture_shader
+                                                 : is_original  ? &lom_cloud_original_shader
+                                                 : has_transfer ? &lom_cloud_transfer_shader
+                                                                : &lom_cloud_shader,
                                        .uniforms = &u,
                                        .indices = is_flat ? NULL : faces,
                                        .index_bits = 16,

@@ -29,12 +29,14 @@ struct lom_cloud_density {
 struct lom_placed_cloud {
     const lom_cloud *cloud;
     const struct lom_cloud_density *density;
+    lom_transfer_function transfer; /* of no points if it has none */
     lom_light_grid *light;
-    lom_volume *original; /* density lit in advance, of the original model */
-    uint64_t lit_for;     /* what `light` or `original` was made for, hashed; 0: nothing yet */
-    lom_vec3 middle;      /* of the box, in the world; the cloud's position, until wind moves it */
-    double detail;        /* how far the noise eats into it: the cloud's, unless shapes change */
-    double axes[3][3];    /* axes[i] is the box's axis i in the world, of unit length */
+    lom_volume *original;              /* density lit in advance, of the original model */
+    struct lom_cloud_sprites *sprites; /* of the models of billboards, or NULL */
+    uint64_t lit_for;                  /* what `light` or `original` was made for, hashed; 0: nothing yet */
+    lom_vec3 middle;                   /* of the box, in the world; the cloud's position, until wind moves it */
+    double detail;                     /* how far the noise eats into it: the cloud's, unless shapes change */
+    double axes[3][3];                 /* axes[i] is the box's axis i in the world, of unit length */
 };
 
 /* All clouds of a scene, and what they share. */
@@ -51,7 +53,8 @@ struct lom_cloud_set {
     lom_detail *detail;
     lom_image *fields[LOM_DETAIL_FIELDS]; /* of noise; only the first where shapes do not change */
     double phase;                         /* of the crossfade that `detail` is from */
-    lom_texture *picture;                 /* of the flat model, or NULL */
+    lom_texture *picture;                 /* of the flat models, or NULL */
+    double mean_opacity;                  /* of it */
     float *jitter;                        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 
@@ -62,6 +65,8 @@ bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds 
                         const struct lom_cloud_quality *quality, const struct lom_cloud_set *before,
                         struct lom_cloud_set **loaded, lom_error *error);
 void lom_free_cloud_set(struct lom_cloud_set *set);
+/* The points of a cloud's transfer function; how many. */
+size_t lom_cloud_transfer_points(const lom_cloud *cloud, lom_transfer_point points[LOM_MAX_TRANSFER]);
 /* What both have is from now on the first one's, and the other can only be freed. NULL is allowed. */
 void lom_part_cloud_sets(const struct lom_cloud_set *owner, struct lom_cloud_set *other);
 
@@ -99,6 +104,9 @@ struct lom_cloud_view {
     double slice_from, slice_to;
 };
 
+/* What tells the nearer one of two places: the square of the distance; of parallel rays the distance along the view
+ * axis. */
+double lom_cloud_nearness(lom_vec3 place, const struct lom_cloud_view *view);
 /* The box of a cloud in the world. */
 lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud);
 /* Indices of the clouds that are seen (all of them unless cull is set), the farthest first (by the middle's distance;

@@ -12,6 +12,25 @@
 #define AT(member)     offsetof(lom_cloud, member)
 #define OF_ALL(member) offsetof(lom_clouds, member)
 
+#define OF_POINT(member) offsetof(lom_cloud_transfer, member)
+static const lom_key transfer[] = {
+    { "value", LOM_KEY_NUMBER, OF_POINT(value), .flags = LOM_KEY_REQUIRED, .maximum = 1,
+      .text = "Of the volume; not below that of the point before. Two points of one value are a step." },
+    { "extinction", LOM_KEY_NUMBER, OF_POINT(extinction), .maximum = 1, .initial = { 1 },
+      .text = "There, in parts of the cloud's `extinction`." },
+    { "color", LOM_KEY_COLOR, OF_POINT(color), 3, .maximum = 1000, .initial = { 1, 1, 1 },
+      .text = "There: the share of the light that is sent on, or the light that is sent, by `look`." },
+};
+static const lom_key_table transfer_table = {
+    .size = sizeof(lom_cloud_transfer),
+    .keys = transfer,
+    .key_count = sizeof transfer / sizeof *transfer,
+    .text =
+        "A point of the transfer function: what values of the volume look like. Between points it is linear, below "
+        "the first and above the last constant. Of it `octaves`, `forward` and `single` integrate what a ray passes "
+        "between two samples in closed form (docs/clouds.md)."
+};
+
 static const lom_key cloud[] = {
     { "name", LOM_KEY_STRING, AT(name), .text = "A name of its own, for overrides and messages." },
     { "kind", LOM_KEY_STRING, AT(kind),
@@ -46,7 +65,31 @@ static const lom_key cloud[] = {
       .unit = "m", .text = "Length of one repetition of that noise.",
       .initial_text = "180, of a cloud smaller than its kind so much shorter" },
     { "visible", LOM_KEY_BOOL, AT(visible), .initial = { 1 }, .text = "Whether it is drawn." },
+    { "transfer_function", LOM_KEY_TABLES, AT(transfer), .table = &transfer_table, .length_offset = AT(transfer_count),
+      .text = "Colour and extinction by value, at most 16 points; with them `detail` is 0 if it is not given." },
+    { "look", LOM_KEY_CHOICE, AT(look), .choices = { "scattered", "surface", "glowing" },
+      .text = "With a transfer function: its colours are shares of the light that a cloud scatters, those of Lambert's "
+              "surfaces across the gradient of the value, or light that the volume sends by itself." },
 };
+static bool check_transfer(lom_cloud *it, const lom_key_check *check)
+{
+    if (it->transfer_count == 0)
+        return true;
+    if (!check->is_given(check, "detail"))
+        it->detail = 0;
+    if (it->transfer_count > LOM_MAX_TRANSFER)
+        return check->fail(check, "transfer_function", "a transfer function has at most 16 points.");
+    for (size_t i = 0; i < it->transfer_count; i++) {
+        const lom_key_check at = check->element(check, "transfer_function", i);
+        const double *color = it->transfer[i].color;
+        if (i > 0 && it->transfer[i].value < it->transfer[i - 1].value)
+            return at.fail(&at, "value", "the values of a transfer function must not fall.");
+        if (it->look != LOM_LOOK_GLOWING && lom_larger(lom_larger(color[0], color[1]), color[2]) > 1)
+            return at.fail(&at, "color", "more light than there is would be sent on: only what glows is above 1.");
+    }
+    return true;
+}
+
 /* What the file leaves to the kind. */
 static bool check_cloud(void *members, const lom_key_check *check)
 {
@@ -57,6 +100,8 @@ static bool check_cloud(void *members, const lom_key_check *check)
         it->position.x = it->middle[0];
         it->position.z = it->middle[1];
     }
+    if (!check_transfer(it, check))
+        return false;
     if (it->file != NULL)
         return true;
     if (it->kind == NULL)

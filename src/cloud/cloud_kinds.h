@@ -13,6 +13,8 @@ lom_cloud_maker lom_make_hemisphere;
 lom_cloud_maker lom_make_particles;
 /* make_automaton.c */
 lom_cloud_maker lom_make_automaton;
+/* make_formula.c: varieties 0 a ball, 1 the signal of Marschner and Lobb. */
+lom_cloud_maker lom_make_formula;
 /* make_body.c, make_layer.c: the variety is an index into their recipes. */
 lom_cloud_maker lom_make_body, lom_make_layer;
 

@@ -1,6 +1,7 @@
 /* The light of a scene's clouds as the sun moves. In: the way to the sun. Out: a grid of light for each cloud, which
  * the other clouds shadow. Invariant: a cloud's light is a function of the sun and of the places of the clouds alone;
  * it is made again when that changes. */
+#include "base/numbers.h"
 #include "cloud/cloud_draw.h"
 
 #include <string.h>
@@ -93,6 +94,15 @@ static float depth_beyond(void *context, const float exit[3])
     return (float)sum;
 }
 
+/* Voxels get the extinction of their value, before they are filtered; the original is gray. */
+static void thin_voxels(lom_image *lit, const lom_transfer_function *transfer)
+{
+    const size_t size = lom_image_size(lit);
+    for (size_t i = 3; i < size; i += 4)
+        lit->pixels[i] =
+            (uint8_t)lom_count_of((double)lom_transfer_at(transfer, lit->pixels[i] / 255.0f, 3) * 255 + 0.5, 255);
+}
+
 /* The original model: gray by its lighting in advance, or white. */
 static bool light_in_advance(const struct lom_cloud_set *set, struct lom_placed_cloud *cloud, const double to_light[3],
                              lom_error *error)
@@ -103,6 +113,8 @@ static bool light_in_advance(const struct lom_cloud_set *set, struct lom_placed_
     to_box(cloud, to_light, false, along);
     lom_image *lit = lom_light_cloud_in_advance(cloud->density->image, along, in_advance ? set->params->lighter : 0,
                                                 set->params->dark_light, error);
+    if (lit != NULL && cloud->transfer.count > 0)
+        thin_voxels(lit, &cloud->transfer);
     lom_volume *original = lit != NULL ? lom_create_volume(lit, error) : NULL;
     lom_free_image(lit);
     if (original == NULL)

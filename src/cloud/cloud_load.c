@@ -2,6 +2,7 @@
  * each cloud, the noise and the jitter they share; what a set that was loaded before has of it is taken from there.
  * Invariant: clouds of one kind, seed and size of volume share one density. */
 #include "cloud/cloud_draw.h"
+#include "cloud/cloud_sprites.h"
 #include "cloud/detail_noise.h"
 
 #include <string.h>
@@ -17,6 +18,7 @@ void lom_free_cloud_set(struct lom_cloud_set *set)
     for (size_t i = 0; i < set->count; i++) {
         lom_free_light_grid(set->clouds[i].light);
         lom_free_volume(set->clouds[i].original);
+        lom_free_cloud_sprites(set->clouds[i].sprites);
     }
     for (int i = 0; i < LOM_DETAIL_FIELDS; i++)
         lom_free_image(set->fields[i]);
@@ -75,13 +77,15 @@ static const struct lom_cloud_density *find_density(struct lom_cloud_set *set, c
     return density->medium != NULL ? density : NULL;
 }
 
-/* What marching makes of a density on average: the mean of the noise eats into it. */
-static void fill_erosion(const struct lom_cloud_set *set, const lom_cloud *cloud, float eroded[256])
+/* What marching makes of a density on average: the mean of the noise eats into it, and a transfer function thins it. */
+static void fill_erosion(const struct lom_cloud_set *set, const struct lom_placed_cloud *placed, float eroded[256])
 {
-    double eaten = set->detail->mean * cloud->detail;
+    double eaten = set->detail->mean * placed->cloud->detail;
     for (int i = 0; i < 256; i++) {
         double left = (i / 255.0 - eaten) / (1 - eaten);
         eroded[i] = left > 0 ? (float)left : 0;
+        if (placed->transfer.count > 0)
+            eroded[i] = lom_transfer_at(&placed->transfer, eroded[i], 3);
     }
 }
 
@@ -98,6 +102,14 @@ static bool holds_light(const struct lom_cloud_set *set, const lom_light_grid *l
     return false;
 }
 
+static bool is_same_transfer(const lom_cloud *a, const lom_cloud *b)
+{
+    bool same = a->transfer_count == b->transfer_count;
+    for (size_t i = 0; same && i < a->transfer_count; i++)
+        same = a->transfer[i].value == b->transfer[i].value && a->transfer[i].extinction == b->transfer[i].extinction;
+    return same;
+}
+
 /* The light of a cloud of the set before that has the same density, size and thickness, unless another cloud has taken
  * it; NULL: there is none. */
 static lom_light_grid *share_light(const struct lom_cloud_set *set, const struct lom_cloud_set *before,
@@ -109,7 +121,7 @@ static lom_light_grid *share_light(const struct lom_cloud_set *set, const struct
         const lom_cloud *source = other->cloud;
         if (other->density->image == placed->density->image && source->detail == cloud->detail &&
             extinction_of(source) == extinction_of(cloud) &&
-            memcmp(source->size, cloud->size, sizeof cloud->size) == 0 &&
+            memcmp(source->size, cloud->size, sizeof cloud->size) == 0 && is_same_transfer(source, cloud) &&
             before->quality.light_scale == set->quality.light_scale && !holds_light(set, other->light))
             return other->light;
     }
@@ -120,13 +132,31 @@ static bool make_light(const struct lom_cloud_set *set, struct lom_placed_cloud 
 {
     const lom_cloud *cloud = placed->cloud;
     float eroded[256];
-    fill_erosion(set, cloud, eroded);
+    fill_erosion(set, placed, eroded);
     placed->light = lom_create_light_grid(placed->density->image, set->quality.light_scale, eroded, error);
     if (placed->light == NULL)
         return false;
     const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
     lom_sweep_sky(placed->light, size, extinction_of(cloud));
     return true;
+}
+
+size_t lom_cloud_transfer_points(const lom_cloud *cloud, lom_transfer_point points[LOM_MAX_TRANSFER])
+{
+    size_t count = cloud->transfer_count < LOM_MAX_TRANSFER ? cloud->transfer_count : LOM_MAX_TRANSFER;
+    for (size_t i = 0; i < count; i++) {
+        const lom_cloud_transfer *from = &cloud->transfer[i];
+        points[i] =
+            (lom_transfer_point){ from->value, from->extinction, { from->color[0], from->color[1], from->color[2] } };
+    }
+    return count;
+}
+
+static bool make_transfer(struct lom_placed_cloud *placed, lom_error *error)
+{
+    lom_transfer_point points[LOM_MAX_TRANSFER];
+    size_t count = lom_cloud_transfer_points(placed->cloud, points);
+    return count == 0 || lom_make_transfer_function(points, count, &placed->transfer, error);
 }
 
 static bool place_cloud(struct lom_cloud_set *set, const struct lom_cloud_set *before, const lom_cloud *cloud,
@@ -140,23 +170,38 @@ static bool place_cloud(struct lom_cloud_set *set, const struct lom_cloud_set *b
                                          .axes = { { c, 0, -s }, { 0, 1, 0 }, { s, 0, c } } };
     placed->middle.y += cloud->size[1] / 2;
     placed->density = find_density(set, before, cloud, error);
-    if (placed->density == NULL)
+    if (placed->density == NULL || !make_transfer(placed, error))
         return false;
     placed->light = share_light(set, before, placed);
-    return placed->light != NULL || make_light(set, placed, error);
+    if (placed->light == NULL && !make_light(set, placed, error))
+        return false;
+    if (lom_has_cloud_sprites(set->quality.model))
+        placed->sprites = lom_make_cloud_sprites(placed, set->quality.model, set->mean_opacity, error);
+    return placed->sprites != NULL || !lom_has_cloud_sprites(set->quality.model);
+}
+
+static double mean_opacity(const lom_image *picture)
+{
+    uint64_t sum = 0;
+    const size_t size = lom_image_size(picture);
+    for (size_t i = 3; i < size; i += 4)
+        sum += picture->pixels[i];
+    return (double)sum / (255.0 * (double)(size / 4));
 }
 
 static bool load_picture(struct lom_cloud_set *set, lom_error *error)
 {
-    lom_image *made = lom_make_cloud_picture(256, 1, error);
+    const bool is_puff = set->quality.model == LOM_CLOUDS_SPRITES;
+    lom_image *made = is_puff ? lom_make_cloud_puff(64, 1, error) : lom_make_cloud_picture(256, 1, error);
     lom_texture_desc desc = {
-        .width = 256,
-        .height = 256,
+        .width = is_puff ? 64 : 256,
+        .height = is_puff ? 64 : 256,
         .mips = LOM_MIPS_ALL,
         .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP, .filtering = set->quality.filtering }
     };
     if (made != NULL) {
         desc.pixels = made->pixels;
+        set->mean_opacity = mean_opacity(made);
         set->picture = lom_create_texture(&desc, error);
     }
     lom_free_image(made);
@@ -177,8 +222,9 @@ static bool load_shared(struct lom_cloud_set *set, const struct lom_cloud_set *b
     set->detail = from->detail != NULL && from->phase == 0 ? from->detail : lom_create_detail(set->fields[0], error);
     if (set->detail == NULL)
         return false;
-    if (set->quality.model == LOM_CLOUDS_BILLBOARD) {
-        set->picture = from->picture;
+    if (set->quality.model == LOM_CLOUDS_BILLBOARD || lom_has_cloud_sprites(set->quality.model)) {
+        set->picture = from->quality.model == set->quality.model ? from->picture : NULL;
+        set->mean_opacity = from->mean_opacity;
         if (set->picture == NULL && !load_picture(set, error))
             return false;
     }

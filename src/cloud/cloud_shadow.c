@@ -50,7 +50,8 @@ static void set_rays(struct lom_cloud_shadow_uniforms *u, const struct lom_place
 void lom_draw_cloud_shadow(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
                            const double plane[4], double y, const double to_light[3])
 {
-    struct lom_cloud_shadow_uniforms u = { .steps = STEPS };
+    struct lom_cloud_shadow_uniforms u = { .steps = STEPS,
+                                           .transfer = cloud->transfer.count > 0 ? &cloud->transfer : NULL };
     double extent[4];
     lom_shadow_extent(lom_cloud_bounds(cloud), y, to_light, extent);
     if (!find_part(extent[0], extent[1], plane[0], plane[2], &u.quad[0], &u.quad[2]) ||

@@ -19,6 +19,7 @@ struct lom_cloud_uniforms {
     bool is_sliced;                            /* only what lies between two planes is seen */
     float slice_axis[3], slice_from, slice_to; /* metres along a unit vector from the eye */
     lom_medium_desc march;
+    lom_transfer_desc transfer; /* its function NULL: none */
     /* light */
     float to_light[3], sun[3], sky[3], ground[3]; /* radiance where a place sees all of it */
     int phase;                                    /* lom_cloud_phase */
@@ -32,7 +33,9 @@ struct lom_cloud_uniforms {
     float unit;                 /* the reference's units a metre */
     bool is_real_time;
     const lom_texture *picture; /* of the billboard */
-    float right[3], up[3];      /* half the billboard, metres */
+    float right[3], up[3];      /* half the billboard, metres; of many, unit vectors */
+    const float *sprites;       /* as in cloud_sprites.h */
+    float sprite_depth;
 };
 
 /* A plate with a cloud's picture. */
@@ -52,6 +55,7 @@ struct lom_cloud_shadow_uniforms {
     float along[3];                   /* in the box, a metre towards the light */
     int steps;
     lom_medium_desc march;
+    const lom_transfer_function *transfer; /* NULL: none */
 };
 
 struct lom_placed_cloud;
@@ -60,8 +64,8 @@ struct lom_cloud_view;
 void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
                          const struct lom_cloud_view *view);
 
-extern const lom_shader lom_cloud_original_shader, lom_cloud_picture_shader;
-extern const lom_shader lom_cloud_shader, lom_cloud_shadow_shader;
+extern const lom_shader lom_cloud_original_shader, lom_cloud_picture_shader, lom_cloud_sprite_shader;
+extern const lom_shader lom_cloud_shader, lom_cloud_transfer_shader, lom_cloud_shadow_shader;
 extern const lom_shader lom_impostor_shader, lom_magnify_shader;
 
 #endif

@@ -40,3 +40,25 @@ lom_image *lom_make_cloud_picture(int size, uint64_t seed, lom_error *error)
         }
     return picture;
 }
+
+lom_image *lom_make_cloud_puff(int size, uint64_t seed, lom_error *error)
+{
+    LOM_OWN_FLOAT_STATE;
+    if (size < 8 || size > 1024) {
+        lom_fail(error, LOM_ERROR_USAGE, "A puff of cloud has 8 to 1024 pixels a side, not %d.", size);
+        return NULL;
+    }
+    lom_image *picture = lom_create_image(size, size, 1, LOM_FORMAT_RGBA8, error);
+    lom_noise noise;
+    lom_seed_noise(&noise, seed);
+    for (int y = 0; picture != NULL && y < size; y++)
+        for (int x = 0; x < size; x++) {
+            double s = (x + 0.5) / size, t = (y + 0.5) / size, u = 2 * s - 1, v = 2 * t - 1;
+            double within = lom_clamp_double(1 - u * u - v * v, 0, 1);
+            double grain = lom_clamp_double(1 + 0.9 * four_octaves(&noise, s, t), 0, 2);
+            uint8_t *to = lom_image_pixel(picture, x, y, 0);
+            to[0] = to[1] = to[2] = 255;
+            to[3] = lom_unorm8_of_double(lom_clamp_double(within * within * grain, 0, 1));
+        }
+    return picture;
+}

@@ -1,10 +1,8 @@
 /* Rays through a medium, LOM_LANES at a time. In: rays between two distances, a density, a grid of light. Out: how much
  * of each light they bring, and what comes through from behind. Invariant: a step at which the density is 0 for a ray
  * changes no bit of its result, so that leaving such steps out changes none either. */
-#include "fixed_cells.h"
 #include "lanes/notes.h"
-
-#include <lom/lanes_mathematics.h>
+#include "medium_steps.h"
 
 void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
 {
@@ -25,87 +23,6 @@ void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
         rays->active &= ~outside;
     }
     rays->active &= (*enter < *leave) & ~still;
-}
-
-LOM_INLINE lom_float sample_density(const lom_medium *m, bool fixed, const lom_volume_place *place)
-{
-    if (!fixed)
-        return lom_sample_medium(m, *place);
-    struct fixed_place at = fix_place(*place);
-    return fixed_medium(m, &at);
-}
-
-/* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below
- * 0 (Schneider and Vos 2015). Far away the noise is its mean. */
-static lom_float find_density(const lom_medium_desc *desc, lom_float3 p, const lom_volume_place *place,
-                              lom_float distance)
-{
-    bool fixed = desc->filtering == LOM_FILTERING_FIXED;
-    lom_float density = sample_density(desc->medium, fixed, place);
-    if (desc->detail == NULL || !lom_any((density > 0.0f) & (density < 1.0f)))
-        return density;
-    lom_float noise = lom_splat(desc->detail->mean);
-    lom_float fading = 1.0f - lom_smoothstep(lom_splat(desc->detail_near), lom_splat(desc->detail_far), distance);
-    if (lom_any(fading > 0.0f)) {
-        lom_float3 q = { p.x * desc->detail_scale[0], p.y * desc->detail_scale[1], p.z * desc->detail_scale[2] };
-        noise = lom_mix(noise, fixed ? fixed_detail(desc->detail, q) : lom_sample_detail(desc->detail, q), fading);
-    }
-    lom_float eaten = noise * desc->detail_strength;
-    return lom_saturate((density - eaten) / (1.0f - eaten));
-}
-
-/* sum over k of weight_k phase_k exp(-T / 2^k), from s = exp(-T / 16): the powers 16, 8, 4, 2, 1, then roots. */
-static lom_float sun_share(const lom_medium_desc *desc, const lom_medium_rays *rays, lom_float s)
-{
-    lom_float power[LOM_MAX_OCTAVES];
-    power[4] = s;
-    for (int k = 3; k >= 0; k--)
-        power[k] = power[k + 1] * power[k + 1];
-    for (int k = 5; k < desc->octaves; k++)
-        power[k] = lom_sqrt(power[k - 1]);
-    lom_float sum = power[0] * (rays->phase[0] * desc->weight[0]);
-    for (int k = 1; k < desc->octaves; k++)
-        sum += power[k] * (rays->phase[k] * desc->weight[k]);
-    return sum;
-}
-
-/* Whole steps that are empty for every ray from the places on: cells nearer than the distance are, and a ray is in a cell
- * for at least `per_cell` steps. 1.01 covers the place within its cell and the rounding of positions. */
-static int empty_steps(const lom_medium *m, const lom_volume_place *place, lom_mask alive, lom_float per_cell)
-{
-    int32_t index[LOM_LANES];
-    float steps[LOM_LANES], least = 65535;
-    lom_store_int(index, place->index);
-    lom_store(steps, per_cell);
-    for (uint32_t lanes = lom_bits(alive); lanes != 0; lanes &= lanes - 1) {
-        int i = __builtin_ctz(lanes);
-        float room = (float)m->distance[index[i]] - 1.01f;
-        if (room < 0)
-            return 0;
-        least = room * steps[i] < least ? room * steps[i] : least;
-    }
-    return 1 + lom_int_of(least);
-}
-
-LOM_INLINE lom_float largest3(lom_float a, lom_float b, lom_float c)
-{
-    return lom_max(lom_max(lom_abs(a), lom_abs(b)), lom_abs(c));
-}
-
-/* Steps that a ray takes from cell to cell along the axis on which it is fastest, or fewer, whatever is rounded. */
-static lom_float steps_per_cell(const lom_medium *m, const lom_medium_rays *rays, lom_float step)
-{
-    lom_float speed = step * largest3(rays->along.x * (float)m->width, rays->along.y * (float)m->height,
-                                      rays->along.z * (float)m->depth) +
-                      1e-6f;
-    return 0.99999f / speed;
-}
-
-/* The step of each ray in metres: the asked one, or longer where the ray would take too many. */
-static lom_float step_of(const lom_medium_desc *desc, const lom_medium_rays *rays)
-{
-    lom_float length = lom_max(rays->leave - rays->enter, (lom_float){ 0 });
-    return lom_max(lom_splat(desc->step), length * (1.0f / (float)desc->most_steps));
 }
 
 void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *rays, const lom_medium_desc *desc,

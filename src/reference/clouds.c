@@ -41,15 +41,19 @@ static bool place_cloud(lom_reference *reference, const lom_cloud *cloud, const 
                                       .sine = lom_double_sin(cloud->yaw),
                                       .cosine = lom_double_cos(cloud->yaw) };
     placed->middle.y += half.y;
-    placed->volume =
-        lom_create_reference_volume(&(lom_reference_volume_desc){ .density = density,
-                                                                  .low = scaled(half, -1),
-                                                                  .high = half,
-                                                                  .extinction = cloud->extinction * cloud->density,
-                                                                  .albedo = { all->albedo, all->albedo, all->albedo },
-                                                                  .phase = { (lom_cloud_phase)all->phase, all->forward,
-                                                                             all->backward, all->blend } },
-                                    error);
+    lom_transfer_point points[LOM_MAX_TRANSFER];
+    size_t point_count = lom_cloud_transfer_points(cloud, points);
+    placed->volume = lom_create_reference_volume(
+        &(lom_reference_volume_desc){ .density = density,
+                                      .low = scaled(half, -1),
+                                      .high = half,
+                                      .extinction = cloud->extinction * cloud->density,
+                                      .albedo = { all->albedo, all->albedo, all->albedo },
+                                      .phase = { (lom_cloud_phase)all->phase, all->forward, all->backward, all->blend },
+                                      .transfer = points,
+                                      .transfer_count = point_count,
+                                      .look = cloud->look },
+        error);
     reference->cloud_count += placed->volume != NULL;
     return placed->volume != NULL;
 }

@@ -56,6 +56,34 @@ static lom_vec3 sunlight(const lom_reference_volume *v, const lom_reference_ligh
     return scaled(sun, lom_phase_density(&v->phase, dot(d, light->to_sun)) * lom_double_exp(-depth));
 }
 
+/* What a surface at a place makes of the sun, and where it sends the path on: by Lambert, who sends irradiance / pi in
+ * every direction, and by cosine about the normal n. */
+static lom_vec3 surface_light(const lom_reference_volume *v, const lom_reference_light *light, lom_vec3 place,
+                              lom_vec3 n)
+{
+    double cosine = dot(n, light->to_sun);
+    lom_vec3 sun = { light->sun[0], light->sun[1], light->sun[2] };
+    if (!(cosine > 0))
+        return (lom_vec3){ 0, 0, 0 };
+    double depth = lom_volume_optical_depth(v, place, light->to_sun, 0, __builtin_inf());
+    return scaled(sun, cosine / lom_pi * lom_double_exp(-depth));
+}
+
+/* The light that a path finds where it met something, and its new direction. */
+static lom_vec3 scatter(const lom_reference_volume *v, const lom_reference_light *light, lom_vec3 place, lom_vec3 *d,
+                        double uniform, double choice, double turned)
+{
+    lom_vec3 n = v->look == LOM_LOOK_SURFACE ? lom_volume_normal(v, place, *d) : (lom_vec3){ 0, 0, 0 };
+    if (dot(n, n) > 0) {
+        lom_vec3 found = surface_light(v, light, place, n);
+        *d = turn(n, lom_double_sqrt(1 - uniform), turned);
+        return found;
+    }
+    lom_vec3 found = sunlight(v, light, place, *d);
+    *d = turn(*d, lom_phase_cosine(&v->phase, uniform, choice), turned);
+    return found;
+}
+
 static double greatest_of(lom_vec3 a)
 {
     return lom_larger(a.x, lom_larger(a.y, a.z));
@@ -79,16 +107,22 @@ static lom_vec3 follow(const lom_reference_volume *v, const lom_reference_light 
             *cut = true;
             return total;
         }
-        weight = product(weight, v->albedo);
-        total = sum(total, product(weight, sunlight(v, light, place, d)));
+        lom_vec3 color =
+            v->transfer_count > 0 ? lom_seen_color(v, lom_volume_density(v, place)) : (lom_vec3){ 1, 1, 1 };
+        if (v->transfer_count > 0 && v->look == LOM_LOOK_GLOWING)
+            return sum(total, product(weight, color));
+        weight = product(weight, product(color, v->albedo));
         double kept = greatest_of(weight);
+        const lom_vec3 before = weight;
+        bool ends = false;
         if (kept < 0.1) {
-            if (!(draw(&numbers) < kept))
-                return total;
+            ends = !(draw(&numbers) < kept);
             weight = scaled(weight, 1 / kept);
         }
         double uniform = draw(&numbers), choice = draw(&numbers);
-        d = turn(d, lom_phase_cosine(&v->phase, uniform, choice), draw(&numbers));
+        total = sum(total, product(before, scatter(v, light, place, &d, uniform, choice, draw(&numbers))));
+        if (ends)
+            return total;
         far = __builtin_inf();
     }
 }

@@ -39,7 +39,7 @@ static bool check_volume(const lom_reference_volume_desc *d, lom_error *error)
     if (!good)
         return lom_fail(error, LOM_ERROR_USAGE,
                         "A volume's extinction is finite and not negative, and its albedo lies in 0 to 1.");
-    return true;
+    return lom_check_transfer_points(d->transfer, d->transfer_count, error);
 }
 
 lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_desc *d, lom_error *error)
@@ -56,7 +56,9 @@ lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_des
                                      .high = { d->high.x, d->high.y, d->high.z },
                                      .extinction = d->extinction,
                                      .albedo = { d->albedo[0], d->albedo[1], d->albedo[2] },
-                                     .phase = d->phase };
+                                     .phase = d->phase,
+                                     .transfer_count = d->transfer_count,
+                                     .look = d->look };
     if (v == NULL || v->density == NULL) {
         lom_release(v);
         return NULL;
@@ -65,6 +67,10 @@ lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_des
     for (size_t i = 0; i < count; i++) {
         v->density[i] = read_voxel(d->density, i);
         most = lom_larger(v->density[i], most);
+    }
+    for (size_t i = 0; i < d->transfer_count; i++) {
+        v->transfer[i] = d->transfer[i];
+        most = lom_larger(i > 0 ? most : 0, d->transfer[i].extinction);
     }
     v->greatest = most * d->extinction;
     for (int i = 0; i < 3; i++)
@@ -134,11 +140,31 @@ static void to_voxels(const lom_reference_volume *v, lom_vec3 p, double at[3])
     at[2] = (p.z - v->low[2]) * v->voxels[2] - 0.5;
 }
 
-double lom_volume_extinction(const lom_reference_volume *v, lom_vec3 place)
+double lom_volume_density(const lom_reference_volume *v, lom_vec3 place)
 {
     double at[3];
     to_voxels(v, place, at);
-    return v->extinction * density_at(v, at);
+    return density_at(v, at);
+}
+
+double lom_volume_extinction(const lom_reference_volume *v, lom_vec3 place)
+{
+    return v->extinction * lom_seen_extinction(v, lom_volume_density(v, place));
+}
+
+lom_vec3 lom_volume_normal(const lom_reference_volume *v, lom_vec3 place, lom_vec3 d)
+{
+    double at[3], rise[3];
+    to_voxels(v, place, at);
+    for (int i = 0; i < 3; i++) {
+        double beside[3] = { at[0], at[1], at[2] };
+        beside[i] = at[i] - 1;
+        double before = density_at(v, beside);
+        beside[i] = at[i] + 1;
+        rise[i] = (before - density_at(v, beside)) * v->voxels[i];
+    }
+    lom_vec3 n = lom_vec3_normalize((lom_vec3){ rise[0], rise[1], rise[2] });
+    return dot(n, d) > 0 ? scaled(n, -1) : n;
 }
 
 /* ---- integrating along it ---- */
@@ -197,7 +223,23 @@ static double advance(struct walk *w, double to)
     return nearest;
 }
 
-/* Simpson's rule is exact for cubics; the sum is compensated (A. Neumaier, ZAMM 54, 1974). */
+/* Optical depth between two planes, in parts of the volume's extinction: a cubic, of which Simpson's rule is exact; or by
+ * a transfer function over a straight line for each quarter of it. */
+static double part_of_depth(const struct walk *w, double from, double to, double first, double last)
+{
+    enum { PIECES = 4 };
+    if (w->volume->transfer_count == 0)
+        return (to - from) * ((first + last) + 4 * density_on(w, from + (to - from) / 2)) / 6;
+    double sum = 0;
+    for (int i = 1; i <= PIECES; i++) {
+        double next = i < PIECES ? density_on(w, from + (to - from) * i / PIECES) : last;
+        sum += lom_mean_extinction(w->volume, first, next);
+        first = next;
+    }
+    return sum * (to - from) / PIECES;
+}
+
+/* The sum is compensated (A. Neumaier, ZAMM 54, 1974). */
 double lom_volume_optical_depth(const lom_reference_volume *v, lom_vec3 origin, lom_vec3 direction, double from,
                                 double to)
 {
@@ -208,8 +250,7 @@ double lom_volume_optical_depth(const lom_reference_volume *v, lom_vec3 origin, 
     double total = 0, lost = 0, first = density_on(&w, from);
     while (from < to) {
         double next = advance(&w, to), last = density_on(&w, next);
-        double middle = density_on(&w, from + (next - from) / 2);
-        double part = (next - from) * ((first + last) + 4 * middle) / 6, longer = total + part;
+        double part = part_of_depth(&w, from, next, first, last), longer = total + part;
         lost += total >= part ? (total - longer) + part : (part - longer) + total;
         total = longer;
         from = next;

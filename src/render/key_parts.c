@@ -66,14 +66,16 @@ const struct lom_key_row lom_key_rows[] = {
 
     { LOM_PART_CLOUDS,
       "cloud cloud.kind cloud.file cloud.voxels cloud.seed cloud.position cloud.middle cloud.size cloud.yaw "
-      "cloud.density cloud.extinction cloud.detail cloud.visible clouds.evolve clouds.wind "
+      "cloud.density cloud.extinction cloud.detail cloud.visible cloud.transfer_function cloud.transfer_function.* "
+      "clouds.evolve clouds.wind "
       "clouds.count clouds.oktas clouds.metar clouds.seed clouds.shapes clouds.area clouds.middle "
       "clouds.sizes clouds.voxels clouds.base clouds.mix clouds.mix.kind clouds.mix.share" },
     { LOM_PART_CLOUD_LIGHT, "clouds.albedo clouds.forward clouds.original_light clouds.lighter clouds.dark_light" },
-    { each_frame, "cloud.name cloud.detail_size clouds clouds.phase clouds.backward clouds.blend clouds.silver "
-                  "clouds.silver_spread clouds.brightness clouds.sky clouds.ground clouds.haze_color "
-                  "clouds.haze_distance clouds.shadows clouds.shadow_strength clouds.wind.height clouds.wind.speed "
-                  "clouds.wind.direction clouds.wind.gust clouds.wind.gust_period clouds.swell" },
+    { each_frame,
+      "cloud.name cloud.detail_size cloud.look clouds clouds.phase clouds.backward clouds.blend clouds.silver "
+      "clouds.silver_spread clouds.brightness clouds.sky clouds.ground clouds.haze_color "
+      "clouds.haze_distance clouds.shadows clouds.shadow_strength clouds.wind.height clouds.wind.speed "
+      "clouds.wind.direction clouds.wind.gust clouds.wind.gust_period clouds.swell" },
 
     { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible spray.bounce spray.source "
                                          "spray.from spray.to" },

@@ -23,11 +23,12 @@ static void test_every_kind_by_seed(void)
         lom_image *other = make(kind->name, 40, 22, 33, 6);
         CHECK(a != NULL && a->width == 40 && a->height == 22 && a->depth == 33, "%s", kind->name);
         CHECK(memcmp(a->pixels, b->pixels, lom_image_size(a)) == 0, "%s differs from itself", kind->name);
-        CHECK(memcmp(a->pixels, other->pixels, lom_image_size(a)) != 0, "%s does not follow its seed", kind->name);
+        bool by_formula = strcmp(kind->name, "ball") == 0 || strcmp(kind->name, "ripples") == 0;
+        CHECK((memcmp(a->pixels, other->pixels, lom_image_size(a)) == 0) == by_formula, "%s and its seed", kind->name);
         size_t full = 0, count = lom_image_size(a) / 2;
         for (size_t v = 0; v < count; v++)
             full += voxels(a)[v] != 0;
-        CHECK(full > count / 100 && full < count, "%s: %zu of %zu voxels", kind->name, full, count);
+        CHECK(full > count / 100 && (full < count || by_formula), "%s: %zu of %zu voxels", kind->name, full, count);
         CHECK(kind->low <= kind->high && kind->extinction > 0, "%s", kind->name);
         lom_free_image(a);
         lom_free_image(b);

@@ -118,6 +118,8 @@ static const struct base bases[] = {
       VIEW TERRAIN CLOUD },
     { "original", "clouds.lighter clouds.dark_light clouds.original_light cloud.0.size cloud.0.density",
       VIEW CLOUD "[quality]\nclouds = \"original\"\n" },
+    { "transfer", "cloud.0.transfer_function cloud.0.look cloud.0.detail quality.clouds",
+      VIEW CLOUD "look = \"surface\"\ntransfer_function = [{ value = 0, extinction = 0 }, { value = 1 }]\n" },
     { "evolve", "clouds.evolve clouds.swell clouds.wind output.fps", VIEW CLOUD WIND "[clouds]\nevolve = 3\n" },
     { "impostors",
       "quality.impostor quality.impostors cloud.0.size cloud.0.position cloud.0.yaw camera.near "

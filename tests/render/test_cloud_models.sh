@@ -84,7 +84,7 @@ flat_turns_with_the_eye() {
 }
 
 one_hash_a_model() {
-    for model in original billboard forward; do
+    for model in original billboard forward sprites groups; do
         "$lom" render "$folder/scene.toml" --hash --set "quality.clouds=\"$model\"" --lanes 4 --threads 1 >"$folder/one" || return 1
         for other in '--lanes auto --threads 2' '--lanes 4 --threads 5'; do
             # shellcheck disable=SC2086
