@@ -1,7 +1,7 @@
 /* Proves what a far sea looks like against the distribution of its slopes (tests/rough_water.h): the light of the sun in
  * it and the area that glitters, at five winds and three heights of the sun, where the slopes are those of Cox and Munk,
- * and where they are those of thousands of waves that are smaller than a pixel; and that nothing steps while a camera
- * climbs from 2 m to 400 km over such waves. */
+ * and where they are those of thousands of waves that are smaller than a pixel; how much of the sky; and that nothing steps
+ * while a camera climbs from 2 m to 400 km over such waves. */
 #include "check.h"
 #include "rough_water.h"
 #include "waves/sea_desc.h"
@@ -166,6 +166,39 @@ static void waves_glitter_as_their_slopes_say(void)
     }
 }
 
+/* ---- the sky ---- */
+
+/* A white sky over black water, from straight above to 5 degrees above the horizon. The model's quadrature has two nodes. */
+static void the_sky_is_mirrored_as_the_slopes_say(void)
+{
+    static const int angles[] = { 0, 40, 60, 70, 80, 85 };
+    double worst = 0;
+    for (int k = 0; k < 30; k++) {
+        const double angle = angles[k / 5] * degree, v[3] = { sin(angle), cos(angle), 0 };
+        const rough_water w = cox_munk_even(winds[k % 5]);
+        char text[1200];
+        lom_scene *scene;
+        snprintf(text, sizeof text,
+                 "[output]\nformat = 'rgb32f'\n[camera]\nposition = [0, 100, 0]\npitch = %d\nfield_of_view = 1\n"
+                 "[light]\nintensity = 0\nambient = [0, 0, 0]\n[sky]\ncolor = [1, 1, 1]\n[water]\nsize = 1e5\n"
+                 "[water.optics]\nindex = 1.34\nabsorption = [1, 1, 1]\nscatter = [0, 0, 0]\nroughness = %.17g\n"
+                 "[quality]\nwater = 'displaced'\n",
+                 angles[k / 5] - 90, 2 * w.up);
+        lom_renderer *renderer = open_renderer(text, &scene);
+        lom_image *image = draw(renderer, &(lom_frame_desc){ .width = 16, .height = 9 });
+        double mean = 0;
+        for (int i = 0; image != NULL && i < 16 * 9; i++)
+            mean += (double)((const float *)image->pixels)[3 * i] / (16 * 9);
+        const double off = mean / mirrored_sky(&w, v) - 1;
+        CHECK(fabs(off) < 0.03, "%d degrees, wind %g: %+.2f %%", angles[k / 5], winds[k % 5], 100 * off);
+        worst = fabs(off) > worst ? fabs(off) : worst;
+        lom_free_image(image);
+        lom_free_renderer(renderer);
+        lom_free_scene(scene);
+    }
+    printf("  off by %.2f %% at most\n", 100 * worst);
+}
+
 /* ---- the climb ---- */
 
 static const char climb[] =
@@ -212,6 +245,7 @@ int main(int argc, char **argv)
 {
     RUN(ripples_glitter_as_their_slopes_say);
     RUN(waves_glitter_as_their_slopes_say);
+    RUN(the_sky_is_mirrored_as_the_slopes_say);
     RUN(nothing_steps_as_the_camera_climbs);
     return check_result();
 }
