@@ -68,13 +68,13 @@ const lom_warnings *lom_reference_warnings(const lom_reference *reference);
 
 /* The water of the scene's [water] table as the reference has it: to be changed and put back. */
 lom_reference_water lom_get_reference_water(const lom_reference *reference);
-/* Puts another surface in its place. False (and nothing changed) for numbers that are not finite, an index or step that
+/* Puts another surface in its place, which is then the only one. False (and nothing changed) for numbers that are not finite, an index or step that
  * is not above 0, or absorption below 0. */
 bool lom_set_reference_water(lom_reference *reference, const lom_reference_water *water, lom_error *error);
 
 /* How a ray sees the scene: the radiance (linear) that comes from `direction` (unit length) to `origin`, nothing nearer
  * than `near_distance`. depth: how many times a path may be divided or mirrored at water; after that water is not seen.
- * Without the waves of [water.waves], which lom_trace_scene makes for its camera. */
+ * All waters of the scene are there. Without the waves of [water.waves], which lom_trace_scene makes for its camera. */
 lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3 direction, double near_distance,
                        double time, int depth);
 

@@ -95,6 +95,48 @@ static lom_image *show_far_shadow(lom_renderer *r, const lom_frame_desc *desc, l
     return read_floats(r->entities.shadows[1].map, LOM_FORMAT_R32F, "far shadow map", error);
 }
 
+/* Copies a map of a lamp's face into the square at (column, row). */
+static bool place_map(lom_image *image, const lom_texture *map, int column, int row, int size, lom_error *error)
+{
+    lom_image *face = read_floats(map, LOM_FORMAT_R32F, "shadow map", error);
+    for (int y = 0; face != NULL && y < size; y++)
+        memcpy(lom_image_pixel(image, column * size, row * size + y, 0), lom_image_pixel(face, 0, y, 0),
+               (size_t)size * sizeof(float));
+    const bool done = face != NULL;
+    lom_free_image(face);
+    return done;
+}
+
+/* A row of maps a lamp; a face before which nothing stands is black. */
+static lom_image *show_lamp_shadows(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
+{
+    (void)desc;
+    const struct lom_drawn_lamps *lamps = &r->lamps;
+    int rows = 0, columns = 0, size = 0;
+    for (size_t i = 0; i < lamps->count; i++) {
+        const struct lom_lamp_shadow_uniform *shadow = lamps->items[i].shadow;
+        rows += shadow != NULL;
+        columns = shadow != NULL && shadow->count > columns ? shadow->count : columns;
+        for (int k = 0; shadow != NULL && k < shadow->count; k++)
+            size = shadow->face[k].map != NULL ? lom_texture_width(shadow->face[k].map) : size;
+    }
+    if (size == 0)
+        return missing("shadow map of a lamp", error);
+    lom_image *image = lom_create_image(columns * size, rows * size, 1, LOM_FORMAT_R32F, error);
+    bool done = image != NULL;
+    for (size_t i = 0, row = 0; done && i < lamps->count; i++) {
+        const struct lom_lamp_shadow_uniform *shadow = lamps->items[i].shadow;
+        for (int k = 0; done && shadow != NULL && k < shadow->count; k++)
+            if (shadow->face[k].map != NULL)
+                done = place_map(image, shadow->face[k].map, k, (int)row, size, error);
+        row += shadow != NULL;
+    }
+    if (done)
+        return image;
+    lom_free_image(image);
+    return NULL;
+}
+
 static lom_image *show_cloud_shadow(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
 {
     (void)desc;
@@ -161,6 +203,8 @@ static const struct row {
     { { "near-shadow", "depth of what casts shadows near the eye, as the sun sees it, 1 next to it", false },
       show_near_shadow },
     { { "far-shadow", "the same of what is farther than the middle", false }, show_far_shadow },
+    { { "lamp-shadows", "a row of maps a lamp: how near to it something stands, as it sees it; 0: nothing", false },
+      show_lamp_shadows },
     { { "cloud-shadow", "the share of the sun that clouds let through", false }, show_cloud_shadow },
     { { "caustics", "the sunlight that waves focus on the bed, in parts of the sun's", false }, show_caustics },
     { { "light-grid", "of the first cloud, exp(-optical depth towards the sun / 16), its middle slice", false },

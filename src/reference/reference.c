@@ -1,6 +1,20 @@
 /* Making and freeing a reference, and changing its water. In: a scene. Out: everything that rays are traced through. */
 #include "reference/reference.h"
 
+/* One of each of the scene's other waters, for rays that are traced without a frame. */
+static bool make_others(lom_reference *reference, lom_error *error)
+{
+    const size_t count = reference->scene->other_water_count;
+    if (count == 0)
+        return true;
+    reference->own_others = lom_allocate(count, sizeof *reference->own_others, error);
+    for (size_t i = 1; reference->own_others != NULL && i <= count; i++)
+        lom_set_other_water(&reference->own_others[i - 1], reference, i);
+    reference->others = reference->own_others;
+    reference->other_count = reference->own_others != NULL ? count : 0;
+    return reference->own_others != NULL;
+}
+
 static lom_reference *create(struct lom_world *world, bool owns_world, lom_error *error)
 {
     lom_reference *reference = lom_allocate(1, sizeof *reference, error);
@@ -14,7 +28,8 @@ static lom_reference *create(struct lom_world *world, bool owns_world, lom_error
     reference->world = world;
     reference->owns_world = owns_world;
     reference->scene = world->scene;
-    bool done = lom_load_reference(reference, error) && lom_place_reference(reference, 0, error);
+    bool done = lom_load_reference(reference, error) && lom_place_reference(reference, 0, error) &&
+                make_others(reference, error);
     lom_leave_float_state(&state);
     if (done)
         return reference;
@@ -45,6 +60,7 @@ void lom_free_reference(lom_reference *reference)
     lom_free_placed(reference);
     lom_free_ray_clouds(reference);
     lom_free_image(reference->sky_faces);
+    lom_release(reference->own_others);
     lom_release(reference->pictures);
     lom_release(reference->layers);
     lom_release(reference->materials);
@@ -78,5 +94,6 @@ bool lom_set_reference_water(lom_reference *reference, const lom_reference_water
                         "absorption.");
     reference->water = *w;
     reference->own_water = true;
+    reference->other_count = 0;
     return true;
 }

@@ -87,7 +87,8 @@ struct lom_reference {
     const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
     size_t number;                        /* of the water that water, maps, waves and slant are of */
     struct lom_ray_water other_waters[LOM_MAX_OTHER_WATERS];
-    const struct lom_reference *others; /* of a frame: the same with each of the other waters */
+    const struct lom_reference *others; /* the same with each of the other waters: a frame's, or its own */
+    struct lom_reference *own_others;   /* made with it, without waves */
     size_t other_count;
 };
 

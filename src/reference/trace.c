@@ -193,13 +193,22 @@ lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, 
     return follow(&tracer, &path);
 }
 
+/* The reference of the water that a place is in; NULL: of none. */
+static const lom_reference *water_at(const lom_reference *reference, lom_vec3 place, double time)
+{
+    for (size_t i = 0; i <= reference->other_count; i++)
+        if (lom_water_above(lom_reference_with(reference, i), place, time) > 0)
+            return lom_reference_with(reference, i);
+    return NULL;
+}
+
 lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3 direction, double near_distance,
                        double time, int depth)
 {
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_vec3 light = lom_radiance_along(reference, (struct lom_ray){ origin, direction }, near_distance, time, depth,
-                                        lom_water_above(reference, origin, time) > 0 ? reference : NULL);
+                                        water_at(reference, origin, time));
     lom_leave_float_state(&state);
     return light;
 }

@@ -42,6 +42,7 @@ static void name_lamp(struct lom_lamp_uniform *u, const struct lom_placed_lamp *
 {
     snprintf(u->number, sizeof u->number, "lamp.%d", (int)(from->lamp - scene->lamps));
     u->name = from->lamp->name != NULL ? from->lamp->name : u->number;
+    snprintf(u->shadow_name, sizeof u->shadow_name, "%.48s.shadow", u->name);
 }
 
 /* The box of its light over x and z. */

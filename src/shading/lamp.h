@@ -23,6 +23,7 @@ struct lom_lamp_uniform {
     const struct lom_lamp_shadow_uniform *shadow; /* NULL: nothing keeps its light off */
     const char *name;                             /* of its term, in records: the scene's, or its number */
     char number[16];
+    char shadow_name[64]; /* in records, of what its shadow leaves of its light */
 };
 
 /* Tile (column, row) is number row columns + column; behind the last one are the lamps that have no end. */
@@ -137,7 +138,9 @@ LOM_INLINE bool lom_lamp_share(const struct lom_lamp_walk *walk, const struct lo
         return false;
     if (lamp->shadow == NULL)
         return true;
+    const lom_float open = *share;
     LOM_WIDE(lom_shade_lamp)(lamp->shadow, &walk->place, &walk->normal, share);
+    LOM_NAME_BY(lamp->shadow_name, lom_select(open > 0.0f, *share / open, (lom_float){ 0 }));
     return lom_any(*share > 0.0f);
 }
 

@@ -36,6 +36,20 @@ lamps_are_named() {
     grep -q '^ *torch = ' "$folder/out" && grep -q '^ *lamp\.1 = ' "$folder/out"
 }
 
+# A wall of the lamp's side: what is behind it has nothing of the lamp, what is before it all of it; its maps can be shown.
+lamp_shadows_are_told() {
+    printf 'v -9 0 -9\nv -9 0 9\nv 9 0 9\nv 9 0 -9\nf 1 2 3 4\n' >slab.obj
+    printf 'v -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nf 1 2 3 4\nf 4 3 2 1\n' >wall.obj
+    printf '[camera]\nposition = [0, 9, 0.1]\ntarget = [0, 0, 0]\nfield_of_view = 60\n[[entity]]\nname = "slab"\nmesh = "slab.obj"\n[[entity]]\nname = "wall"\nmesh = "wall.obj"\n[[lamp]]\nname = "torch"\nposition = [0, 1, 3]\nreach = 20\nshadow = true\n' >torch.toml
+    exits 0 "$lom" explain torch.toml 16,22 --size 32x32 && grep -q 'torch.shadow = 1$' "$folder/out" &&
+        grep -q ' torch = ' "$folder/out" && exits 0 "$lom" explain torch.toml 16,8 --size 32x32 &&
+        grep -q 'torch.shadow = 0$' "$folder/out" && ! grep -q ' torch = ' "$folder/out" &&
+        exits 0 "$lom" render torch.toml --size 32x32 --set quality.lamp_shadows=64 --show lamp-shadows -o maps.pfm &&
+        exits 0 "$lom" info --json maps.pfm && grep -q '"width": *384, *"height": *64' "$folder/out" &&
+        exits 2 "$lom" render torch.toml --size 32x32 --set lamp.0.shadow=false --show lamp-shadows -o none.png &&
+        complains 'no shadow map of a lamp' && [ ! -e none.png ]
+}
+
 # The same pixels by `lom render` as PPM, whose last bytes are the picture's.
 pixels_of_render() {
     "$lom" render scene.toml --size 32x24 --frame 2 -o picture.ppm --quiet || return 1
@@ -112,6 +126,7 @@ check unknown_passes_are_refused_with_a_sentence unknown_pass
 check bad_input_is_refused_with_a_sentence bad_input
 check the_verdict_comes_first verdict_first
 check each_lamp_is_named lamps_are_named
+check shadows_of_lamps_are_told lamp_shadows_are_told
 check a_page_needs_no_other_file page_alone
 if command -v node >/dev/null; then
     check every_step_of_the_page_can_be_taken page_runs

@@ -119,6 +119,36 @@ static void a_mirrored_scene_is_the_scene_from_a_mirrored_eye(void)
     close_scene();
 }
 
+/* ---- several waters ---- */
+
+#define POOL "level = 0\nsize = 8\nposition = [0, 0]\n"
+#define TARN "level = 5\nsize = 8\nposition = [20, 0]\n[water.optics]\nabsorption = [0.9, 0.4, 0.2]\n"
+
+/* What a ray sees of a water in two tables is what it sees where that water is the only one, from above and from within. */
+static void each_of_several_waters_is_met(void)
+{
+    static const char *const bed = PLAIN_LIGHT "[[entity]]\nmesh = \"quad.obj\"\nposition = [0, -3, 0]\n"
+                                               "rotation = [-90, 0, 0]\nscale = 200\n";
+    static const char *const waters[] = { "[[water]]\n" POOL "[[water]]\nname = \"tarn\"\n" TARN, "[water]\n" POOL,
+                                          "[water]\n" TARN };
+    lom_vec3 seen[3][4];
+    for (int n = 0; n < 3; n++) {
+        char text[1024];
+        snprintf(text, sizeof text, "%s%s", bed, waters[n]);
+        if (!open_scene(text))
+            return;
+        const lom_vec3 eyes[4] = { { 1, 9, 1 }, { 21, 9, 1 }, { 1, -1, 1 }, { 21, 4, 1 } };
+        for (int i = 0; i < 4; i++)
+            seen[n][i] = lom_trace_ray(reference, eyes[i], unit((lom_vec3){ 0.1, -1, 0.05 }), 0, 0, 8);
+        close_scene();
+    }
+    for (int i = 0; i < 4; i++) {
+        const lom_vec3 own = seen[i % 2 == 0 ? 1 : 2][i], other = seen[i % 2 == 0 ? 2 : 1][i];
+        CHECK(near3(seen[0][i], own, 1e-12), "eye %d: %g, alone %g", i, seen[0][i].y, own.y);
+        CHECK(!near3(own, other, 1e-3), "eye %d: both waters look the same, %g", i, own.y);
+    }
+}
+
 /* ---- haze ---- */
 
 /* A ray through haze that thins with height, up, level and down through its base: against the integral by steps. */
@@ -352,6 +382,7 @@ int main(int argc, char **argv)
     RUN(a_tilted_surface_mirrors_at_its_own_normal);
     RUN(a_level_function_is_the_plane);
     RUN(bad_water_is_refused);
+    RUN(each_of_several_waters_is_met);
     remove_files();
     return check_result();
 }
