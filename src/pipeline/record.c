@@ -20,7 +20,7 @@ static void free_recorder(struct lom_recorder *r)
             lom_free_record_memory(&r->watch[i].pixels[k].memory);
         lom_release(r->watch[i].pixels);
     }
-    for (int i = 0; r->chunks != NULL && i < r->chunk_count; i++) {
+    for (size_t i = 0; r->chunks != NULL && i < r->chunk_count; i++) {
         lom_release(r->chunks[i].items);
         lom_release(r->chunks[i].pieces);
     }
@@ -75,9 +75,9 @@ struct lom_recorder *lom_renew_recorder(lom_device *device)
     struct lom_recorder *r = device->recorder = lom_allocate(1, sizeof *r, &device->error);
     if (r == NULL)
         return NULL;
-    r->chunk_count = device->desc.batch;
+    r->chunk_count = device->most_chunks; /* a batch of small draws has more than desc.batch */
     r->workers = device->desc.threads;
-    r->chunks = lom_allocate((size_t)r->chunk_count, sizeof *r->chunks, &device->error);
+    r->chunks = lom_allocate(r->chunk_count, sizeof *r->chunks, &device->error);
     r->worker = lom_allocate((size_t)r->workers, sizeof *r->worker, &device->error);
     return r->chunks != NULL && r->worker != NULL ? r : NULL;
 }

@@ -97,7 +97,8 @@ struct lom_recorder {
     size_t written_count, written_capacity;
     struct record_chunk *chunks; /* one for each of a batch */
     struct record_worker *worker;
-    int chunk_count, workers;
+    size_t chunk_count;
+    int workers;
     bool failed; /* memory ran out: something is missing */
     lom_listener listener;
     struct record_memory told; /* of the triangle at hand */
