@@ -6,14 +6,18 @@
 #include "pipeline/variants.h"
 #include "pipeline/samples.h"
 
+/* Of the many of small draws some at once, so that workers seldom meet. */
 static void run_chunks(void *context, int worker)
 {
+    enum { TURNS = 32 };
     struct lom_pass *pass = context;
+    const size_t count = pass->chunk_count, some = count / TURNS > 1 ? count / TURNS : 1;
     for (;;) {
-        size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
-        if (i >= pass->chunk_count)
+        size_t first = atomic_fetch_add_explicit(&pass->next, some, memory_order_relaxed);
+        for (size_t i = first; i < count && i < first + some; i++)
+            lom_run_chunk(pass, &pass->chunks[i], &pass->device->assemblies[worker]);
+        if (first >= count)
             return;
-        lom_run_chunk(pass, &pass->chunks[i], &pass->device->assemblies[worker]);
     }
 }
 
