@@ -34,7 +34,7 @@ static lom_fluid *begin(const lom_fluid_params *p, lom_error *error)
     lom_error failed = { 0 };
     lom_fluid *fluid = lom_create_fluid(&desc, &failed);
     if (fluid == NULL)
-        lom_fail(error, failed.code, "[[fluid]] %s%s%s", p->name != NULL ? p->name : "", p->name != NULL ? ": " : "",
+        lom_fail(error, failed.code, "[[fluid]]%s%s: %s", p->name != NULL ? " " : "", p->name != NULL ? p->name : "",
                  failed.text);
     return fluid;
 }
