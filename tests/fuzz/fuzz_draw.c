@@ -227,6 +227,48 @@ static void take_stages(fuzz_bytes *in, struct heap *heap, struct behind *behind
     }
 }
 
+/* ---- edges ---- */
+
+/* The last bytes of the input say where triangles end is kept, and smoothed: so what the bytes before them ask for stays what
+ * it was when they were found. */
+enum { EDGE_BYTES = 8 };
+
+static fuzz_bytes take_end(const uint8_t *data, size_t size)
+{
+    const size_t count = size < EDGE_BYTES ? size : EDGE_BYTES;
+    return (fuzz_bytes){ data + (size - count), count };
+}
+
+/* A texture for edges as most targets are large, or a wrong one. */
+static void keep_edges(fuzz_bytes *in, lom_texture *edges, lom_texture *const textures[TEXTURES], lom_pass_desc *pass)
+{
+    if (!take_bool(in))
+        return;
+    const int wrong = take_choice(in, 16);
+    pass->edges = wrong >= 14 ? textures[wrong & 3] : edges;
+    pass->edges_load = (lom_load_action)(wrong & 1);
+    if (wrong < 12) { /* as most passes with edges are: one colour, depth, one sample */
+        pass->depth = textures[0];
+        pass->color[1] = pass->color[2] = NULL;
+        pass->samples = wrong < 10 ? 0 : pass->samples;
+    }
+}
+
+/* A pass into `smoothed` from what the passes before have left, if it is asked for. */
+static bool smooth(fuzz_bytes *in, lom_device *device, lom_texture *const textures[TEXTURES], const lom_texture *edges,
+                   lom_texture *smoothed)
+{
+    const lom_edge_filter filter = { .color = textures[take_choice(in, 8) == 7 ? 0 : 1],
+                                     .edges = edges,
+                                     .depth = textures[0],
+                                     .origin_x = (int)take_byte(in) - 8 };
+    if (!take_bool(in))
+        return true;
+    lom_begin_pass(device, &(lom_pass_desc){ .color = { smoothed }, .samples = take_choice(in, 4) == 3 ? 4 : 0 });
+    lom_smooth_edges(device, &filter);
+    return lom_end_pass(device);
+}
+
 /* ---- one run ---- */
 
 static void check_texture(const lom_texture *texture, uint64_t *hash)
@@ -252,8 +294,14 @@ static void check_stencil(const lom_texture *texture, uint64_t *hash)
     lom_free_image(image);
 }
 
+/* A texture of the targets' size. */
+static lom_texture *make_plain_target(lom_device *device)
+{
+    return lom_make_texture(device, &(lom_texture_desc){ .width = 37, .height = 21 });
+}
+
 /* A hash of all textures, or of the error. */
-static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
+static uint64_t run(fuzz_bytes in, fuzz_bytes end, const lom_device_desc *desc)
 {
     struct heap heap = { .count = 0 };
     lom_device *device = lom_open_device(desc);
@@ -264,6 +312,7 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
     static const uint8_t texels[4] = { 9, 99, 200, 255 };
     lom_texture *plain = lom_make_texture(device, &(lom_texture_desc){ .width = 1, .height = 1, .pixels = texels });
     const struct uniforms uniforms = { plain };
+    lom_texture *edges = make_plain_target(device), *smoothed = make_plain_target(device);
     lom_query *queries[QUERIES];
     for (int i = 0; i < QUERIES; i++)
         queries[i] = lom_make_query(device);
@@ -272,6 +321,7 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
     uint64_t fed = LOM_HASH_START;
     for (int p = 0; p < passes; p++) {
         lom_pass_desc pass = take_pass(&in, textures);
+        keep_edges(&end, edges, textures, &pass);
         struct behind behind[DRAWS + 1] = { { .feedback = { .size = 0 } } };
         if (take_choice(&in, 32) != 31)
             lom_begin_pass(device, &pass);
@@ -291,6 +341,7 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
                 fed = lom_hash_bytes(fed, f->data, f->written * lom_feedback_stride(f));
         }
     }
+    done = done && smooth(&end, device, textures, edges, smoothed);
     const lom_error *error = lom_device_error(device);
     require(done == (error->code == LOM_OK) && (error->code == LOM_OK) == (error->text[0] == 0));
     uint64_t hash = (uint64_t)error->code + fed, samples = 0;
@@ -298,6 +349,8 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
         hash = hash * 31 + (lom_query_result(queries[i], &samples) ? samples : 1);
     for (int i = 0; done && i < TEXTURES; i++)
         check_texture(textures[i], &hash);
+    for (int i = 0; done && i < 2; i++)
+        check_texture(i == 0 ? edges : smoothed, &hash);
     check_stencil(textures[0], &hash);
     for (int i = 0; i < TEXTURES; i++)
         lom_free_texture(textures[i]);
@@ -309,9 +362,9 @@ static uint64_t run(fuzz_bytes in, const lom_device_desc *desc)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_bytes in = { data, size };
-    uint64_t one = run(in, &(lom_device_desc){ .threads = 1, .lanes = 4, .tile = 64 });
-    uint64_t other = run(in, &(lom_device_desc){ .threads = 2, .lanes = 4, .tile = 16, .chunk = 16, .batch = 1 });
+    const fuzz_bytes in = { data, size }, end = take_end(data, size);
+    uint64_t one = run(in, end, &(lom_device_desc){ .threads = 1, .lanes = 4, .tile = 64 });
+    uint64_t other = run(in, end, &(lom_device_desc){ .threads = 2, .lanes = 4, .tile = 16, .chunk = 16, .batch = 1 });
     require(one == other);
     return 0;
 }
