@@ -72,7 +72,7 @@ run_models() {
     for model in octaves forward single 'original combined' 'original advance' 'original real_time' 'original none' billboard sprites groups; do
         light=${model#* }
         [ "$light" = "$model" ] && light=combined
-        draw bench/cloud.toml --size 160x120 --threads 1 --frames 0:7 --set "quality.clouds=${model% *}" \
+        draw bench/cloud.toml --size 160x120 --threads 1 --frames 0:60 --set "quality.clouds=${model% *}" \
             --set "clouds.original_light=$light" -o "$work/model-%d.ppm"
         "$lom" compare "$work/reference.ppm" "$work/model-0.ppm" --json --metrics | awk -F'[:,}]' -v model="$model" -v ms="$(least ms_clouds)" '
             { for (i = 1; i < NF; i++) for (k = 1; k <= 3; k++) if (index($i, key[k])) at[k] = $(i + 1) }
