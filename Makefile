@@ -371,7 +371,7 @@ $(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
 	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # Every float through every conversion (a minute) and every unary lane function (a quarter of an hour).
-LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/render/test_key_ranges $(BUILD)/tests/render/test_change $(BUILD)/tests/inspect/test_explain
+LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/lanes/test_every_float.w4 $(BUILD)/tests/render/test_key_ranges $(BUILD)/tests/render/test_change $(BUILD)/tests/inspect/test_explain
 check-long: all $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
 	BUILD='$(BUILD)' tests/house/many_machines.sh

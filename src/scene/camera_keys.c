@@ -98,7 +98,7 @@ static bool check_camera(void *members, const lom_key_check *check)
 }
 
 static const lom_key camera_key[] = {
-    { "time", LOM_KEY_NUMBER, AT(lom_camera_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6,
+    { "time", LOM_KEY_NUMBER, AT(lom_camera_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e9, .maximum = 1e9,
       .unit = "s", .text = "When the camera is here; later than the key before." },
     { "position", LOM_KEY_NUMBER, AT(lom_camera_key, position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Where the camera is.", .initial_text = "the camera's" },

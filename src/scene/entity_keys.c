@@ -29,7 +29,7 @@ static bool check_entity(void *members, const lom_key_check *check)
 }
 
 static const lom_key entity_key[] = {
-    { "time", LOM_KEY_NUMBER, AT(lom_entity_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6,
+    { "time", LOM_KEY_NUMBER, AT(lom_entity_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e9, .maximum = 1e9,
       .unit = "s", .text = "When the entity is here; later than the key before." },
     { "position", LOM_KEY_NUMBER, AT(lom_entity_key, position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Where its origin is.", .initial_text = "the entity's" },

@@ -123,7 +123,7 @@ static bool check_lamp(void *members, const lom_key_check *check)
 /* ---- keys ---- */
 
 static const lom_key lamp_key[] = {
-    { "time", LOM_KEY_NUMBER, AT(lom_lamp_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6,
+    { "time", LOM_KEY_NUMBER, AT(lom_lamp_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e9, .maximum = 1e9,
       .unit = "s", .text = "When the lamp is here; later than the key before." },
     { "position", LOM_KEY_NUMBER, AT(lom_lamp_key, position), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
       .text = "Where it is.", .initial_text = "the lamp's" },

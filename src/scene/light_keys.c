@@ -45,7 +45,7 @@ static bool check_light(void *members, const lom_key_check *check)
 }
 
 static const lom_key light_key[] = {
-    { "time", LOM_KEY_NUMBER, AT(lom_light_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e6, .maximum = 1e6,
+    { "time", LOM_KEY_NUMBER, AT(lom_light_key, time), .flags = LOM_KEY_REQUIRED, .minimum = -1e9, .maximum = 1e9,
       .unit = "s", .text = "When the sun is here; later than the key before." },
     { "azimuth", LOM_KEY_ANGLE, AT(lom_light_key, azimuth), .minimum = -36000, .maximum = 36000, .unit = "degrees",
       .text = "Where it stands.", .initial_text = "the light's" },
