@@ -178,29 +178,47 @@ LOM_INLINE void test_strip(struct lom_tile *tile, const struct plane *p, const s
     }
 }
 
+/* How the draw's strips are tested. `cuts`: the scissor cuts their triangles' bounds. */
+static struct test find_test(const struct lom_tile *tile, bool cuts)
+{
+    return (struct test){ .shift = __builtin_ctz((unsigned)tile->pass->sample_pitch),
+                          .compare = tile->draw->compare,
+                          .tests = tile->tests_early || tile->rejects_early,
+                          .writes = tile->tests_early && tile->draw->depth_write,
+                          .scale = (float)tile->pass->depth_scale,
+                          .cuts = cuts };
+}
+
+/* Those of a slot, from strip i on. */
+LOM_INLINE int test_slot(struct lom_tile *tile, int slot, int i, const struct test *t)
+{
+    const struct plane p = find_plane(find_slot(tile, slot));
+    for (; i < tile->strips.end[slot]; i++)
+        test_strip(tile, &p, t, i);
+    return i;
+}
+
+static __attribute__((noinline)) int test_cut_slot(struct lom_tile *tile, int slot, int i)
+{
+    const struct test t = find_test(tile, true);
+    return test_slot(tile, slot, i, &t);
+}
+
 /* Those of the slots from `slot` on, one after the other. */
 LOM_INLINE void test_strips(struct lom_tile *tile, int slot, int end, const struct test *t)
 {
     for (int i = 0; slot < end; slot++) {
-        const struct plane p = find_plane(find_slot(tile, slot));
-        for (; i < tile->strips.end[slot]; i++)
-            test_strip(tile, &p, t, i);
+        const bool cut = integer_of(find_slot(tile, slot), SLOT_STATE) >> TRIANGLE_CUT & 1;
+        i = cut ? test_cut_slot(tile, slot, i) : test_slot(tile, slot, i, t);
     }
 }
 
-/* With what most draws have as constants. `cuts`: the scissor cuts the bounds of a triangle. */
-static void test_all_strips(struct lom_tile *tile, int slot, int end, bool cuts)
+/* With what most draws have as constants. */
+static void test_all_strips(struct lom_tile *tile, int slot, int end)
 {
-    const struct lom_draw *draw = tile->draw;
     const struct test nearer = { 2, LOM_COMPARE_GREATER, true, true, 0, false },
-                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false },
-                      t = { .shift = __builtin_ctz((unsigned)tile->pass->sample_pitch),
-                            .compare = draw->compare,
-                            .tests = tile->tests_early || tile->rejects_early,
-                            .writes = tile->tests_early && draw->depth_write,
-                            .scale = (float)tile->pass->depth_scale,
-                            .cuts = cuts };
-    const bool usual = t.shift == 2 && t.tests && t.writes && !cuts;
+                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false }, t = find_test(tile, false);
+    const bool usual = t.shift == 2 && t.tests && t.writes;
     if (usual && t.compare == nearer.compare && t.scale == nearer.scale)
         test_strips(tile, slot, end, &nearer);
     else if (usual && t.compare == less.compare && t.scale == less.scale)
@@ -244,14 +262,12 @@ int LOM_WIDE(lom_cover_samples)(struct lom_tile *tile, int slot)
 {
     const struct frame frame = find_frame(tile);
     const int first = slot;
-    int32_t states = 0;
     int count = 0;
     for (; slot < tile->list.triangles && count < STRIPS_SIZE; slot++) {
-        states |= integer_of(find_slot(tile, slot), SLOT_STATE);
         count = find_strips(&tile->strips, &frame, find_slot(tile, slot), slot, count);
         tile->strips.end[slot] = count;
     }
-    test_all_strips(tile, first, slot, states >> TRIANGLE_CUT & 1);
+    test_all_strips(tile, first, slot);
     list_pixels(tile, count);
     return slot;
 }
