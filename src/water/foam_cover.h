@@ -73,6 +73,27 @@ LOM_INLINE lom_float lom_shore_foam(const struct lom_foam_uniform *foam, struct 
     return lom_foam_through(cover, grain) * (1.0f - share) + sum * (share * (1.0f / (float)places));
 }
 
+/* Of two grains that are evenly spread over 0..1 and independent of each other their mean by share b of the second,
+ * made even again by its own distribution: with a = 1 - b and b <= a it is z^2 / 2ab below b, (z - b / 2) / a up to a,
+ * and the same from above. So a pattern whose phases take turns never pulses. */
+LOM_INLINE lom_float lom_even_mix(lom_float first, lom_float second, lom_float share)
+{
+    lom_float z = lom_mix(first, second, share), less = lom_min(share, 1.0f - share), more = 1.0f - less;
+    lom_float inner = lom_max(2.0f * less * more, lom_splat(1e-6f)), rest = 1.0f - z;
+    lom_float even = (z - 0.5f * less) / more;
+    even = lom_select(z < less, z * z / inner, even);
+    return lom_select(z > more, 1.0f - rest * rest / inner, even);
+}
+
+/* The pattern where the water was that is at the point now. */
+LOM_INLINE lom_float lom_foam_grain(const struct lom_foam_uniform *foam, const struct lom_surface_point *p,
+                                    lom_float way_x, lom_float way_z, const struct lom_footprint *f)
+{
+    lom_float s = (p->offset.x - way_x) * foam->inverse_tile + foam->shift[0];
+    lom_float t = (p->offset.z - way_z) * foam->inverse_tile + foam->shift[1];
+    return lom_sample(foam->pattern, s, t, lom_wave_lod(foam->pattern, f, foam->inverse_tile)).x;
+}
+
 /* How much of the point foam covers: what broke, and the shore, through a pattern. */
 LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
                                     const struct lom_footprint *f)
@@ -88,10 +109,9 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
     }
     if (!lom_any((cover > 0.0f) | shore))
         return (lom_float){ 0 };
-    lom_float s = (p->offset.x - p->slopes.drift_x) * foam->inverse_tile + foam->shift[0];
-    lom_float t = (p->offset.z - p->slopes.drift_z) * foam->inverse_tile + foam->shift[1];
-    lom_float lod = lom_wave_lod(foam->pattern, f, foam->inverse_tile);
-    lom_float grain = lom_sample(foam->pattern, s, t, lod).x;
+    lom_float grain = lom_foam_grain(foam, p, p->slopes.drift_x, p->slopes.drift_z, f);
+    if (lom_any(p->slopes.again > 0.0f))
+        grain = lom_even_mix(grain, lom_foam_grain(foam, p, p->slopes.again_x, p->slopes.again_z, f), p->slopes.again);
     if (!lom_any(shore))
         return lom_foam_through(cover, grain);
     return lom_shore_foam(foam, depths, shore, cover, grain);

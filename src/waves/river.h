@@ -15,4 +15,16 @@ enum { LOM_RIVER_CELLS = 160 };
 struct lom_wave_site;
 void lom_find_river_depths(const struct lom_wave_site *site, double *depth);
 
+/* ---- river_foam.c ---- */
+
+struct lom_river_foam_desc {
+    const double *depth; /* of each cell, metres; 0 or less is land */
+    double speed;        /* m/s that a velocity of 1 stands for, above 0 */
+    double cell[2];      /* metres from cell to cell along x and z */
+    double window;       /* seconds after which 1/e of foam is left */
+};
+/* The foam that lies on each cell of a square field of lom_make_river, 0 none .. 1: it is made where the water is
+ * faster than 0.7 sqrt(g d) (of shallow water the same), goes with the water, and fades. */
+void lom_carry_river_foam(float *foam, const lom_image *field, const struct lom_river_foam_desc *desc);
+
 #endif

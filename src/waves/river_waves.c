@@ -4,6 +4,8 @@
 #include "waves/river.h"
 #include "waves/wave_field.h"
 
+#include <string.h>
+
 enum { CELLS = LOM_RIVER_CELLS };
 
 struct state {
@@ -30,6 +32,36 @@ void lom_find_river_depths(const struct lom_wave_site *site, double *depth)
         }
 }
 
+/* Velocities, and the foam that goes with them. */
+static lom_image *add_foam(const lom_image *field, const double *depth, const struct lom_wave_site *site,
+                           lom_error *error)
+{
+    const double *size = site->bed.heights != NULL ? site->bed.size : site->size;
+    const struct lom_river_foam_desc desc = { .depth = depth,
+                                              .speed = site->waves->speed,
+                                              .cell = { size[0] / (CELLS - 1), size[1] / (CELLS - 1) },
+                                              .window = site->foam->window };
+    lom_image *out = lom_create_image(CELLS, CELLS, 1, LOM_FORMAT_RGBA32F, error);
+    float *foam = out != NULL ? lom_allocate((size_t)CELLS * CELLS, sizeof *foam, error) : NULL;
+    if (foam != NULL)
+        lom_carry_river_foam(foam, field, &desc);
+    for (int i = 0; foam != NULL && i < CELLS * CELLS; i++) {
+        const float *v = lom_image_pixel((lom_image *)field, i % CELLS, i / CELLS, 0);
+        memcpy(lom_image_pixel(out, i % CELLS, i / CELLS, 0), (float[4]){ v[0], v[1], foam[i], 0 }, 4 * sizeof *v);
+    }
+    if (foam == NULL) {
+        lom_free_image(out);
+        out = NULL;
+    }
+    lom_release(foam);
+    return out;
+}
+
+static bool carries_foam(const struct lom_wave_site *site)
+{
+    return site->foam->carried && site->foam->amount > 0 && site->waves->speed > 0;
+}
+
 static bool load(void *memory, const struct lom_wave_source *source, lom_error *error)
 {
     struct state *state = memory;
@@ -39,6 +71,11 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
         return false;
     lom_find_river_depths(state->site, depth);
     lom_image *field = lom_make_river(depth, CELLS, state->site->waves->direction, error);
+    if (field != NULL && carries_foam(state->site)) {
+        lom_image *with = add_foam(field, depth, state->site, error);
+        lom_free_image(field);
+        field = with;
+    }
     lom_release(depth);
     if (field == NULL)
         return false;
@@ -46,7 +83,7 @@ static bool load(void *memory, const struct lom_wave_source *source, lom_error *
         source->device, &(lom_texture_desc){ .width = CELLS,
                                              .height = CELLS,
                                              .label = "flow of the river",
-                                             .format = LOM_FORMAT_RG32F,
+                                             .format = field->format,
                                              .pixels = field->pixels,
                                              .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP } });
     lom_free_image(field);
@@ -76,6 +113,20 @@ void lom_fill_river_phases(struct lom_river_uniform *river, double speed, double
     river->weight[1] = (float)(weight[1] / norm);
 }
 
+/* The pattern of the foam drifts as ripples do, by repetitions of its own, counted from where its coordinates are. */
+static void set_foam(struct lom_river_uniform *river, const struct lom_wave_site *site, double time)
+{
+    struct lom_river_uniform pattern = { .field = NULL };
+    lom_fill_river_phases(&pattern, site->waves->speed, site->foam->tile, (double[2]){ 0, 0 }, time);
+    river->carries_foam = true;
+    river->foam_share = pattern.weight[1] / (pattern.weight[0] + pattern.weight[1]);
+    for (int i = 0; i < 2; i++) {
+        river->foam_drift[i] = pattern.drift[i];
+        for (int k = 0; k < 2; k++)
+            river->foam_jump[i][k] = (float)(-(double)pattern.jump[i][k] * site->foam->tile);
+    }
+}
+
 static void bound(const void *memory, struct lom_waves_uniform *out, double time)
 {
     const struct state *state = memory;
@@ -95,6 +146,8 @@ static void bound(const void *memory, struct lom_waves_uniform *out, double time
         river->scale[i] = (float)(1 / (step * CELLS));
     }
     lom_fill_river_phases(river, site->waves->speed, site->tile, from_middle, time);
+    if (carries_foam(site))
+        set_foam(river, site, time);
 }
 
 const struct lom_wave_kind lom_river_waves = {

@@ -64,15 +64,19 @@ static double slope(const lom_shallow_view *v, size_t before, size_t at, size_t 
     return steps > 0 ? (to - from) / (steps * v->cell) : 0;
 }
 
+double lom_froude_foam(double speed, double depth)
+{
+    const double froude = speed / lom_double_sqrt(gravity * depth), foam = (froude - 0.7) / 0.8;
+    return foam < 0 ? 0 : foam > 1 ? 1 : foam;
+}
+
 double lom_shallow_froude_foam(const lom_shallow_view *v, int x, int z)
 {
     const double depth = lom_larger(v->depth[cell_of(v, x, z)], thinnest * lom_shallow_film(v->cell));
     size_t columns = (size_t)v->columns, row = (size_t)z * (columns + 1) + (size_t)x;
     double qx = (v->flow_x[row] + v->flow_x[row + 1]) / 2;
     double qz = (v->flow_z[(size_t)z * columns + (size_t)x] + v->flow_z[(size_t)(z + 1) * columns + (size_t)x]) / 2;
-    double speed = lom_double_sqrt(qx * qx + qz * qz) / depth;
-    double froude = speed / lom_double_sqrt(gravity * depth), foam = (froude - 0.7) / 0.8;
-    return foam < 0 ? 0 : foam > 1 ? 1 : foam;
+    return lom_froude_foam(lom_double_sqrt(qx * qx + qz * qz) / depth, depth);
 }
 
 static double fade_of(const lom_shallow_view *v, int x, int z)

@@ -20,6 +20,9 @@ int lom_fill_shallow_surface(const lom_shallow_view *view, lom_pool *pool, doubl
  * the lake: the power of two at or below the cell (metres, 1e-3..1e5) over 0.25, for which they are given. */
 double lom_shallow_film(double cell);
 
+/* Foam that water of this speed (m/s) makes in this depth (metres, above 0), 0 none .. 1: none below a Froude number of
+ * 0.7. */
+double lom_froude_foam(double speed, double depth);
 /* Foam that water makes in a cell, 0 none .. 1. */
 double lom_shallow_froude_foam(const lom_shallow_view *view, int x, int z);
 

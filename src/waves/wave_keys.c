@@ -128,7 +128,7 @@ static const lom_key foam[] = {
     { "carried", LOM_KEY_BOOL, AT(carried),
       .text =
           "Foam goes with the water that it lies on: surf moves it to and fro, and shallow water carries it from where "
-          "it broke, fading by 1/e in `window`; bodies that move leave it behind them." },
+          "it broke, fading by 1/e in `window`; bodies that move leave it behind them; a river has it below rapids." },
     { "shore_depth", LOM_KEY_NUMBER, AT(shore_depth), .maximum = 100, .unit = "m",
       .text = "Depth of water that the shore's foam reaches to; 0 is none.", .untraced = "0" },
     { "tile", LOM_KEY_NUMBER, AT(tile), .flags = LOM_KEY_ABOVE, .maximum = 1e4, .initial = { 6 }, .unit = "m",

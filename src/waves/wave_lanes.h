@@ -39,7 +39,9 @@ struct lom_river_uniform {
     const lom_texture *ripples;
     float corner[2], scale[2]; /* of the field over x and z */
     float inverse_tile, steepness;
-    float drift[2], weight[2], jump[2][2]; /* metres at speed 1; shares; offsets in repetitions */
+    float drift[2], weight[2], jump[2][2];            /* metres at speed 1; shares; offsets in repetitions */
+    bool carries_foam;                                /* the field holds it, behind the velocities */
+    float foam_drift[2], foam_jump[2][2], foam_share; /* of its pattern: metres at speed 1, metres, share of phase 1 */
 };
 
 /* Ripples of a normal map on water that has no waves of its own: the map drifts, and the flow map moves its lookups. */
@@ -108,10 +110,11 @@ struct lom_footprint {
 
 struct lom_wave_slopes {
     lom_float sx, sz, xx, zz, xz;
-    lom_float vxx, vzz, vxz;    /* covariance of the slopes that are too small to be seen */
-    lom_float foam;             /* 0 none .. 1 */
-    lom_float drift_x, drift_z; /* metres that the water there has come, with the foam on it */
-    lom_mask overturns;         /* where a wave plunges: its upper side may look down */
+    lom_float vxx, vzz, vxz;           /* covariance of the slopes that are too small to be seen */
+    lom_float foam;                    /* 0 none .. 1 */
+    lom_float drift_x, drift_z;        /* metres that the water there has come, with the foam on it */
+    lom_float again, again_x, again_z; /* the share of a second phase of the foam's pattern, and its way instead */
+    lom_mask overturns;                /* where a wave plunges: its upper side may look down */
 };
 
 /* The level of a texture of `scale` repetitions a metre for a footprint. */

@@ -189,6 +189,14 @@ static void add_river_slopes(const struct lom_river_uniform *river, lom_float x,
     w->sz = w->sz + sz;
     w->vxx = w->vxx + hidden;
     w->vzz = w->vzz + hidden;
+    if (!river->carries_foam)
+        return;
+    w->foam = w->foam + v.z;
+    w->drift_x = v.x * river->foam_drift[0] + river->foam_jump[0][0];
+    w->drift_z = v.y * river->foam_drift[0] + river->foam_jump[0][1];
+    w->again = lom_splat(river->foam_share);
+    w->again_x = v.x * river->foam_drift[1] + river->foam_jump[1][0];
+    w->again_z = v.y * river->foam_drift[1] + river->foam_jump[1][1];
 }
 
 /* The normal that the planar lake has (water/lake.wide.c): (2 r - 1, b / steepness, 2 g - 1), looked up where the flow map

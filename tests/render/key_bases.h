@@ -138,6 +138,9 @@ static const struct base bases[] = {
            "2\n" },
     { "flow", "water.waves.speed water.waves.direction water.tile water.position",
       VIEW DISPLACED "normal_map = \"normal.png\"\n[water.waves]\nkind = \"flow\"\n" },
+    { "rapids", "water.foam.carried water.foam.window water.foam.tile",
+      VIEW TERRAIN DISPLACED "normal_map = \"normal.png\"\n[water.waves]\nkind = \"flow\"\nspeed = 6\n"
+                             "[water.foam]\namount = 1\ncarried = true\n" },
     { "surf", "surf terrain.size terrain.height terrain.base water.level water.size",
       VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\n" },
     { "plunging", "surf.breaking surf.plunging",

@@ -47,9 +47,31 @@ static void a_narrow_shore_is_its_share(void)
     }
 }
 
+/* However two even grains are mixed, as much of the mix lies below any value as of each of them. */
+static void a_mix_of_even_grains_is_even(void)
+{
+    enum { GRAINS = 120, SHARES = 21, VALUES = 9 };
+    for (int n = 0; n < SHARES; n++) {
+        int below[VALUES] = { 0 };
+        for (int i = 0; i < GRAINS * GRAINS; i++) {
+            const float first = ((float)(i / GRAINS) + 0.5f) / GRAINS, second = ((float)(i % GRAINS) + 0.5f) / GRAINS;
+            const float mix =
+                lom_even_mix(lom_splat(first), lom_splat(second), lom_splat((float)n / (SHARES - 1)))[LOM_LANES - 1];
+            CHECK(mix >= -1e-6f && mix <= 1.000001f, "share %d: %g", n, (double)mix);
+            for (int k = 0; k < VALUES; k++)
+                below[k] += mix < 0.1f * (float)(k + 1);
+        }
+        for (int k = 0; k < VALUES; k++) {
+            const double part = (double)below[k] / (GRAINS * GRAINS), even = 0.1 * (k + 1);
+            CHECK(part - even < 0.012 && even - part < 0.012, "share %d: %g below %g", n, part, even);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     RUN(a_pixel_of_one_depth_has_its_foam);
     RUN(a_narrow_shore_is_its_share);
+    RUN(a_mix_of_even_grains_is_even);
     return check_result();
 }
