@@ -1,10 +1,11 @@
-/* What an eye sees of rough water, over lanes. In: a point of the surface with its slopes and their covariance. Out: the
- * share of light that its facets mirror, and the mean facets that mirror and that let light through.
+/* What an eye sees of rough water, over lanes. In: a point of the surface with its slopes and their covariance. Out:
+ * the share of light that its facets mirror, and the mean facets that mirror and that let light through.
  *
- * Slopes m towards the eye are normally distributed about that of the mean normal, m0 + s a with a standard deviation s.
- * The eye, at the unit vector v, sees a facet by the area that it shows, (n.v) / n_y = v_y + |v_xz| m = S (x + a),
- * S = |v_xz| s, and not those that are turned away: the density of what it sees is (x + a)+ phi(a) / Z. Light is the mean
- * over that density; it is found by Gauss's quadrature of two nodes, which is exact for polynomials of a of degree 3. */
+ * Slopes m towards the eye are normally distributed about that of the mean normal, m0 + s a with a standard deviation
+ * s. The eye, at the unit vector v, sees a facet by the area that it shows, (n.v) / n_y = v_y + |v_xz| m = S (x + a),
+ * S = |v_xz| s, and not those that are turned away: the density of what it sees is (x + a)+ phi(a) / Z. Light is the
+ * mean over that density; it is found by Gauss's quadrature of two nodes, which is exact for polynomials of a of
+ * degree 3. */
 #ifndef LOM_WATER_SEEN_FACETS_H
 #define LOM_WATER_SEEN_FACETS_H
 
@@ -32,10 +33,10 @@ LOM_INLINE struct lom_slope_pair lom_slope_pair_of(lom_float x)
     return (struct lom_slope_pair){ { mean + half - away, mean + half + away }, { 1.0f - high, high } };
 }
 
-/* What is left of a share of light that a facet mirrors, by the sine of where to: other facets stand in its way but for
- * (1 + Lambda(v)) / (1 + Lambda(v) + Lambda(r)), which those leave open that are no higher than what the eye sees (Ross,
- * Dion, Potvin 2005), or all of them, where it goes down. What meets them is mirrored up by the same share and sends for
- * the rest what the water sends here. */
+/* What is left of a share of light that a facet mirrors, by the sine of where to: other facets stand in its way but
+ * for (1 + Lambda(v)) / (1 + Lambda(v) + Lambda(r)), which those leave open that are no higher than what the eye sees
+ * (Ross, Dion, Potvin 2005), or all of them, where it goes down. What meets them is mirrored up by the same share and
+ * sends for the rest what the water sends here. */
 LOM_INLINE lom_float lom_unhidden_share(lom_float share, lom_float seen_lambda, lom_float up, lom_float variance)
 {
     const lom_float none = { 0 };
@@ -85,7 +86,8 @@ LOM_INLINE struct lom_seen_facets lom_see_facets(const struct lom_surface_unifor
                                      lom_facet_of_slope(&view, passing, across) };
 }
 
-/* A normal turned to the eye's side of the water, and further where it points away from the eye: what is seen faces it. */
+/* A normal turned to the eye's side of the water, and further where it points away from the eye: what is seen faces
+ * it. */
 LOM_INLINE lom_float3 lom_facing_eye(const struct lom_surface_uniforms *u, const struct lom_surface_point *p,
                                      lom_float3 normal)
 {
@@ -99,6 +101,26 @@ LOM_INLINE struct lom_seen_facets lom_see_mean(const struct lom_surface_uniforms
 {
     lom_float cosine = lom_dot3(lom_facing_eye(u, p, p->normal), p->to_eye);
     return (struct lom_seen_facets){ lom_surface_fresnel(u, cosine), p->normal, p->normal };
+}
+
+/* From above. Where a wave overturns, slopes say nothing: the mean normal is the mirror there, too, and of what it
+ * mirrors down the water sends back its share. */
+LOM_INLINE struct lom_seen_facets lom_see_above(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    struct lom_seen_facets seen = lom_see_facets(u, p);
+    lom_mask over = p->slopes.overturns & (p->normal.y < 0.1f);
+    if (!lom_any(over))
+        return seen;
+    const struct lom_seen_facets mean = lom_see_mean(u, p);
+    const lom_float none = { 0 };
+    lom_float3 mirrored = lom_reflect3(lom_scale3(p->to_eye, lom_splat(-1.0f)), lom_facing_eye(u, p, p->normal));
+    seen.share = lom_select(over, lom_unhidden_share(mean.share, none, mirrored.y, none), seen.share);
+    for (int i = 0; i < 2; i++) {
+        lom_float3 *facet = i == 0 ? &seen.mirroring : &seen.passing;
+        *facet = (lom_float3){ lom_select(over, p->normal.x, facet->x), lom_select(over, p->normal.y, facet->y),
+                               lom_select(over, p->normal.z, facet->z) };
+    }
+    return seen;
 }
 
 #endif

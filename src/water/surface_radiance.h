@@ -296,7 +296,7 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
     bool above = u->side > 0;
     lom_float variance = p->slopes.vxx + p->slopes.vzz;
     lom_float3 d = lom_scale3(p->to_eye, lom_splat(-1.0f));
-    struct lom_seen_facets seen = above ? lom_see_facets(u, p) : lom_see_mean(u, p);
+    struct lom_seen_facets seen = above ? lom_see_above(u, p) : lom_see_mean(u, p);
 
     lom_float3 r = lom_reflect3(d, lom_facing_eye(u, p, seen.mirroring));
     r.y = u->side * lom_max(lom_abs(r.y), lom_splat(1e-3f));
