@@ -217,12 +217,16 @@ LOM_INLINE void test_strips(struct lom_tile *tile, int slot, int end, const stru
 static void test_all_strips(struct lom_tile *tile, int slot, int end)
 {
     const struct test nearer = { 2, LOM_COMPARE_GREATER, true, true, 0, false },
-                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false }, t = find_test(tile, false);
+                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false },
+                      not_greater = { 2, LOM_COMPARE_LESS_EQUAL, true, true, 16777215, false },
+                      t = find_test(tile, false);
     const bool usual = t.shift == 2 && t.tests && t.writes;
     if (usual && t.compare == nearer.compare && t.scale == nearer.scale)
         test_strips(tile, slot, end, &nearer);
     else if (usual && t.compare == less.compare && t.scale == less.scale)
         test_strips(tile, slot, end, &less);
+    else if (usual && t.compare == not_greater.compare && t.scale == not_greater.scale)
+        test_strips(tile, slot, end, &not_greater);
     else
         test_strips(tile, slot, end, &t);
 }
