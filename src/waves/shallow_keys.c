@@ -9,7 +9,7 @@
 
 #define AT(member) offsetof(lom_shallow_spring, member)
 static const lom_key spring[] = {
-    { "position", LOM_KEY_NUMBER, AT(position), 2, .flags = LOM_KEY_REQUIRED, .minimum = -1e9, .maximum = 1e9,
+    { "position", LOM_KEY_NUMBER, AT(position), 2, .flags = LOM_KEY_REQUIRED, .minimum = -4e8, .maximum = 4e8,
       .unit = "m", .text = "x and z of its middle." },
     { "radius", LOM_KEY_NUMBER, AT(radius), .maximum = 1e6, .initial = { 1 }, .unit = "m",
       .text = "It comes up evenly in a disc." },
@@ -27,7 +27,7 @@ static const lom_key body[] = {
     { "entity", LOM_KEY_STRING, AT(entity),
       .text = "Name of an entity that it goes with, its length along the entity's -z; instead of `position` and "
               "`heading`." },
-    { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+    { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -4e8, .maximum = 4e8, .unit = "m",
       .text = "x and z of its middle." },
     { "half", LOM_KEY_NUMBER, AT(half), 2, .flags = LOM_KEY_SPREAD, .minimum = 1e-6, .maximum = 1e4,
       .initial = { 1, 1 }, .unit = "m", .text = "Its half axes, along and across `heading`." },
@@ -60,7 +60,7 @@ static const lom_key_table body_table = { .size = sizeof(lom_shallow_body),
 #undef AT
 #define AT(member) offsetof(lom_shallow_water, member)
 static const lom_key keys[] = {
-    { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+    { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -4e8, .maximum = 4e8, .unit = "m",
       .initial_text = "the water's", .text = "x and z of the middle of the region that is computed." },
     { "size", LOM_KEY_NUMBER, AT(size), 2, .flags = LOM_KEY_ABOVE | LOM_KEY_SPREAD, .maximum = 1e6, .unit = "m",
       .initial_text = "the water's", .text = "Its extent along x and z." },

@@ -7,8 +7,8 @@
 #include <lom/shallow.h>
 
 /* A texel a cell. surface: height over `level`, its slopes along x and z, foam; moments: squares and product of the
- * slopes, 0. A dry cell has the heights of the wet ones around it, but never above 5 cm below the beds around it, so
- * that the terrain cuts the surface where the water ends. Foam is where water runs faster than its waves (the Froude
+ * slopes, 0. A dry cell has the heights of the wet ones around it, but never above 5 cm (times
+ * lom_shallow_film) below the beds around it, so that the terrain cuts the surface where the water ends. Foam is where water runs faster than its waves (the Froude
  * number from 0.7 on). fades: heights and slopes fall to 0 over the outermost cells. Writes the lowest and the highest
  * height, bounded by 1000 m; with `carried`, foam is that instead. Rows are shared by a pool's workers, where it is not
  * NULL. Returns how many cells are wet. */
