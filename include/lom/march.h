@@ -395,7 +395,8 @@ LOM_INLINE lom_float4 lom_transfer_between(const lom_transfer_function *t, lom_f
             sum[k] = lom_select(narrow, lom_select(here, mean, sum[k]), sum[k] + part * mean);
         }
     }
-    return (lom_float4){ sum[0], sum[1], sum[2], sum[3] };
+    lom_float4 mean = { sum[0], sum[1], sum[2], sum[3] };
+    return mean;
 }
 
 typedef enum lom_volume_look {
