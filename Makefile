@@ -138,7 +138,7 @@ page_objects   := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/web/*.c) src/cli/ex
 PAGE_CALLS     = open_device close_device make_texture texture_of_image free_texture begin_pass draw end_pass read_texture create_image convert_image write_image
 
 # How much speed is worth: lanes are compiled for speed, as are these folders and each file whose head says "Compiled for
-# speed"; what runs briefly or seldom for size, the rest in between. (The program stays under 5 MB: tests/cli/test_limits.sh.)
+# speed"; what runs briefly or seldom for size, the rest in between. (How large the program may be: tests/cli/test_limits.sh.)
 FOR_SPEED = base march pipeline reference
 FOR_SIZE  = cli geometry inspect measure render scene
 within    = $(foreach folder,$(1),$(filter src/$(folder)/%,$(sources)))

@@ -4,12 +4,16 @@
 #include "lanes/notes.h"
 #include "medium_steps.h"
 
-/* The value at a distance; the noise in it is that of another distance from the eye. */
-static inline lom_float value_at(const lom_medium_rays *rays, const lom_medium_desc *desc, lom_float at, lom_float eye)
+/* The value at a place; the noise in it is that of a distance from the eye. One copy of the code for all who ask. */
+static __attribute__((noinline)) lom_float value_in(const lom_medium_desc *desc, lom_float3 p, lom_float eye)
 {
-    lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, at));
     lom_volume_place place = lom_find_in_cells(desc->medium->width, desc->medium->height, desc->medium->depth, p);
     return find_density(desc, p, &place, eye);
+}
+
+static inline lom_float value_at(const lom_medium_rays *rays, const lom_medium_desc *desc, lom_float at, lom_float eye)
+{
+    return value_in(desc, lom_add3(rays->start, lom_scale3(rays->along, at)), eye);
 }
 
 /* A unit vector against the gradient of the value, by differences over two voxels, in the box's axes; 0 where the value
@@ -25,8 +29,7 @@ static lom_float3 normal_at(const lom_medium_desc *desc, const lom_transfer_desc
         for (int side = 0; side < 2; side++) {
             float off = side == 0 ? -beside : beside;
             lom_float3 q = { i == 0 ? p.x + off : p.x, i == 1 ? p.y + off : p.y, i == 2 ? p.z + off : p.z };
-            lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, q);
-            ends[side] = find_density(desc, q, &place, at);
+            ends[side] = value_in(desc, q, at);
         }
         rise[i] = (ends[0] - ends[1]) * ((float)voxels[i] / look->size[i]);
     }
@@ -45,7 +48,7 @@ static lom_float3 mix_lights(const lom_transfer_desc *look, lom_float sun, lom_f
     return lom_add3(light, lom_scale3(lom_splat3(look->ground[0], look->ground[1], look->ground[2]), ground));
 }
 
-static lom_light_sample grid_light(const lom_medium_desc *desc, lom_float3 p)
+static __attribute__((noinline)) lom_light_sample grid_light(const lom_medium_desc *desc, lom_float3 p)
 {
     if (desc->light == NULL)
         return (lom_light_sample){ lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };

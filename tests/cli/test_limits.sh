@@ -32,7 +32,7 @@ END
 }
 
 small_program() {
-    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 6291456
+    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 6815744
 }
 
 lake_in_memory() {
