@@ -201,13 +201,27 @@ static bool draw_all(struct explaining *x, lom_error *error)
     }
 }
 
+/* The level of the water whose mirror has a pass: of those whose mirrors have begun, the last one. */
+static double find_mirror(const lom_renderer *r, uint64_t pass)
+{
+    size_t found = 0;
+    for (size_t i = 1; i <= r->world->scene->other_water_count; i++) {
+        const uint64_t first = r->waters[i].mirrored, before = r->waters[found].mirrored;
+        if (first <= pass && (before > pass || first > before))
+            found = i;
+    }
+    return lom_water_of(r->world->scene, found)->level;
+}
+
 /* Where the eye of a picture's passes is. */
 static lom_vec3 find_eye(const lom_renderer *r, const lom_explained *e)
 {
     lom_vec3 eye = lom_camera_eye(&r->moment.camera);
-    for (const lom_pass_record *p = e->record->passes; p != NULL; p = p->next)
-        if (p->label != NULL && strcmp(p->label, "reflection") == 0)
-            eye.y = 2 * r->scene->water.level - eye.y;
+    const lom_pass_record *p = e->record->passes;
+    while (p != NULL && (p->label == NULL || strcmp(p->label, "reflection") != 0))
+        p = p->next;
+    if (p != NULL)
+        eye.y = 2 * find_mirror(r, p->number) - eye.y;
     return lom_place_in_file(r->scene, eye);
 }
 

@@ -158,6 +158,36 @@ static void water_leads_to_its_pictures_and_ground_to_its_shadow(void)
     lom_free_scene(scene);
 }
 
+/* The eye is 17.5 m high, the sea's level 0, the tarn's 10.3: each mirror has the eye beyond its own water. */
+static void each_water_mirrors_at_its_level(void)
+{
+    static const struct {
+        int x, y;
+        double eye;
+    } cases[] = { { 160, 58, -17.5 }, { 160, 110, 2 * 10.3 - 17.5 } };
+    lom_error error = { .code = LOM_OK };
+    lom_scene *scene = lom_read_scene("assets/scenes/features/waters.toml", NULL, 0, &error);
+    lom_renderer *renderer = lom_create_renderer(scene, NULL, &error);
+    CHECK(renderer != NULL, "%s", error.text);
+    for (int i = 0; i < 2; i++) {
+        const lom_explain_desc desc = {
+            .frame = { .width = WIDTH, .height = HEIGHT }, .x = cases[i].x, .y = cases[i].y, .follow = 1
+        };
+        lom_explanation *x = lom_explain(renderer, &desc, &error);
+        int mirrors = 0;
+        for (size_t k = 1; x != NULL && k < x->count; k++)
+            if (strncmp(x->item[k].name, "reflection", 10) == 0) {
+                mirrors++;
+                CHECK(fabs(x->item[k].eye.y - cases[i].eye) < 1e-9, "%s: the eye at %g, not %g", x->item[k].name,
+                      x->item[k].eye.y, cases[i].eye);
+            }
+        CHECK(mirrors > 0, "%s", x != NULL ? x->item[0].verdict : error.text);
+        lom_free_explanation(renderer, x);
+    }
+    lom_free_renderer(renderer);
+    lom_free_scene(scene);
+}
+
 /* ---- edges ---- */
 
 static int code_at(const lom_image *image, int x, int y, int channel)
@@ -266,6 +296,7 @@ static void a_verdict_tells_of_the_neighbours(void)
 int main(int argc, char **argv)
 {
     RUN(explained_pixels_are_the_pictures);
+    RUN(each_water_mirrors_at_its_level);
     RUN(edges_are_the_mix_that_is_told);
     RUN(a_verdict_tells_of_the_neighbours);
     RUN(water_leads_to_its_pictures_and_ground_to_its_shadow);

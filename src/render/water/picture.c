@@ -6,6 +6,8 @@
 #include "render/water/passes.h"
 #include "water/scene_copy.h"
 
+#include <lom/record.h>
+
 #include <assert.h>
 
 const struct lom_window lom_whole_view = { { -1, -1 }, { 1, 1 } };
@@ -147,6 +149,8 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     const bool smooths = f->smooths && view->mirrored;
     if (smooths)
         lom_begin_smooth_picture(f, &pass);
+    if (view->mirrored)
+        r->water->mirrored = lom_count_watched_passes(r->device);
     lom_begin_pass(r->device, &pass);
     if (is_shown && !f->shows_water && can_copy(f, view, step))
         copy_scene(f, view);

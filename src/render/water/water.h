@@ -21,6 +21,9 @@ struct lom_drawn_water {
 
     lom_texture *photons, *caustics; /* made by frames */
     struct lom_gathered_light light; /* what becomes of the photons */
+
+    uint64_t
+        mirrored; /* of a frame that is watched: the first pass of what it mirrors; UINT64_MAX: it mirrors nothing */
 };
 
 /* Its maps; the pattern of its foam; its bed; its waves, which may carry the maps. */

@@ -103,6 +103,8 @@ static bool prepare(struct frame *f, lom_error *error)
 bool lom_prepare_waters(struct frame *f, lom_error *error)
 {
     order_waters(f);
+    for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++)
+        f->renderer->waters[i].mirrored = UINT64_MAX;
     return each_water(f, prepare, error);
 }
 
