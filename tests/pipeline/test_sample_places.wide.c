@@ -257,8 +257,9 @@ static void layers_of_one_alpha_hide_one_another(void)
             stage s =
                 open_stage((lom_device_desc){ .threads = 1 }, SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
             begin(&s, (lom_pass_desc){ .samples = counts[k] });
+            vertex corners[2][3]; /* of both, until the pass has ended */
             for (int layer = 0; layer < 2; layer++) {
-                vertex v[3];
+                vertex *v = corners[layer];
                 make_ground(v, 256 * 90, 0);
                 for (int i = 0; i < 3; i++) {
                     v[i].position[2] = layer == 0 ? 0.25f : 0.5f;
