@@ -15,13 +15,20 @@ static lom_float jitter_of(const struct lom_cloud_uniforms *cloud, const lom_var
     return lom_gather(cloud->jitter, y * 64 + x);
 }
 
-static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+/* The rays of fragments, with where their first steps lie and what they scatter of the sun. */
+static lom_medium_rays aim(const struct lom_cloud_uniforms *cloud, const lom_varyings *in)
 {
-    const struct lom_cloud_uniforms *cloud = uniforms;
     lom_float3 direction;
     lom_medium_rays rays = lom_cloud_rays(cloud, in, &direction);
     rays.shift = jitter_of(cloud, in);
     lom_set_cloud_phases(cloud, &rays, direction);
+    return rays;
+}
+
+static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct lom_cloud_uniforms *cloud = uniforms;
+    const lom_medium_rays rays = aim(cloud, in);
     lom_medium_result seen;
     LOM_WIDE(lom_march_medium)(&seen, &rays, &cloud->march, NULL);
     lom_float alpha = 1.0f - seen.transmittance;
@@ -40,10 +47,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
 static void transfer_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
-    lom_float3 direction;
-    lom_medium_rays rays = lom_cloud_rays(cloud, in, &direction);
-    rays.shift = jitter_of(cloud, in);
-    lom_set_cloud_phases(cloud, &rays, direction);
+    const lom_medium_rays rays = aim(cloud, in);
     lom_transfer_result seen;
     LOM_WIDE(lom_march_transfer)(&seen, &rays, &cloud->march, &cloud->transfer, NULL);
     lom_float alpha = 1.0f - seen.transmittance;
