@@ -78,7 +78,8 @@ ALL_VARIANTS = 4 8 16
 endif
 VARIANTS = $(ALL_VARIANTS)
 ifneq ($(VARIANTS),$(ALL_VARIANTS))
-CPPFLAGS += '-DLOM_EACH_VARIANT(X,name)=$(foreach v,$(VARIANTS),X(name,$v))'
+EACH_VARIANT := -DLOM_EACH_VARIANT(X,name)=$(subst $() ,,$(foreach v,$(VARIANTS),X(name,$v)))
+CPPFLAGS += '$(EACH_VARIANT)'
 endif
 # The recorded variant says what it does to the pixels that are watched (include/lom/record.h) and draws nothing else.
 RECORDED          = 4_recorded
@@ -474,7 +475,8 @@ INSTALL_INC = $(DESTDIR)$(PREFIX)/include/lom
 INSTALL_LESSONS = $(DESTDIR)$(PREFIX)/share/lom/lessons
 lesson_files := $(patsubst docs/lessons/%,%,$(wildcard docs/lessons/*.md docs/lessons/*/*))
 FILL = sed -e 's|@PREFIX@|$(PREFIX)|g; s|@LIBDIR@|$(PREFIX)/lib|g; s|@INCLUDEDIR@|$(PREFIX)/include|g' \
-	-e 's|@VERSION@|$(VERSION)|g; s|@FLOAT_FLAGS@|$(FLOAT_FLAGS)|g; s|@FLAGS_AVX512@|$(AVX512)|g'
+	-e 's|@VERSION@|$(VERSION)|g; s|@FLOAT_FLAGS@|$(FLOAT_FLAGS)|g; s|@FLAGS_AVX512@|$(AVX512)|g' \
+	-e 's|@VARIANTS@|4 $(filter-out 4,$(VARIANTS))|g; s| @EACH_VARIANT@|$(EACH_VARIANT:%= %)|g'
 install: all
 	mkdir -p $(INSTALL_BIN) $(INSTALL_LIB)/pkgconfig $(INSTALL_INC)
 	install -m 755 $(BUILD)/lom $(INSTALL_BIN)/lom

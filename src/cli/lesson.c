@@ -78,7 +78,7 @@ const char *lom_find_lessons(char path[4096])
     static const char *const beside[] = { "../share/lom/lessons", "../docs/lessons" };
     if (lom_path_by_program(beside, 2, path) != NULL)
         return path;
-    strcpy(path, "docs/lessons");
+    snprintf(path, 4096, "docs/lessons");
     return access(path, R_OK) == 0 ? path : NULL;
 }
 

@@ -117,9 +117,9 @@ bool lom_open_grading(lom_bench_of_grading *bench, int seconds)
         return lom_complain("the lessons are not installed (share/lom/lessons), by which stages are graded.") ==
                LOM_EXIT_DONE;
     if (lom_path_by_program(headers, 1, bench->headers) == NULL)
-        strcpy(bench->headers, "include");
+        snprintf(bench->headers, sizeof bench->headers, "include");
     if (lom_path_by_program(libraries, 2, bench->library) == NULL)
-        strcpy(bench->library, "-llom");
+        snprintf(bench->library, sizeof bench->library, "-llom");
     if (!lom_open_temporary_folder(&bench->folder, &error))
         return lom_complain_error(&error) == LOM_EXIT_DONE;
     snprintf(source, sizeof source, "%s/grade/run.c", bench->lessons);
@@ -234,7 +234,7 @@ static bool draw_difference(const lom_bench_of_grading *bench, const lom_student
     char *longer = realloc(g->text, old + strlen(line) + 1);
     if (longer == NULL)
         return lom_complain("no memory is left.") == LOM_EXIT_DONE;
-    strcpy(longer + old, line);
+    memcpy(longer + old, line, strlen(line) + 1);
     g->text = longer;
     return true;
 }

@@ -104,7 +104,7 @@ static bool find_pieces(struct run *run, lom_error *error)
             run->pieces[run->piece_count++] = (struct piece){ before, run->picture_count, 1 };
         else
             last->count++;
-        strcpy(scene, golden.scene);
+        snprintf(scene, run->manifest.file.size + 1, "%s", golden.scene);
         run->picture_count++;
     }
     lom_release(place.words);
