@@ -64,7 +64,8 @@ void lom_order_particles(const float *depth, size_t count, uint32_t *order, uint
 typedef enum lom_spray_source {
     LOM_SPRAY_SEGMENT, /* anywhere on the segment, at all times */
     LOM_SPRAY_SURF,    /* where and when waves of [surf] meet steep ground in the rectangle that the segment spans */
-    LOM_SPRAY_RIVER    /* where the river of [water.waves] runs faster than its waves, in that rectangle */
+    LOM_SPRAY_RIVER,   /* where the river of [water.waves] runs faster than its waves, in that rectangle */
+    LOM_SPRAY_ENTITY   /* where and when waves or a river meet an entity at its waterline, or it meets the water */
 } lom_spray_source;
 
 /* An emitter whose drops are drawn: each a round, soft spot of light, drawn out along its way. */
@@ -73,7 +74,9 @@ typedef struct lom_spray {
     const char *name; /* NULL when it has none; unique in the scene */
     bool visible;
     lom_spray_source source;
-    double kick; /* of surf and river: speed of the fastest drops, in parts of the water's, 0..100 */
+    const char *entity; /* of LOM_SPRAY_ENTITY: its name; else NULL */
+    size_t followed;    /* 1 + its index; 0: none */
+    double kick;        /* of surf, river and entity: speed of the fastest drops, in parts of the water's, 0..100 */
     int seed, count;
     double from[3], to[3], velocity[3], spread, spread_up, wind[3], drag; /* as of lom_emitter */
     int jets;

@@ -34,7 +34,8 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_WATER_MAPS, "water.normal_map water.flow_map water.flow" },
     { LOM_PART_TARGETS, "water.enabled" },
     { LOM_PART_WAVES, "water.level" },
-    { each_frame, "water.name water.position water.size water.tile water.normal_up water.reflection water.refraction "
+    { LOM_PART_SPRAY, "water.position" },
+    { each_frame, "water.name water.size water.tile water.normal_up water.reflection water.refraction "
                   "water.projection water.normals water.fresnel water.specular "
                   "water.tint water.soft_shore water.flow_strength water.flow_speed water.reflectivity "
                   "water.fresnel_power water.shininess water.specular_strength water.color water.tint_color "
@@ -43,8 +44,9 @@ const struct lom_key_row lom_key_rows[] = {
                       "water.waves.wind_level water.waves.wind_speed water.waves.fetch water.waves.depth "
                       "water.waves.height_scale water.waves.choppiness water.waves.cascades water.waves.size "
                       "water.waves.patch" },
-    { each_frame, "water.waves.height water.waves.length water.waves.count water.waves.steepness water.waves.spread "
-                  "water.waves.speed water.waves.cell" },
+    { LOM_PART_SPRAY, "water.waves.height water.waves.length water.waves.count water.waves.steepness "
+                      "water.waves.spread water.waves.speed" },
+    { each_frame, "water.waves.cell" },
     { LOM_PART_BED, "water.optics.caustics" },
     { LOM_PART_CAUSTICS, "water.optics.caustics_texels" },
     { each_frame, "water.optics water.optics.index water.optics.fresnel water.optics.type water.optics.absorption "
@@ -62,7 +64,7 @@ const struct lom_key_row lom_key_rows[] = {
       "entity.on_ground entity.visible entity.key entity.line_width entity.point_size "
       "entity.alpha_to_coverage" },
     { LOM_PART_FOLLOWED, "entity.interpolation entity.key.time entity.key.position entity.key.rotation" },
-    { each_frame, "entity.name" },
+    { LOM_PART_SPRAY, "entity.name" },
 
     { LOM_PART_CLOUDS,
       "cloud cloud.kind cloud.file cloud.voxels cloud.seed cloud.position cloud.middle cloud.size cloud.yaw "
@@ -78,7 +80,7 @@ const struct lom_key_row lom_key_rows[] = {
       "clouds.wind.direction clouds.wind.gust clouds.wind.gust_period clouds.swell" },
 
     { LOM_PART_SPRAY | LOM_PART_TARGETS, "spray spray.count spray.visible spray.bounce spray.source "
-                                         "spray.from spray.to" },
+                                         "spray.entity spray.from spray.to" },
     { each_frame, "spray.name spray.seed spray.kick spray.velocity spray.spread spray.spread_up spray.wind "
                   "spray.drag spray.jets spray.jet_time spray.jet_width spray.life spray.height spray.size "
                   "spray.stretch spray.color spray.opacity spray.soft spray.forward" },
@@ -170,6 +172,7 @@ static unsigned add_made_from(unsigned parts)
         { LOM_PART_GROUND_MAPS, LOM_PART_GROUND_LAYERS },
         { LOM_PART_GROUND, LOM_PART_LAMP_SHADOWS },
         { LOM_PART_ENTITIES, LOM_PART_FOLLOWED | LOM_PART_LAMP_SHADOWS },
+        { LOM_PART_FOLLOWED, LOM_PART_SPRAY },
         { LOM_PART_WATER_MAPS, LOM_PART_WAVES },
         { LOM_PART_WATER_MAPS | LOM_PART_FOAM | LOM_PART_BED | LOM_PART_WAVES, LOM_PART_OTHER_WATERS },
     };

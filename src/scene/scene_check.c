@@ -143,6 +143,14 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
             return at.fail(&at, "follow", "no entity has this name.");
         }
     }
+    for (size_t i = 0; i < scene->spray_count; i++) {
+        lom_spray *spray = &scene->sprays[i];
+        spray->followed = spray->entity == NULL ? 0 : find_entity(scene, spray->entity);
+        if (spray->entity != NULL && spray->followed == 0) {
+            const lom_key_check at = root->element(root, "spray", i);
+            return at.fail(&at, "entity", "no entity has this name.");
+        }
+    }
     for (size_t i = 0; i < scene->shallow.body_count; i++) {
         lom_shallow_body *body = &scene->shallow.bodies[i];
         body->followed = body->entity == NULL ? 0 : find_entity(scene, body->entity);

@@ -145,11 +145,14 @@ static bool find_rapids(struct lom_hits *hits, const lom_spray *spray, const str
     return done;
 }
 
-/* ---- both ---- */
+/* ---- all ---- */
 
-bool lom_find_hits(struct lom_hits *hits, const lom_spray *spray, const struct lom_wave_site *site, lom_error *error)
+bool lom_find_hits(struct lom_hits *hits, const lom_spray *spray, const struct lom_wave_site *site,
+                   const struct lom_hit_body *body, lom_error *error)
 {
     *hits = (struct lom_hits){ .surf = *site->surf };
+    if (spray->source == LOM_SPRAY_ENTITY)
+        return body == NULL || lom_find_entity_hits(hits, site, body, error);
     bool done = spray->source == LOM_SPRAY_SURF    ? find_surf(hits, spray, site, error)
                 : spray->source == LOM_SPRAY_RIVER ? find_rapids(hits, spray, site, error)
                                                    : true;
@@ -162,4 +165,5 @@ void lom_free_hits(struct lom_hits *hits)
 {
     lom_release(hits->places);
     lom_release(hits->sum);
+    lom_free_wave_trains(&hits->trains);
 }

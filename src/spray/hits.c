@@ -16,8 +16,7 @@ double lom_hit_speed(const struct lom_hit_place *place, double size)
     return lom_double_sqrt(u * u + 2 * gravity * a);
 }
 
-/* The place that has the share `at` of the weights. */
-static const struct lom_hit_place *find_place(const struct lom_hits *hits, double at)
+const struct lom_hit_place *lom_find_hit_place(const struct lom_hits *hits, double at)
 {
     const double weight = at * hits->sum[hits->count - 1];
     size_t low = 0, high = hits->count - 1;
@@ -35,6 +34,11 @@ static double ramp(double x)
 {
     x = x < 0 ? 0 : x > 1 ? 1 : x;
     return x * x * (3 - 2 * x);
+}
+
+double lom_hit_alpha(double share, double speed)
+{
+    return ramp(10 * share) * ramp(10 * (1 - share)) * ramp((speed - slow) / (fast - slow));
 }
 
 /* Of a drop: which life it is, of surf the number of the wave, and when it began. */
@@ -81,7 +85,7 @@ static void throw(const struct lom_hits *hits, const struct lom_hit_place *at, c
 
 static lom_particle hit_at(const struct lom_hits *hits, const lom_emitter *e, double kick, size_t index, double time)
 {
-    const struct lom_hit_place *at = find_place(hits, ((double)index + 0.5) / (double)e->count);
+    const struct lom_hit_place *at = lom_find_hit_place(hits, ((double)index + 0.5) / (double)e->count);
     const uint64_t key = lom_random_bits(e->seed, index);
     const struct birth birth = find_birth(hits, at, e, key, index, time);
     const double speed = lom_hit_speed(at, birth.size), age = time - birth.time, share = age / e->life;
@@ -90,7 +94,7 @@ static lom_particle hit_at(const struct lom_hits *hits, const lom_emitter *e, do
     throw(hits, at, e, kick * speed, key, (uint64_t)p.life * DRAWS, start, velocity);
     lom_particle_flight(start, velocity, e->wind, e->drag, p.share * e->life, p.place, p.velocity);
     const bool flies = share >= 0 && share < 1;
-    p.alpha = flies ? ramp(10 * share) * ramp(10 * (1 - share)) * ramp((speed - slow) / (fast - slow)) : 0;
+    p.alpha = flies ? lom_hit_alpha(share, speed) : 0;
     return p;
 }
 
@@ -98,7 +102,8 @@ void lom_place_hits(const struct lom_hits *hits, const lom_emitter *emitter, dou
                     size_t end, lom_particle *particles)
 {
     for (size_t i = first; i < end; i++)
-        particles[i - first] = hit_at(hits, emitter, kick, i, time);
+        particles[i - first] = hits->followed != 0 ? lom_entity_hit_at(hits, emitter, kick, i, time)
+                                                   : hit_at(hits, emitter, kick, i, time);
 }
 
 /* The box of the places, as a segment, and what is thrown adds to the velocity on every axis. */

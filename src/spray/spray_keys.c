@@ -13,19 +13,24 @@ enum { LONGEST_BOUNCE = 60 }; /* s: every frame steps a drop from its birth on *
 static const lom_key keys[] = {
     { "name", LOM_KEY_STRING, AT(name), .text = "A name of its own, for overrides and messages." },
     { "visible", LOM_KEY_BOOL, AT(visible), .initial = { 1 }, .text = "Whether it is drawn." },
-    { "source", LOM_KEY_CHOICE, AT(source), .choices = { "segment", "surf", "river" },
+    { "source", LOM_KEY_CHOICE, AT(source), .choices = { "segment", "surf", "river", "entity" },
       .text =
           "Where drops begin: on the segment; where and when waves of `[surf]` meet steep ground, or where the river "
-          "of `[water.waves]` is faster than its waves, in the rectangle that the segment spans (docs/water.md). "
-          "Without such waves there are no drops." },
+          "of `[water.waves]` is faster than its waves, in the rectangle that the segment spans; where and when "
+          "the water meets an entity (docs/water.md). Without such waves there are no drops." },
+    { "entity", LOM_KEY_STRING, AT(entity),
+      .text =
+          "With `source = \"entity\"`: name of what stands or floats in the first water, in surf, trochoids, a sea or "
+          "a river, or goes through still water." },
     { "kick", LOM_KEY_NUMBER, AT(kick), .maximum = 100, .initial = { 1 },
-      .text = "Surf, river: speed of the fastest drops, in parts of what the water has there; `velocity` is added." },
+      .text = "Surf, river, entity: speed of the fastest drops, in parts of what the water has there; `velocity` is "
+              "added." },
     { "seed", LOM_KEY_INTEGER, AT(seed), .maximum = 1e9, .initial = { 1 },
       .text = "Another seed gives other drops of the same kind." },
     { "count", LOM_KEY_INTEGER, AT(count), .maximum = LOM_MAX_PARTICLES, .initial = { 1000 },
       .text = "How many drops live at every time; all emitters together have at most 1000000." },
-    { "from", LOM_KEY_NUMBER, AT(from), 3, .flags = LOM_KEY_REQUIRED, .minimum = -1e9, .maximum = 1e9, .unit = "m",
-      .text = "One end of the segment on which drops begin: the lip of a fall." },
+    { "from", LOM_KEY_NUMBER, AT(from), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m",
+      .text = "One end of the segment on which drops begin: the lip of a fall. An entity needs none." },
     { "to", LOM_KEY_NUMBER, AT(to), 3, .minimum = -1e9, .maximum = 1e9, .unit = "m", .text = "The other end.",
       .initial_text = "`from`" },
     { "velocity", LOM_KEY_NUMBER, AT(velocity), 3, .minimum = -1000, .maximum = 1000, .unit = "m/s",
@@ -80,6 +85,13 @@ static const lom_key keys[] = {
 static bool check_spray(void *members, const lom_key_check *check)
 {
     lom_spray *spray = members;
+    const bool of_entity = spray->source == LOM_SPRAY_ENTITY;
+    if (of_entity != (spray->entity != NULL))
+        return check->fail(check, of_entity ? "source" : "entity",
+                           of_entity ? "spray of an entity names one by `entity`."
+                                     : "only spray of `source = \"entity\"` names one.");
+    if (!of_entity && !check->is_given(check, "from"))
+        return check->fail(check, "", "the key \"from\" is missing in this table.");
     if (!check->is_given(check, "to"))
         memcpy(spray->to, spray->from, sizeof spray->to);
     if (spray->source != LOM_SPRAY_SEGMENT && spray->bounce != 0)

@@ -2,6 +2,7 @@
  * out: wave vectors, phases and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
 #include "base/numbers.h"
 #include "waves/wave_field.h"
+#include "waves/wave_trains.h"
 
 #include "base/own_float_state.h"
 
@@ -86,7 +87,7 @@ int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WA
 }
 
 /* Without whole turns, so that what follows is a small angle: both products are rounded in turns, 2^-53 of them. */
-static double phase_at(const lom_trochoid *t, double x, double z, double time)
+double lom_trochoid_phase(const lom_trochoid *t, double x, double z, double time)
 {
     double turns = t->phase - t->rate * time / lom_two_pi;
     turns -= lom_double_floor(turns + 0.5);
@@ -100,7 +101,7 @@ lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, do
     double sx = 0, sz = 0, xx = 0, zz = 0, xz = 0;
     for (int i = 0; i < count; i++) {
         const lom_trochoid *t = &trochoids[i];
-        double phase = phase_at(t, x, z, time), s = lom_double_sin(phase), c = lom_double_cos(phase);
+        double phase = lom_trochoid_phase(t, x, z, time), s = lom_double_sin(phase), c = lom_double_cos(phase);
         double dx = t->direction[0], dz = t->direction[1], slope = t->number * t->amplitude * s;
         double narrowing = t->number * t->across * c;
         p.place[0] -= t->across * dx * s;
@@ -131,12 +132,13 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
     for (int i = 0; i < out->trochoid_count; i++) {
         const lom_trochoid *t = &trochoids[i];
         double x = t->direction[0], z = t->direction[1];
-        out->trochoid[i] = (struct lom_trochoid_uniform){ .kx = (float)(x * t->number),
-                                                          .kz = (float)(z * t->number),
-                                                          .phase = (float)phase_at(t, origin[0], origin[1], time),
-                                                          .amplitude = (float)t->amplitude,
-                                                          .across_x = (float)(x * t->across),
-                                                          .across_z = (float)(z * t->across) };
+        out->trochoid[i] =
+            (struct lom_trochoid_uniform){ .kx = (float)(x * t->number),
+                                           .kz = (float)(z * t->number),
+                                           .phase = (float)lom_trochoid_phase(t, origin[0], origin[1], time),
+                                           .amplitude = (float)t->amplitude,
+                                           .across_x = (float)(x * t->across),
+                                           .across_z = (float)(z * t->across) };
         for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
             double turn = t->rate * foam->window * m / LOM_FOAM_MOMENTS;
             out->trochoid[i].turn[m][0] = (float)lom_double_cos(turn);

@@ -155,6 +155,13 @@ static const struct base bases[] = {
     { "hits", "spray.0.source spray.0.kick spray.0.from spray.0.to spray.0.jet_time surf.variation surf.period",
       VIEW TERRAIN DISPLACED "[surf]\nheight = 0.4\n[[spray]]\nsource = \"surf\"\nfrom = [-20, 0, -20]\n"
                              "to = [20, 0, 20]\ncount = 40\nkick = 2\nsize = 0.4\nlife = 2\n" },
+    { "entity_hits",
+      "spray.0.source spray.0.entity spray.0.kick entity.0.name entity.0.position entity.0.key water.position "
+      "water.waves.height water.waves.length water.waves.count water.waves.spread water.waves.steepness",
+      VIEW TERRAIN DISPLACED "[water.waves]\nkind = \"gerstner\"\nheight = 1\nlength = [9, 5]\ncount = 3\n"
+                             "[[spray]]\nsource = \"entity\"\nentity = \"post\"\ncount = 40\nkick = 2\n"
+                             "size = 0.4\nlife = 2\n[[entity]]\nname = \"post\"\nmesh = \"box.obj\"\n[[entity.key]]\n"
+                             "time = 0\nposition = [0, 0, 2]\n[[entity.key]]\ntime = 1\nposition = [1, 0, 2]\n" },
     { "far_fluid", "fluid.0.high fluid.0.spacing",
       VIEW "[[fluid]]\nlow = [998000, 998000, 998000]\nhigh = [1e6, 1e6, 1e6]\nspacing = 200\n"
            "[[fluid.block]]\nlow = [998000, 998000, 998000]\nhigh = [1e6, 1e6, 1e6]\n" },

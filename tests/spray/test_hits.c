@@ -41,7 +41,7 @@ static struct lom_hits find(const struct lom_wave_site *site, const lom_spray *s
 {
     struct lom_hits hits;
     lom_error error = { 0 };
-    CHECK(lom_find_hits(&hits, spray, site, &error), "%s", error.text);
+    CHECK(lom_find_hits(&hits, spray, site, NULL, &error), "%s", error.text);
     return hits;
 }
 

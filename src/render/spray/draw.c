@@ -73,6 +73,8 @@ static bool move_drops(struct frame *f, const struct lom_spray_view *view, struc
     for (size_t i = 0; i < scene->spray_count; i++) {
         const lom_spray *spray = &scene->sprays[i];
         lom_emitter emitter = lom_spray_emitter(spray);
+        if (m->hits != NULL)
+            m->hits[i].scene = scene;
         const struct lom_hits *hits = spray->source != LOM_SPRAY_SEGMENT && m->hits != NULL ? &m->hits[i] : NULL;
         if (!spray->visible || emitter.count == 0 || (hits != NULL && hits->count == 0) ||
             (spray->bounce == 0 && !is_in_view(spray, &emitter, hits, &frustum)))

@@ -14,6 +14,28 @@ size_t lom_count_drops(const lom_scene *scene)
     return count;
 }
 
+/* The body of an entity as it stands at the time 0; false where it is not in the world. */
+static bool find_body(const lom_renderer *renderer, size_t followed, struct lom_hit_body *body)
+{
+    const struct lom_world *world = renderer->world;
+    const lom_entity *entity = followed == 0 ? NULL : &renderer->scene->entities[followed - 1];
+    for (size_t i = 0; i < world->entity_count; i++) {
+        const struct lom_world_entity *at = &world->entities[i];
+        if (at->entity != entity || at->mesh == NULL)
+            continue;
+        lom_entity_place place = { at->home, entity->rotation };
+        if (entity->key_count != 0)
+            place = lom_scene_entity_at(entity, 0);
+        *body =
+            (struct lom_hit_body){ .mesh = at->mesh,
+                                   .world_from_model = lom_model_matrix(place.position, place.rotation, entity->scale),
+                                   .followed = followed,
+                                   .moves = entity->key_count != 0 };
+        return true;
+    }
+    return false;
+}
+
 /* The places of emitters with a source. Their drops are those of the first water. */
 static bool load_hits(lom_renderer *renderer, lom_error *error)
 {
@@ -28,9 +50,12 @@ static bool load_hits(lom_renderer *renderer, lom_error *error)
     m->hits = lom_allocate(scene->spray_count, sizeof *m->hits, error);
     m->hits_count = m->hits != NULL ? scene->spray_count : 0;
     bool done = m->hits != NULL;
-    for (size_t i = 0; done && i < scene->spray_count; i++)
+    for (size_t i = 0; done && i < scene->spray_count; i++) {
+        struct lom_hit_body body;
+        const bool is_there = find_body(renderer, scene->sprays[i].followed, &body);
         if (count_of(&scene->sprays[i]) != 0)
-            done = lom_find_hits(&m->hits[i], &scene->sprays[i], &site, error);
+            done = lom_find_hits(&m->hits[i], &scene->sprays[i], &site, is_there ? &body : NULL, error);
+    }
     return done;
 }
 
