@@ -69,7 +69,7 @@ run_models() {
     draw bench/cloud.toml --size 160x120 --set quality.clouds=reference --set "quality.reference.samples=$((samples / 4))" -o "$work/quarter.ppm"
     "$lom" compare "$work/reference.ppm" "$work/quarter.ppm" --json --metrics >"$work/quarter.json"
     echo "model,ms,FLIP,PSNR dB,SSIM" >"$work/table"
-    for model in octaves forward single 'original combined' 'original advance' 'original real_time' 'original none' billboard sprites groups; do
+    for model in octaves forward single 'original combined' 'original advance' 'original real_time' 'original none' billboard sprites groups layers; do
         light=${model#* }
         [ "$light" = "$model" ] && light=combined
         draw bench/cloud.toml --size 160x120 --threads 1 --frames 0:60 --set "quality.clouds=${model% *}" \
@@ -84,7 +84,7 @@ run_models() {
         END { printf "reference with a quarter of its paths,%.0f,%.3f,%.1f,%.3f\n", ms / 4, f, p, s }' "$work/quarter.json" >>"$work/table"
     cp "$work/table" $results/clouds-models.csv
     plot models points 'Models of clouds against random paths' 'ms of the clouds, one thread' FLIP
-    rows_of_four $pictures/clouds-models.png octaves forward single reference sprites groups billboard original-combined
+    rows_of_four $pictures/clouds-models.png octaves forward single reference sprites groups layers billboard
 }
 
 rows_of_four() { # output, names of pictures of 160x120

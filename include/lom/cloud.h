@@ -53,6 +53,9 @@ lom_image *lom_make_cloud_picture(int size, uint64_t seed, lom_error *error);
 /* A round puff, white, RGBA8 of size x size (8..1024): its opacity is (1 - r^2)^2, r the distance from the middle in
  * parts of half a side, times noise of the same octaves about 1. NULL on failure. */
 lom_image *lom_make_cloud_puff(int size, uint64_t seed, lom_error *error);
+/* The noise of the model "layers": R8, 1 + 3 times the sum of Perlin noise at 4, 8, 16 and 32 cells a side, each of half
+ * the weight, in parts of 2.5 and cut to 0..1; it tiles without a seam. size as above; NULL on failure. */
+lom_image *lom_make_cloud_noise(int size, uint64_t seed, lom_error *error);
 
 /* ---- [[cloud]] ---- */
 
@@ -175,7 +178,8 @@ typedef enum lom_cloud_model {
     LOM_CLOUDS_OFF,
     LOM_CLOUDS_REFERENCE, /* random paths in double precision, as part of the reference's picture */
     LOM_CLOUDS_SPRITES,   /* many soft billboards, each turned at random */
-    LOM_CLOUDS_GROUPS     /* a group of billboards with pictures of whole clouds */
+    LOM_CLOUDS_GROUPS,    /* a group of billboards with pictures of whole clouds */
+    LOM_CLOUDS_LAYERS     /* a level sheet a cloud: four pictures over one another */
 } lom_cloud_model;
 
 /* ---- quality.impostors and [quality.impostor] ---- */

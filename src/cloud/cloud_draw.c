@@ -3,10 +3,12 @@
  * file's order reversed, so that the first in the file is drawn last. */
 #include "shading/square.h"
 #include "cloud/cloud_draw.h"
+#include "cloud/cloud_layers.h"
 #include "cloud/cloud_sprites.h"
 #include "cloud/cloud_uniforms.h"
 
 #include "base/counting_sort.h"
+#include "base/numbers.h"
 
 /* Radiance of a place that sees all of the sun, in parts of the sun's colour. A surface lit straight on sends its
  * colour, so the sun's irradiance is pi times it and isotropic scattering would send 1/4; light that was scattered more
@@ -85,7 +87,7 @@ size_t lom_count_capped_clouds(const struct lom_cloud_set *set, int *steps)
     size_t count = 0;
     *steps = most_steps;
     if (set->quality.model == LOM_CLOUDS_ORIGINAL || set->quality.model == LOM_CLOUDS_BILLBOARD ||
-        lom_has_cloud_sprites(set->quality.model))
+        set->quality.model == LOM_CLOUDS_LAYERS || lom_has_cloud_sprites(set->quality.model))
         return 0;
     for (size_t i = 0; i < set->count; i++) {
         const double *side = set->clouds[i].cloud->size;
@@ -278,6 +280,43 @@ static void draw_sprites(lom_device *device, const struct lom_cloud_set *set, co
                                            .label = "cloud" });
 }
 
+/* A level sheet over the box's sides through the middle of the cloud's mass, and the way of the light through half of
+ * it, which is longer the lower the sun. */
+static void draw_sheet(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *placed,
+                       const struct lom_cloud_view *view, struct lom_cloud_uniforms *u)
+{
+    static const double lowest = 0.1, clearest = 0.7; /* sine of the sun's height; detail that leaves holes */
+    const lom_cloud *cloud = placed->cloud;
+    const lom_vec3 away = lom_vec3_subtract(placed->middle, view->eye);
+    const double middle[3] = { away.x, away.y + placed->sheet->height, away.z };
+    const double up = lom_magnitude((double)view->light.to_light[1]);
+    u->picture = set->picture;
+    u->fine = set->fine;
+    u->gradient = set->gradient;
+    u->shape = placed->sheet->shape;
+    u->deepest = placed->sheet->deepest;
+    u->eaten = (float)lom_smaller(placed->detail / clearest, 1);
+    u->noise_scale[0] = (float)(1 / set->mean_opacity);
+    u->noise_scale[1] = (float)(1 / set->mean_fine);
+    u->way_of_light = (float)(0.5 / lom_larger(up, lowest));
+    for (int i = 0; i < 3; i++) {
+        u->corner[0][i] = (float)middle[i];
+        u->right[i] = (float)(placed->axes[0][i] * cloud->size[0] / 2);
+        u->up[i] = (float)(-placed->axes[2][i] * cloud->size[2] / 2);
+    }
+    for (int i = 0; i < 2; i++)
+        u->fine_repeats[i] = (float)(cloud->size[2 * i] / (2 * cloud->detail_size));
+    lom_draw(device, &(lom_draw_desc){ .shader = &lom_cloud_sheet_shader,
+                                       .uniforms = u,
+                                       .count = 4,
+                                       .topology = LOM_TRIANGLE_STRIP,
+                                       .vertex_count = 4,
+                                       .cull = LOM_CULL_NONE,
+                                       .depth_test_off = true,
+                                       .blend = { lom_blend_over },
+                                       .label = "cloud" });
+}
+
 void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, const struct lom_placed_cloud *cloud,
                            const struct lom_cloud_view *view)
 {
@@ -290,6 +329,10 @@ void lom_draw_placed_cloud(lom_device *device, const struct lom_cloud_set *set, 
     set_march(&u.march, set, cloud, view);
     bool is_flat = set->quality.model == LOM_CLOUDS_BILLBOARD, is_original = set->quality.model == LOM_CLOUDS_ORIGINAL;
     bool has_transfer = cloud->transfer.count > 0;
+    if (cloud->sheet != NULL) {
+        draw_sheet(device, set, cloud, view, &u);
+        return;
+    }
     if (cloud->sprites != NULL) {
         draw_sprites(device, set, cloud, view, &u);
         return;

@@ -33,6 +33,7 @@ struct lom_placed_cloud {
     lom_light_grid *light;
     lom_volume *original;              /* density lit in advance, of the original model */
     struct lom_cloud_sprites *sprites; /* of the models of billboards, or NULL */
+    struct lom_cloud_sheet *sheet;     /* of the model of layers, or NULL */
     uint64_t lit_for;                  /* what `light` or `original` was made for, hashed; 0: nothing yet */
     lom_vec3 middle;                   /* of the box, in the world; the cloud's position, until wind moves it */
     double detail;                     /* how far the noise eats into it: the cloud's, unless shapes change */
@@ -55,6 +56,10 @@ struct lom_cloud_set {
     double phase;                         /* of the crossfade that `detail` is from */
     lom_texture *picture;                 /* of the flat models, or NULL */
     double mean_opacity;                  /* of it */
+    lom_texture *fine;                    /* of the model of layers, which has its noise in `picture`, or NULL */
+    double mean_fine;                     /* of it */
+    lom_texture *gradient;                /* likewise */
+    uint64_t gradient_of;                 /* what it was made for, hashed; 0: nothing yet */
     float *jitter;                        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 

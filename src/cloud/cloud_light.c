@@ -3,6 +3,7 @@
  * it is made again when that changes. */
 #include "base/numbers.h"
 #include "cloud/cloud_draw.h"
+#include "cloud/cloud_layers.h"
 
 #include <string.h>
 
@@ -145,6 +146,8 @@ bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_li
 {
     struct lom_placed_cloud *cloud = &set->clouds[index];
     struct shadowing s = { set, cloud, to_light, set->others, 0 };
+    if (set->quality.model == LOM_CLOUDS_LAYERS) /* the sheets' light is a picture */
+        return lom_update_cloud_gradient(set, error);
     uint64_t hash = hash_numbers(LOM_HASH_START, to_light, 3);
     for (size_t i = 0; i < set->count && set->params->shadows; i++) {
         const struct lom_placed_cloud *other = &set->clouds[i];

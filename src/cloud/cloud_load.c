@@ -2,6 +2,7 @@
  * each cloud, the noise and the jitter they share; what a set that was loaded before has of it is taken from there.
  * Invariant: clouds of one kind, seed and size of volume share one density. */
 #include "cloud/cloud_draw.h"
+#include "cloud/cloud_layers.h"
 #include "cloud/cloud_sprites.h"
 #include "cloud/detail_noise.h"
 
@@ -19,11 +20,14 @@ void lom_free_cloud_set(struct lom_cloud_set *set)
         lom_free_light_grid(set->clouds[i].light);
         lom_free_volume(set->clouds[i].original);
         lom_free_cloud_sprites(set->clouds[i].sprites);
+        lom_free_cloud_sheet(set->clouds[i].sheet);
     }
     for (int i = 0; i < LOM_DETAIL_FIELDS; i++)
         lom_free_image(set->fields[i]);
     lom_free_detail(set->detail);
     lom_free_texture(set->picture);
+    lom_free_texture(set->fine);
+    lom_free_texture(set->gradient);
     lom_release(set->jitter);
     lom_release(set->densities);
     lom_release(set->clouds);
@@ -175,37 +179,55 @@ static bool place_cloud(struct lom_cloud_set *set, const struct lom_cloud_set *b
     placed->light = share_light(set, before, placed);
     if (placed->light == NULL && !make_light(set, placed, error))
         return false;
+    if (set->quality.model == LOM_CLOUDS_LAYERS) {
+        placed->sheet = lom_make_cloud_sheet(placed, error);
+        return placed->sheet != NULL;
+    }
     if (lom_has_cloud_sprites(set->quality.model))
         placed->sprites = lom_make_cloud_sprites(placed, set->quality.model, set->mean_opacity, error);
     return placed->sprites != NULL || !lom_has_cloud_sprites(set->quality.model);
 }
 
-static double mean_opacity(const lom_image *picture)
+/* The mean of a picture's last channel, in parts of 255. */
+static double mean_of(const lom_image *picture, size_t channels)
 {
     uint64_t sum = 0;
     const size_t size = lom_image_size(picture);
-    for (size_t i = 3; i < size; i += 4)
+    for (size_t i = channels - 1; i < size; i += channels)
         sum += picture->pixels[i];
-    return (double)sum / (255.0 * (double)(size / 4));
+    return (double)sum / (255.0 * (double)(size / channels));
 }
 
-static bool load_picture(struct lom_cloud_set *set, lom_error *error)
+/* A texture of a picture, which is freed; NULL where there is none. */
+static lom_texture *hold_picture(const struct lom_cloud_set *set, lom_image *made, lom_wrap wrap, double *mean,
+                                 lom_error *error)
 {
-    const bool is_puff = set->quality.model == LOM_CLOUDS_SPRITES;
-    lom_image *made = is_puff ? lom_make_cloud_puff(64, 1, error) : lom_make_cloud_picture(256, 1, error);
-    lom_texture_desc desc = {
-        .width = is_puff ? 64 : 256,
-        .height = is_puff ? 64 : 256,
-        .mips = LOM_MIPS_ALL,
-        .sampler = { .wrap_s = LOM_WRAP_CLAMP, .wrap_t = LOM_WRAP_CLAMP, .filtering = set->quality.filtering }
-    };
-    if (made != NULL) {
-        desc.pixels = made->pixels;
-        set->mean_opacity = mean_opacity(made);
-        set->picture = lom_create_texture(&desc, error);
-    }
+    if (made == NULL)
+        return NULL;
+    lom_texture_desc desc = { .width = made->width,
+                              .height = made->height,
+                              .format = made->format,
+                              .pixels = made->pixels,
+                              .mips = LOM_MIPS_ALL,
+                              .sampler = { .wrap_s = wrap, .wrap_t = wrap, .filtering = set->quality.filtering } };
+    *mean = mean_of(made, made->format == LOM_FORMAT_R8 ? 1 : 4);
+    lom_texture *texture = lom_create_texture(&desc, error);
     lom_free_image(made);
-    return set->picture != NULL;
+    return texture;
+}
+
+static bool load_pictures(struct lom_cloud_set *set, lom_error *error)
+{
+    if (set->quality.model != LOM_CLOUDS_LAYERS) {
+        bool is_puff = set->quality.model == LOM_CLOUDS_SPRITES;
+        lom_image *made = is_puff ? lom_make_cloud_puff(64, 1, error) : lom_make_cloud_picture(256, 1, error);
+        set->picture = hold_picture(set, made, LOM_WRAP_CLAMP, &set->mean_opacity, error);
+        return set->picture != NULL;
+    }
+    set->picture = hold_picture(set, lom_make_cloud_noise(256, 1, error), LOM_WRAP_REPEAT, &set->mean_opacity, error);
+    if (set->picture != NULL)
+        set->fine = hold_picture(set, lom_make_cloud_noise(256, 2, error), LOM_WRAP_REPEAT, &set->mean_fine, error);
+    return set->fine != NULL;
 }
 
 /* What all clouds share is the same for every scene; but `detail` that shapes in a crossfade have left. */
@@ -222,10 +244,15 @@ static bool load_shared(struct lom_cloud_set *set, const struct lom_cloud_set *b
     set->detail = from->detail != NULL && from->phase == 0 ? from->detail : lom_create_detail(set->fields[0], error);
     if (set->detail == NULL)
         return false;
-    if (set->quality.model == LOM_CLOUDS_BILLBOARD || lom_has_cloud_sprites(set->quality.model)) {
-        set->picture = from->quality.model == set->quality.model ? from->picture : NULL;
-        set->mean_opacity = from->mean_opacity;
-        if (set->picture == NULL && !load_picture(set, error))
+    if (set->quality.model == LOM_CLOUDS_BILLBOARD || set->quality.model == LOM_CLOUDS_LAYERS ||
+        lom_has_cloud_sprites(set->quality.model)) {
+        if (from->quality.model == set->quality.model) {
+            set->picture = from->picture;
+            set->mean_opacity = from->mean_opacity;
+            set->fine = from->fine;
+            set->mean_fine = from->mean_fine;
+        }
+        if (set->picture == NULL && !load_pictures(set, error))
             return false;
     }
     if (set->quality.jitter)
@@ -257,6 +284,7 @@ void lom_part_cloud_sets(const struct lom_cloud_set *owner, struct lom_cloud_set
             other->fields[i] = NULL;
     other->detail = other->detail == owner->detail ? NULL : other->detail;
     other->picture = other->picture == owner->picture ? NULL : other->picture;
+    other->fine = other->fine == owner->fine ? NULL : other->fine;
     other->jitter = other->jitter == owner->jitter ? NULL : other->jitter;
 }
 

@@ -75,22 +75,6 @@ static void original_fragment(lom_fragment *out, const lom_varyings *in, const v
     out->color[0] = (lom_float4){ seen.x, seen.y, seen.z, opacity };
 }
 
-static void picture_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
-{
-    const struct lom_cloud_uniforms *cloud = uniforms;
-    lom_float s = lom_to_float(in->vertex & 1), t = lom_to_float(in->vertex >> 1);
-    lom_float x = 2.0f * s - 1.0f, y = 1.0f - 2.0f * t;
-    lom_float3 offset = { x * cloud->right[0] + y * cloud->up[0] + cloud->corner[0][0],
-                          x * cloud->right[1] + y * cloud->up[1] + cloud->corner[0][1],
-                          x * cloud->right[2] + y * cloud->up[2] + cloud->corner[0][2] };
-    out->position = lom_transform4(&cloud->clip_from_offset, offset);
-    out->varying[OFFSET] = offset.x;
-    out->varying[OFFSET + 1] = offset.y;
-    out->varying[OFFSET + 2] = offset.z;
-    out->varying[S] = s;
-    out->varying[T] = t;
-}
-
 static void picture_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
@@ -110,6 +94,6 @@ static void picture_fragment(lom_fragment *out, const lom_varyings *in, const vo
 LOM_SHADER(lom_cloud_original_shader, lom_cloud_vertex, original_fragment, .varyings = RAY_VARYINGS,
            .reads = LOM_VARYINGS(OFFSET, 3), .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_cloud_uniforms))
-LOM_SHADER(lom_cloud_picture_shader, picture_vertex, picture_fragment, .varyings = PICTURE_VARYINGS,
+LOM_SHADER(lom_cloud_picture_shader, lom_cloud_picture_vertex, picture_fragment, .varyings = PICTURE_VARYINGS,
            .reads = LOM_VARYINGS(0, PICTURE_VARYINGS), .differentiates = 1u << S | 1u << T, .reads_position = true,
            .colors = 1, .uniforms_size = sizeof(struct lom_cloud_uniforms))

@@ -21,6 +21,23 @@ LOM_INLINE void lom_cloud_vertex(lom_vertex *out, const lom_attributes *in, cons
     out->varying[OFFSET + 2] = offset.z;
 }
 
+/* A square: its middle is corner[0], its half sides are right and up. */
+LOM_INLINE void lom_cloud_picture_vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct lom_cloud_uniforms *cloud = uniforms;
+    lom_float s = lom_to_float(in->vertex & 1), t = lom_to_float(in->vertex >> 1);
+    lom_float x = 2.0f * s - 1.0f, y = 1.0f - 2.0f * t;
+    lom_float3 offset = { x * cloud->right[0] + y * cloud->up[0] + cloud->corner[0][0],
+                          x * cloud->right[1] + y * cloud->up[1] + cloud->corner[0][1],
+                          x * cloud->right[2] + y * cloud->up[2] + cloud->corner[0][2] };
+    out->position = lom_transform4(&cloud->clip_from_offset, offset);
+    out->varying[OFFSET] = offset.x;
+    out->varying[OFFSET + 1] = offset.y;
+    out->varying[OFFSET + 2] = offset.z;
+    out->varying[S] = s;
+    out->varying[T] = t;
+}
+
 /* Metres along the ray to what is drawn there; length: those to the fragment. */
 LOM_INLINE lom_float lom_scene_distance(const struct lom_cloud_uniforms *cloud, const lom_varyings *in,
                                         lom_float length)

@@ -36,6 +36,11 @@ struct lom_cloud_uniforms {
     float right[3], up[3];      /* half the billboard, metres; of many, unit vectors */
     const float *sprites;       /* as in cloud_sprites.h */
     float sprite_depth;
+    const lom_texture *shape, *fine, *gradient; /* of a sheet; its noise is the picture */
+    float deepest, eaten;                       /* optical depth; the share of it that follows the noise */
+    float noise_scale[2];                       /* what noise is multiplied by to be 1 on average; and fine noise */
+    float fine_repeats[2];                      /* of fine noise along the sheet's sides */
+    float way_of_light;                         /* to the sheet's middle, in parts of its optical depth from above */
 };
 
 /* A plate with a cloud's picture. */
@@ -64,7 +69,8 @@ struct lom_cloud_view;
 void lom_set_cloud_place(struct lom_cloud_uniforms *u, const struct lom_placed_cloud *placed,
                          const struct lom_cloud_view *view);
 
-extern const lom_shader lom_cloud_original_shader, lom_cloud_picture_shader, lom_cloud_sprite_shader;
+extern const lom_shader lom_cloud_original_shader, lom_cloud_picture_shader, lom_cloud_sprite_shader,
+    lom_cloud_sheet_shader;
 extern const lom_shader lom_cloud_shader, lom_cloud_transfer_shader, lom_cloud_shadow_shader;
 extern const lom_shader lom_impostor_shader, lom_magnify_shader;
 

@@ -41,6 +41,27 @@ lom_image *lom_make_cloud_picture(int size, uint64_t seed, lom_error *error)
     return picture;
 }
 
+lom_image *lom_make_cloud_noise(int size, uint64_t seed, lom_error *error)
+{
+    LOM_OWN_FLOAT_STATE;
+    if (size < 8 || size > 1024) {
+        lom_fail(error, LOM_ERROR_USAGE, "Noise of clouds has 8 to 1024 pixels a side, not %d.", size);
+        return NULL;
+    }
+    lom_image *picture = lom_create_image(size, size, 1, LOM_FORMAT_R8, error);
+    lom_noise noise;
+    lom_seed_noise(&noise, seed);
+    for (int y = 0; picture != NULL && y < size; y++)
+        for (int x = 0; x < size; x++) {
+            double sum = 0, weight = 8;
+            for (int cells = 4; cells <= 32; cells *= 2, weight /= 2)
+                sum += weight / 15 * lom_noise2(&noise, (x + 0.5) / size * cells, (y + 0.5) / size * cells, cells);
+            picture->pixels[(size_t)y * (size_t)size + (size_t)x] =
+                lom_unorm8_of_double(lom_clamp_double((1 + 3 * sum) / 2.5, 0, 1));
+        }
+    return picture;
+}
+
 lom_image *lom_make_cloud_puff(int size, uint64_t seed, lom_error *error)
 {
     LOM_OWN_FLOAT_STATE;

@@ -38,13 +38,14 @@ static const lom_key quality[] = {
                                      .settings = "tinted planar normal_map displaced marched",
                                      .needs = "water water.enabled" } },
     { "clouds", LOM_KEY_CHOICE, AT(lom_quality, clouds),
-      .choices = { "octaves", "forward", "single", "original", "billboard", "off", "reference", "sprites", "groups" },
+      .choices = { "octaves", "forward", "single", "original", "billboard", "off", "reference", "sprites", "groups",
+                   "layers" },
       .text = "Model of the clouds: marched with octaves of multiple scattering, with multiple forward scattering, or "
               "with light that was scattered once; the reference work's; a flat picture; none; random paths in "
               "double precision, for which the whole frame is the reference's; many soft billboards, each turned at "
-              "random; a group of flat pictures.",
+              "random; a group of flat pictures; a level sheet a cloud, of four pictures over one another.",
       .dial = &(const lom_key_dial){ .approximates = "light scattered in clouds, by random paths",
-                                     .settings = "billboard groups sprites original single forward octaves",
+                                     .settings = "billboard layers groups sprites original single forward octaves",
                                      .needs = "cloud" } },
     { "cloud_error", LOM_KEY_NUMBER, AT(lom_quality, cloud_error), .flags = LOM_KEY_ABOVE, .maximum = 1,
       .initial = { 0.05 },

@@ -62,6 +62,7 @@ static const struct frame_scene {
       "output.format='rgb16'",
       60 },
     { "sprites", { camera, clouds }, "[quality]\nclouds = 'sprites'\n", NULL, 60 },
+    { "layers", { camera, clouds }, "[quality]\nclouds = 'layers'\n", "clouds.silver=0.5", 60 },
     { "a river by its normals",
       { camera, land, "[water]\nnormal_map = 'normal.png'\nflow_map = 'color.png'\n" },
       "[water.waves]\nkind = 'flow'\n[water.foam]\nshore_depth = 1\n[quality]\nwater = 'normal_map'\n",

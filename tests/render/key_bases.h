@@ -118,6 +118,10 @@ static const struct base bases[] = {
       VIEW TERRAIN CLOUD },
     { "original", "clouds.lighter clouds.dark_light clouds.original_light cloud.0.size cloud.0.density",
       VIEW CLOUD "[quality]\nclouds = \"original\"\n" },
+    { "layers",
+      "clouds.albedo clouds.phase clouds.forward clouds.silver quality.clouds cloud.0.size cloud.0.detail_size",
+      "[camera]\nposition = [0, -3, -2]\ntarget = [0, 4, -8]\n[light]\nazimuth = 20\nelevation = 25\n" CLOUD
+      "[quality]\nclouds = \"layers\"\n" },
     { "transfer", "cloud.0.transfer_function cloud.0.look cloud.0.detail quality.clouds",
       VIEW CLOUD "look = \"surface\"\ntransfer_function = [{ value = 0, extinction = 0 }, { value = 1 }]\n" },
     { "evolve", "clouds.evolve clouds.swell clouds.wind output.fps", VIEW CLOUD WIND "[clouds]\nevolve = 3\n" },

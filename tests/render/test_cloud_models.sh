@@ -83,8 +83,20 @@ flat_turns_with_the_eye() {
             END { print seen + 0, "seen, worst", worst; exit !(seen > 300 && worst < 0.004) }'
 }
 
+# Seen from straight above, of the white ground of a sky behind dark clouds a sheet without noise lets through what the
+# marched cloud does: the picture is the transmittance.
+sheet_takes_what_the_cloud_does() {
+    set -- --set 'sky.color=[1, 1, 1]' --set light.intensity=0 --set cloud.c.detail=0 --set cloud.c.density=0.1 \
+        --set quality.cloud_error=0.002 --set quality.cloud_light_scale=1 --set 'camera.position=[0, 30000, 1]' --set 'camera.target=[0, 400, 0]'
+    picture marched "$@" --set 'quality.clouds="single"' && picture sheet "$@" --set 'quality.clouds="layers"' &&
+        paste "$folder/marched" "$folder/sheet" | awk '
+            $1 < 0.9 { dark++ } { d = $1 - $2; sum += d; if (d < 0) d = -d; all += d; n++; if (d > worst) worst = d }
+            END { print dark + 0, "dark, off by", sum / n, "on average,", all / n, "each, worst", worst
+                  exit !(dark > 300 && sum / n < 0.005 && sum / n > -0.005 && all / n < 0.01 && worst < 0.1) }'
+}
+
 one_hash_a_model() {
-    for model in original billboard forward sprites groups; do
+    for model in original billboard forward sprites groups layers; do
         "$lom" render "$folder/scene.toml" --hash --set "quality.clouds=\"$model\"" --lanes 4 --threads 1 >"$folder/one" || return 1
         for other in '--lanes auto --threads 2' '--lanes 4 --threads 5'; do
             # shellcheck disable=SC2086
@@ -98,5 +110,6 @@ check phases_have_their_limits limits_of_phases
 check rayleigh_is_three_quarters_of_one_and_mu_squared rayleigh
 check original_is_brightest_when_white white_is_brightest
 check flat_cloud_turns_with_the_eye flat_turns_with_the_eye
+check sheet_takes_what_the_cloud_does sheet_takes_what_the_cloud_does
 check one_hash_a_model_of_clouds one_hash_a_model
 exit $failures
