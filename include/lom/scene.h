@@ -322,6 +322,7 @@ typedef struct lom_quality {
     bool mipmaps;            /* false: the finest level alone */
     double reflection_scale; /* size of the reflection picture in parts of the output's, each axis, above 0 to 1 */
     double refraction_scale; /* the same of the refraction picture */
+    int refraction_samples;  /* of its pixels, at most output.samples: 1, 2, 4, 8, 16; 0: 1 */
     lom_reference_quality reference;
     bool lamp_tiles;          /* lamps are looked at only near where they reach; changes no byte */
     bool scissor;             /* pictures are drawn only where lookups can reach; changes no byte */

@@ -56,9 +56,19 @@ lom_device *lom_open_device(const lom_device_desc *desc)
     device->pool = lom_create_pool(device->desc.threads, &device->error);
     device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
     device->assemblies = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_assembly), &device->error);
-    device->chunks = lom_allocate(device->most_chunks, sizeof(struct lom_chunk), &device->error);
-    device->reaches = lom_allocate(device->most_chunks, sizeof(struct lom_tile_range), &device->error);
     return device;
+}
+
+bool lom_lay_chunks(lom_device *device, size_t count)
+{
+    const size_t most = count < device->most_chunks ? count : device->most_chunks;
+    lom_error *error = &device->error;
+    if (!lom_reserve(&device->chunks, &device->chunk_capacity, most, sizeof *device->chunks, error) ||
+        !lom_reserve(&device->reaches, &device->reach_capacity, most, sizeof *device->reaches, error))
+        return false;
+    device->pass.chunks = device->chunks;
+    device->pass.reaches = device->reaches;
+    return true;
 }
 
 static void free_chunk(struct lom_chunk *chunk)
@@ -87,7 +97,7 @@ void lom_close_device(lom_device *device)
         return;
     lom_free_pool(device->pool);
     lom_forget_records(device);
-    for (size_t i = 0; device->chunks != NULL && i < device->most_chunks; i++)
+    for (size_t i = 0; device->chunks != NULL && i < device->chunk_capacity; i++)
         free_chunk(&device->chunks[i]);
     for (int i = 0; device->assemblies != NULL && i < device->desc.threads; i++)
         free_assembly(&device->assemblies[i]);
@@ -98,6 +108,7 @@ void lom_close_device(lom_device *device)
     lom_release(device->reaches);
     lom_release(device->assemblies);
     lom_release(device->worker_tiles);
+    lom_release(device->sampled);
     lom_release(device->tile_memory);
     lom_release(device->tile_touched);
     lom_release(device->draws);

@@ -23,11 +23,13 @@ struct lom_device {
     struct lom_pass pass;
     struct lom_tile *worker_tiles;   /* one for each worker */
     struct lom_assembly *assemblies; /* likewise */
-    struct lom_chunk *chunks;        /* most_chunks of them */
+    struct lom_sample_room *sampled; /* likewise, once a pass had several samples */
+    struct lom_chunk *chunks;        /* as many as the longest batch so far had, at most most_chunks */
     struct lom_tile_range *reaches;  /* likewise */
-    size_t most_chunks;              /* of a batch: desc.batch, and behind those only ones of small draws (run.c) */
-    struct lom_room room;            /* of the batches before this one */
-    struct lom_room small_room;      /* of chunks behind the first desc.batch */
+    size_t chunk_capacity, reach_capacity;
+    size_t most_chunks;         /* of a batch: desc.batch, and behind those only ones of small draws (run.c) */
+    struct lom_room room;       /* of the batches before this one */
+    struct lom_room small_room; /* of chunks behind the first desc.batch */
     uint8_t *tile_memory, *tile_touched;
     size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;
@@ -44,6 +46,8 @@ struct lom_device {
 
 /* Checks a descriptor and records it; false with an error on the device. */
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
+/* Chunks for the batches of a pass that has so many. */
+bool lom_lay_chunks(lom_device *device, size_t count);
 /* Whether a draw's stencil can be, or an error; the same with its defaults resolved (stencil.c). */
 bool lom_check_stencil(lom_device *device, const lom_draw_desc *desc);
 void lom_resolve_stencil_state(lom_stencil *stencil);

@@ -112,7 +112,7 @@ static void shade_entries(struct lom_tile *tile, bool all)
     list->count -= at;
     lom_store_int(list->code, lom_load_int(list->code + at));
     if (tile->pass->samples > 1)
-        lom_store_int(tile->list_samples, lom_load_int(tile->list_samples + at));
+        lom_store_int(tile->sampled->list, lom_load_int(tile->sampled->list + at));
 }
 
 /* Entries that are left keep their triangles, in slots of their own. */

@@ -159,11 +159,11 @@ static __attribute__((noinline)) void find_allowed(const struct lom_tile *tile, 
 
 LOM_INLINE void test_strip(struct lom_tile *tile, const struct plane *p, const struct test *t, int i)
 {
-    const int32_t *samples = tile->pass->strip_pair, code = tile->strips.code[i];
-    const lom_int place = lom_splat_int(tile->strips.place[i]);
+    const int32_t *samples = tile->pass->strip_pair, code = tile->sampled->strips.code[i];
+    const lom_int place = lom_splat_int(tile->sampled->strips.place[i]);
     const int words = STRIP_PIXELS << t->shift;
     float *memory = t->tests ? tile->depth + ((code & ((1 << CODE_X) - 1)) << t->shift) : NULL;
-    int32_t *found = tile->strips.found + i * found_words(t->shift);
+    int32_t *found = tile->sampled->strips.found + i * found_words(t->shift);
     for (int first = 0; first < words; first += 16) {
         uint32_t passed = 0, outside = 0;
         for (int at = first; at < words && at < first + 16; at += LOM_LANES) {
@@ -193,7 +193,7 @@ static struct test find_test(const struct lom_tile *tile, bool cuts)
 LOM_INLINE int test_slot(struct lom_tile *tile, int slot, int i, const struct test *t)
 {
     const struct plane p = find_plane(find_slot(tile, slot));
-    for (; i < tile->strips.end[slot]; i++)
+    for (; i < tile->sampled->strips.end[slot]; i++)
         test_strip(tile, &p, t, i);
     return i;
 }
@@ -238,7 +238,7 @@ static void test_all_strips(struct lom_tile *tile, int slot, int end)
 static void list_pixels(struct lom_tile *tile, int count)
 {
     struct lom_list *list = &tile->list;
-    struct lom_strips *strips = &tile->strips;
+    struct lom_strips *strips = &tile->sampled->strips;
     const int shift = __builtin_ctz((unsigned)tile->pass->sample_pitch), words = found_words(shift);
     const lom_int every = lom_splat_int(((1 << tile->pass->samples) - 1) * (1 + (1 << ENTRY_COVERED)));
     const lom_int strip = lom_lane_index() / STRIP_PIXELS, k = lom_lane_index() & (STRIP_PIXELS - 1),
@@ -253,7 +253,7 @@ static void list_pixels(struct lom_tile *tile, int count)
         const lom_int first = lom_as_int(lom_permute(lom_load((const float *)strips->code + i), strip));
         const lom_mask left = (samples & ((1 << ENTRY_COVERED) - 1)) != 0;
         lom_compress((float *)list->code + entries, left, lom_as_float(first + pixels));
-        lom_compress((float *)tile->list_samples + entries, left, lom_as_float(samples));
+        lom_compress((float *)tile->sampled->list + entries, left, lom_as_float(samples));
         entries += (int)lom_count(left);
         if (tile->rejects_early)
             covered += lom_count(samples != 0);
@@ -268,8 +268,8 @@ int LOM_WIDE(lom_cover_samples)(struct lom_tile *tile, int slot)
     const int first = slot;
     int count = 0;
     for (; slot < tile->list.triangles && count < STRIPS_SIZE; slot++) {
-        count = find_strips(&tile->strips, &frame, find_slot(tile, slot), slot, count);
-        tile->strips.end[slot] = count;
+        count = find_strips(&tile->sampled->strips, &frame, find_slot(tile, slot), slot, count);
+        tile->sampled->strips.end[slot] = count;
     }
     test_all_strips(tile, first, slot);
     list_pixels(tile, count);
@@ -300,7 +300,7 @@ void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct 
     const struct entry_edges centre = find_entry_edges(list, p);
     const lom_int none =
         lom_splat_int(1 << ENTRY_COVERED); /* of lanes that are no entries: the first, and written nowhere */
-    const lom_int samples = lom_select_int(lom_lane_index() < p->count, lom_load_int(tile->list_samples + at), none);
+    const lom_int samples = lom_select_int(lom_lane_index() < p->count, lom_load_int(tile->sampled->list + at), none);
     packet->samples = samples & ((1 << ENTRY_COVERED) - 1);
     packet->place = lom_select_int(cover_centres(list, p, &centre), (lom_int){ 0 },
                                    find_lowest((lom_int)((lom_uint)samples >> ENTRY_COVERED)));

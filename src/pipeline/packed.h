@@ -110,7 +110,7 @@ LOM_INLINE depth_rule rule_of(const struct lom_draw *draw)
     return draw->depth_write && !draw->late_depth ? rules[draw->compare] : DEPTH_STAYS;
 }
 
-/* Where pixels have several samples an entry has more than its code, tile->list_samples: the samples that it is written to,
+/* Where pixels have several samples an entry has more than its code, tile->sampled->list: the samples that it is written to,
  * and above those the ones that its triangle covers, of which some may have failed the early depth test. */
 enum { ENTRY_COVERED = 16 };
 

@@ -37,9 +37,9 @@ static void take_packet(const struct lom_tile *tile, int first, int count, struc
     packet->places.block = false;
     lom_store_int(packet->places.pixel, lom_select_int(taken, pixel, lom_splat_int(pixel[0])));
     if (tile->pass->samples > 1) {
-        packet->samples = lom_load_int(tile->sample_queue.samples + first);
-        packet->place = lom_load_int(tile->sample_queue.place + first);
-        packet->sample_depth = tile->sample_queue.depth[0] + first;
+        packet->samples = lom_load_int(tile->sampled->queue.samples + first);
+        packet->place = lom_load_int(tile->sampled->queue.place + first);
+        packet->sample_depth = tile->sampled->queue.depth[0] + first;
         packet->depth_pitch = QUEUE_ROOM;
     }
 }
@@ -47,7 +47,7 @@ static void take_packet(const struct lom_tile *tile, int first, int count, struc
 /* What the queue holds of samples, from an entry on, goes to its begin. */
 static void move_samples(struct lom_tile *tile, int first)
 {
-    struct lom_sample_queue *q = &tile->sample_queue;
+    struct lom_sample_queue *q = &tile->sampled->queue;
     lom_store_int(q->samples, lom_load_int(q->samples + first));
     lom_store_int(q->place, lom_load_int(q->place + first));
     for (int s = 0; tile->draw->late_depth && s < tile->pass->samples; s++)
@@ -56,7 +56,7 @@ static void move_samples(struct lom_tile *tile, int first)
 
 static void enqueue_samples(struct lom_tile *tile, const struct lom_fragments *f, int first)
 {
-    struct lom_sample_queue *q = &tile->sample_queue;
+    struct lom_sample_queue *q = &tile->sampled->queue;
     lom_compress((float *)q->samples + first, f->taken, lom_as_float(f->samples));
     lom_compress((float *)q->place + first, f->taken, lom_as_float(f->place));
     for (int s = 0; tile->draw->late_depth && s < tile->pass->samples; s++)

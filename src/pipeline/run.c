@@ -201,7 +201,7 @@ static bool prepare_chunks(lom_device *device)
     enum { MORE = 32 };
     size_t first = device->pass.chunk_count, end = (first + MORE - 1) / MORE * MORE;
     bool done = true;
-    for (size_t i = first; i < end && i < device->most_chunks && first > (size_t)device->desc.batch && done; i++)
+    for (size_t i = first; i < end && i < device->chunk_capacity && first > (size_t)device->desc.batch && done; i++)
         done = lom_prepare_chunk(&device->small_room, &device->chunks[i]);
     return done || lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the draws of a pass.");
 }
@@ -322,6 +322,8 @@ static bool lay_tile_memory(lom_device *device)
         pass->chunks_left += chunks;
         pass->single_batch &= chunks == 0 || fits(device, pass->chunks_left - 1, &device->draws[i]);
     }
+    if (!lom_lay_chunks(device, pass->chunks_left))
+        return false;
     size_t threads = (size_t)device->desc.threads, count = pass->single_batch ? threads : tiles;
     size_t scratch = pass->samples > 1 ? lom_scratch_bytes(pass) : 0;
     if (!lom_reserve(&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes + threads * scratch,
@@ -364,8 +366,6 @@ static bool cull_draws(lom_device *device)
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
-    pass->chunks = device->chunks;
-    pass->reaches = device->reaches;
     pass->chunk_count = 0;
     for (size_t i = 0; i < pass->draw_count; i++) {
         note_depth(pass, &device->draws[i]);

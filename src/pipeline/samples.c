@@ -124,9 +124,21 @@ static bool keep(lom_device *device, const struct lom_pass *pass, lom_texture *t
                     pass->samples, pass->width, pass->height);
 }
 
+static bool lay_room(lom_device *device)
+{
+    const size_t workers = (size_t)device->desc.threads;
+    if (device->sampled == NULL)
+        device->sampled = lom_allocate(workers, sizeof *device->sampled, &device->error);
+    for (size_t i = 0; i < workers && device->sampled != NULL; i++)
+        device->worker_tiles[i].sampled = &device->sampled[i];
+    return device->sampled != NULL;
+}
+
 bool lom_lay_samples(lom_device *device, struct lom_pass *pass)
 {
     pass->tile_bytes = 0;
+    if (!lay_room(device))
+        return false;
     if (pass->depth != NULL && !keeps(pass, pass->depth))
         pass->tile_bytes += depth_stencil_bytes(pass);
     else if (pass->depth != NULL && !keep(device, pass, pass->depth, depth_stencil_bytes(pass)))

@@ -81,6 +81,13 @@ struct lom_sample_queue {
     float depth[LOM_MAX_SAMPLES][QUEUE_ROOM];
 };
 
+/* What a worker holds besides once a pass had several samples. */
+struct lom_sample_room {
+    struct lom_sample_queue queue;
+    int32_t list[LIST_ROOM]; /* with the list's codes (packed.h) */
+    struct lom_strips strips;
+};
+
 /* A worker's view of the tile it owns. Tile memory is in blocks of 2x2 pixels, rows of blocks from the top. */
 struct lom_tile {
     struct lom_pass *pass;
@@ -113,11 +120,8 @@ struct lom_tile {
      * an image for each sample. */
     uint8_t *several[LOM_MAX_COLORS];
     void *sample_color[LOM_MAX_COLORS];
-    uint8_t *scratch; /* an image */
-
-    struct lom_sample_queue sample_queue;
-    int32_t list_samples[LIST_ROOM]; /* with the list's codes (packed.h) */
-    struct lom_strips strips;
+    uint8_t *scratch;                /* an image */
+    struct lom_sample_room *sampled; /* NULL before the device's first pass of several samples */
 };
 
 #endif

@@ -100,6 +100,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_TEXTURES, "quality.texture_filter quality.anisotropy" },
     { LOM_PART_TEXTURES | LOM_PART_GROUND, "quality.mipmaps" },
     { LOM_PART_TARGETS, "quality.reflection_scale quality.refraction_scale" },
+    { each_frame, "quality.refraction_samples" },
     { LOM_PART_GROUND_SHADOW, "quality.terrain_shadows" },
     { LOM_PART_ENTITY_SHADOWS, "quality.entity_shadows quality.shadow_cascades" },
     { LOM_PART_LAMP_SHADOWS, "quality.lamp_shadows" },

@@ -144,6 +144,14 @@ static const lom_key quality[] = {
                                      .settings = "0.125 0.25 0.5 1",
                                      .needs = "water water.enabled water.refraction "
                                               "quality.water=planar|normal_map|displaced|marched" } },
+    { "refraction_samples", LOM_KEY_INTEGER, AT(lom_quality, refraction_samples), .minimum = 1,
+      .maximum = LOM_MAX_SAMPLES, .initial = { 1 },
+      .text = "Samples of a pixel of the refraction's picture: 1, 2, 4, 8 or 16, at most as many as `output.samples`. "
+              "The water bends its edges, so that one does (docs/samples.md).",
+      .dial = &(const lom_key_dial){ .approximates = "the picture of the bed, the mean over a pixel's area",
+                                     .settings = "1 2 4 8 16",
+                                     .needs = "water water.enabled water.refraction output.samples=2|4|8|16 "
+                                              "quality.water=planar|normal_map|displaced|marched" } },
     { "lamp_tiles", LOM_KEY_BOOL, AT(lom_quality, lamp_tiles), .initial = { 1 },
       .text =
           "Look at each lamp only on the squares of ground that its light reaches. Changes time alone: off gives the "
@@ -237,6 +245,8 @@ static bool check_quality(void *members, const lom_key_check *check)
 {
     const lom_quality *q = members;
     const double *t = q->toon_thresholds;
+    if ((q->refraction_samples & (q->refraction_samples - 1)) != 0)
+        return check->fail(check, "refraction_samples", "a pixel has 1, 2, 4, 8 or 16 samples.");
     return (t[0] <= t[1] && t[1] <= t[2]) ||
            check->fail(check, "toon_thresholds", "the thresholds of tones rise from the first to the last.");
 }

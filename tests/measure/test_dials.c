@@ -81,6 +81,8 @@ static void conditions_are_told(void)
         { "[water]\n", "water.waves.cell", "quality.water is planar" },
         { "", "output.sample_shading", "output.samples is 1" },
         { "[output]\nsamples = 4\n", "output.sample_shading", "" },
+        { "[water]\n", "refraction_samples", "output.samples is 1" },
+        { "[output]\nsamples = 4\n[water]\n", "refraction_samples", "" },
         { "", "filtering", "" },
     };
     lom_dials dials;

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Proves of scenes with several samples a pixel: an edge through the middle of a pixel, black before white, is the code of
 # half the light; pixels without an edge are those of one sample; the picture is one for every width and number of threads, a
-# crop is its cut-out, also beneath clouds and spray; other numbers of samples end with 2 and a sentence, before a file is
-# written.
+# crop is its cut-out, also beneath clouds and spray; what lies under water has as many as it is asked for, and no more than the
+# picture; other numbers of samples end with 2 and a sentence, before a file is written.
 . "$(dirname "$0")/render.sh"
 scene=assets/scenes/features/samples.toml
 draw() { "$lom" render $scene --size 160x90 --quiet "$@"; }
@@ -54,9 +54,20 @@ crops samples_of_crops_beneath_spray
 scene=assets/scenes/cove.toml
 one_hash samples_of_waves_are_one_picture
 
+# hashes of samples of the picture and of the refraction
+hash() { "$lom" render assets/scenes/lake.toml --size 160x90 --hash --set output.samples=$1 --set quality.refraction_samples=$2 | cut -c-16; }
+plain=$(hash 1 1) one=$(hash 4 1) two=$(hash 4 2) four=$(hash 4 4) why=
+[ "$(hash 1 16)" = "$plain" ] || why='a picture without samples has some'
+[ "$(hash 4 16)" = "$four" ] || why='there are more than the picture has'
+[ "$one" != "$two" ] && [ "$two" != "$four" ] && [ "$one" != "$four" ] || why="$one, $two and $four are not three pictures"
+[ "$("$lom" render assets/scenes/lake.toml --size 160x90 --hash --set output.samples=4 | cut -c-16)" = "$one" ] || why='one is not what a scene has that does not say'
+verdict what_lies_under_water_has_its_own_samples "$why"
+
 why=
 for samples in 0 3 5 17 -4 2.5 many; do
     said=$("$lom" render assets/scenes/lake.toml --size 16x9 --set "output.samples=$samples" -o "$folder/none.png" 2>&1 >/dev/null)
     [ $? -eq 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" -eq 1 ] && [ ! -e "$folder/none.png" ] || why="$samples: $said"
 done
+said=$("$lom" render assets/scenes/lake.toml --size 16x9 --set quality.refraction_samples=6 -o "$folder/none.png" 2>&1 >/dev/null)
+[ $? -eq 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" -eq 1 ] && [ ! -e "$folder/none.png" ] || why="under water: $said"
 verdict other_numbers_of_samples_are_refused "$why"

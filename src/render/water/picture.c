@@ -130,6 +130,13 @@ static bool can_copy(const struct frame *f, const struct lom_scene_view *view, c
            step->height == f->height && lom_shows_terrain(f->renderer, view);
 }
 
+/* The water bends the edges of what lies below it, which one sample finds well enough; a mirror shows its own. */
+static int count_samples(const lom_scene *scene, bool mirrored)
+{
+    const int samples = scene->output.samples, most = scene->quality.refraction_samples;
+    return mirrored || samples < most ? samples : most;
+}
+
 bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_texture *depth,
                       const struct lom_scene_view *view, const float clear[4], lom_rect scissor, bool is_shown,
                       lom_error *error)
@@ -137,7 +144,7 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     lom_renderer *r = f->renderer;
     lom_pass_desc pass = { .color = { color },
                            .depth = depth,
-                           .samples = f->scene->output.samples,
+                           .samples = count_samples(f->scene, view->mirrored),
                            .per_sample = f->scene->output.sample_shading,
                            .scissor = scissor };
     pass.label = view->mirrored ? "reflection" : "refraction";
