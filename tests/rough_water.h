@@ -4,12 +4,14 @@
  *
  * A facet of slopes (p, q) has the normal (-p, 1, -q) / sqrt(1 + p^2 + q^2). On a level square as much of it as the density
  * of its slopes says is such facets; an eye in the direction v sees of each in proportion to v.n / n_y, and of those that
- * face it alone. Shadowing by other facets that does not depend on the slope (B. Smith 1967) is divided out of a mean. */
+ * face it alone. Shadowing by other facets that does not depend on the slope (B. Smith 1967) is divided out of a mean. What
+ * is mirrored meets other facets on its way: walked_sky. */
 #ifndef LOM_TESTS_ROUGH_WATER_H
 #define LOM_TESTS_ROUGH_WATER_H
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct rough_water {
     double up, cross; /* variance of slopes along x and along z */
@@ -105,6 +107,58 @@ static inline double variance_towards(const rough_water *w, const double v[3])
 {
     const double flat = v[0] * v[0] + v[2] * v[2];
     return flat > 0 ? (w->up * v[0] * v[0] + w->cross * v[2] * v[2]) / flat : w->up;
+}
+
+static inline double next_uniform(uint64_t *state)
+{
+    *state ^= *state << 13; /* xorshift (Marsaglia 2003) */
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    return ((double)(*state >> 11) + 0.5) / 9007199254740992.0;
+}
+
+/* A facet that is seen from the unit direction v, which may be from below: slopes are drawn, and taken by the area that
+ * they show. */
+static inline double draw_facet(const rough_water *w, const double v[3], uint64_t *state, double n[3])
+{
+    const double steepest = sqrt(variance_towards(w, v) * (1 - v[1] * v[1])), most = v[1] + 6 * steepest;
+    for (;;) {
+        const double r = sqrt(-2 * log(next_uniform(state))), turn = 6.283185307179586 * next_uniform(state);
+        const double p = r * cos(turn) * sqrt(w->up), q = r * sin(turn) * sqrt(w->cross);
+        const double area = v[1] - v[0] * p - v[2] * q, up = 1 / sqrt(1 + p * p + q * q);
+        if (!(area > 0 && next_uniform(state) * most <= area))
+            continue;
+        n[0] = -p * up;
+        n[1] = up;
+        n[2] = -q * up;
+        return area * up;
+    }
+}
+
+/* How much of an even sky it mirrors, light that goes from facet to facet included: a walk back along it (E. Heitz, J.
+ * Hanika, E. d'Eon and C. Dachsbacher, ACM Trans. Graph. 35 (2016), section 4). Heights are those of a share `below` of
+ * the facets; a ray goes on between facets by Smith's Lambda, which below the level is -1 less that of the opposite
+ * direction, and has left when it passes all. What goes into the water is lost. */
+static inline double walked_sky(const rough_water *w, const double v[3], int walks)
+{
+    uint64_t state = 88172645463325252u;
+    double sum = 0;
+    for (int i = 0; i < walks; i++) {
+        double from[3] = { v[0], v[1], v[2] }, n[3], below = 1, light = 1;
+        for (int bounce = 0; bounce < 30; bounce++) {
+            const double sine = -from[1], variance = variance_towards(w, from), left = 1 - next_uniform(&state);
+            const double lambda = sine > 0 ? hidden_facets(sine, variance) : -1 - hidden_facets(-sine, variance);
+            if (sine > 0 && (lambda <= 0 || left <= pow(below, lambda)))
+                break;
+            below = fmin(fmax(below / pow(left, 1 / lambda), 1e-300), 1);
+            const double cosine = draw_facet(w, from, &state, n);
+            light *= smooth_reflectance(cosine, w->index);
+            for (int k = 0; k < 3; k++)
+                from[k] = from[k] - 2 * cosine * n[k]; /* minus the mirrored direction */
+        }
+        sum += light / walks;
+    }
+    return sum;
 }
 
 /* What it mirrors of a distant light of irradiance 1 from the unit direction l: F P / (4 v_y h_y^4) of the facet h that

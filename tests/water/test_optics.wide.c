@@ -226,25 +226,6 @@ static void absorption_of_lengths_adds_up(void)
     CHECK(lom_transmittance(clear, lom_splat(1e9f)).x[0] == 1, "clear water absorbs");
 }
 
-/* A share of light that smooth water mirrors up arrives whole; what goes down is mirrored again by the same share. Rough
- * water lets more of it through the steeper it goes up, and never less than it mirrors again. */
-static void mirrored_rays_that_go_down_are_mirrored_again(void)
-{
-    const lom_float share = lom_splat(0.25f), none = { 0 };
-    double before = 0.0625;
-    for (int i = 1; i <= 100; i++) {
-        lom_float sine = lom_splat((float)i / 100), variance = lom_splat(0.03f);
-        double up = lom_unhidden_share(share, none, sine, variance)[0];
-        CHECK(lom_unhidden_share(share, none, sine, none)[0] == 0.25f, "up by %d of 100", i);
-        CHECK(lom_unhidden_share(share, none, -sine, variance)[0] == 0.0625f, "down by %d of 100", i);
-        CHECK(up >= before - 1e-4 && up <= 0.2501, "rough, up by %d of 100: %g after %g", i, up, before);
-        before = up;
-    }
-    lom_float mixed = lom_splat(0.5f);
-    mixed[0] = -1;
-    CHECK(lom_unhidden_share(share, none, mixed, none)[LOM_LANES - 1] == 0.25f, "a lane up beside one that goes down");
-}
-
 int main(int argc, char **argv)
 {
     RUN(o1_fresnel_at_normal_and_grazing_incidence);
@@ -256,6 +237,5 @@ int main(int argc, char **argv)
     RUN(o6_schlick_and_dot_against_exact);
     RUN(o7_reflecting_twice_is_nothing);
     RUN(absorption_of_lengths_adds_up);
-    RUN(mirrored_rays_that_go_down_are_mirrored_again);
     return check_result();
 }
