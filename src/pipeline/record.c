@@ -5,6 +5,7 @@
 
 #include "pipeline/check_device.h"
 #include "pipeline/tally.h"
+#include "pipeline/variants.h"
 
 static size_t count_pixels(const struct record_watch *watch)
 {
@@ -69,9 +70,18 @@ void lom_forget_records(lom_device *device)
     device->tallier = NULL;
 }
 
+bool lom_has_recorded(lom_device *device)
+{
+    return lom_stages_of(LOM_SLOT_4_recorded) != NULL ||
+           lom_fail(&device->error, LOM_ERROR_USAGE,
+                    "This library was built without the variant that records, so no pixel can be watched.");
+}
+
 struct lom_recorder *lom_renew_recorder(lom_device *device)
 {
     lom_forget_records(device);
+    if (!lom_has_recorded(device))
+        return NULL;
     struct lom_recorder *r = device->recorder = lom_allocate(1, sizeof *r, &device->error);
     if (r == NULL)
         return NULL;

@@ -109,7 +109,9 @@ struct lom_recorder {
 void *lom_record_allocate(struct record_memory *memory, size_t size);
 void lom_free_record_memory(struct record_memory *memory);
 /* ---- record.c ---- */
-/* A new one in place of the device's; NULL without memory. */
+/* Whether the recorded variant is built (RECORDED of the Makefile); fails where it is not. */
+bool lom_has_recorded(lom_device *device);
+/* A new one in place of the device's; NULL without memory or that variant. */
 struct lom_recorder *lom_renew_recorder(lom_device *device);
 /* What the device recorded, or tallied (tally.h), is no more. */
 void lom_forget_records(lom_device *device);

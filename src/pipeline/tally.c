@@ -57,7 +57,7 @@ bool lom_tally_target(lom_device *device, const lom_tally_desc *desc)
                          desc->target->kind != LOM_TEXTURE_2D || lom_describe_format(desc->target->format)->is_depth))
         return lom_fail(&device->error, LOM_ERROR_USAGE, "What is tallied is a 2D texture of colours of the device.");
     lom_forget_records(device);
-    return desc == NULL || make_tallier(device, desc);
+    return desc == NULL || (lom_has_recorded(device) && make_tallier(device, desc));
 }
 
 const lom_tally *lom_tallied(const lom_device *device, int x, int y)

@@ -21,7 +21,11 @@
                              .find_means = lom_find_means_##variant,                                                   \
                              .take_first = lom_take_first_##variant },
 
-static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, ) STAGES(, 4_recorded) };
+static const struct lom_stages stages[LOM_VARIANTS] = { LOM_EACH_VARIANT(STAGES, )
+#ifdef LOM_HAS_RECORDED
+                                                            STAGES(, 4_recorded)
+#endif
+};
 
 const struct lom_stages *lom_stages_of(int variant)
 {

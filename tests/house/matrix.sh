@@ -97,7 +97,7 @@ build() {
         case $lanes in 4 | 8 | 16) targets="$targets $folder/tests/pipeline/test_invariance.w$lanes" ;; esac
     done
     make -s -j"$jobs" CC="${LAUNCHER:-} $compiler" AR=$archiver O="$level" BUILD="$folder" VARIANTS="$widths" \
-        SAN= SDL= PIC=-g0 LDFLAGS="$flags" $targets >"$folder/log" 2>&1
+        RECORDED= SAN= SDL= PIC=-g0 LDFLAGS="$flags" $targets >"$folder/log" 2>&1
 }
 
 # Sets `processor`: seconds of processor time of all that ended until now. (Another shell would have no children.)
