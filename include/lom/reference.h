@@ -114,7 +114,12 @@ typedef struct lom_reference_volume_desc {
                                  between, the edge's outside the first and last centre */
     lom_vec3 low, high;       /* its box, metres */
     double extinction;        /* 1/m where the density is 1 */
-    double albedo[3];         /* share of what meets it that is scattered, 0..1 */
+    const lom_image
+        *detail; /* R8, a cube that repeats itself every detail_size metres from `low` on, a voxel at its low
+                                 corner and trilinear between: n of 0..1 makes of a density d what is above 0 of (d - s n) / (1 - s
+                                 n), s the detail_strength, below 1. NULL: none */
+    double detail_strength, detail_size;
+    double albedo[3]; /* share of what meets it that is scattered, 0..1 */
     lom_reference_phase phase;
     const lom_transfer_point *transfer; /* what each density looks like, as lom_make_transfer_function takes it; NULL:
                                            its extinction is itself, and it is white */
@@ -131,7 +136,7 @@ void lom_free_reference_volume(lom_reference_volume *volume); /* NULL is allowed
 
 /* Integral of the extinction from origin + from d to origin + to d, d the unit vector along direction: exact but for
  * rounding, since between two planes of voxels the density is a cubic of the distance; with a transfer function the
- * density counts as even over each quarter of such a way. 0 for a direction without length. */
+ * density counts as even over each quarter of such a way, with detail as a cubic over each. 0 for a direction without length. */
 double lom_volume_optical_depth(const lom_reference_volume *volume, lom_vec3 origin, lom_vec3 direction, double from,
                                 double to);
 

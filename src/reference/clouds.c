@@ -1,9 +1,10 @@
 /* The clouds of a scene before what lies behind them. In: the [[cloud]] tables, rays. Out: the light of each cloud by a
  * random path for each ray, and what it lets through. Clouds are followed one by one from near to far: each scatters
- * the sun, the sky and the ground, and its own light alone. The noise that models add below the size of a voxel is no
- * part of the volume. */
+ * the sun, the sky and the ground, and its own light alone. The noise that eats into them is the models' as an asset; of
+ * shapes that change it is that of the time 0. */
 #include "base/numbers.h"
 #include "cloud/cloud_draw.h"
+#include "cloud/detail_noise.h"
 #include "reference/reference.h"
 
 #include <string.h>
@@ -31,7 +32,8 @@ static lom_image *load_density(const lom_cloud *cloud, lom_error *error)
     return lom_make_cloud(&(lom_cloud_desc){ cloud->kind, size[0], size[1], size[2], (uint64_t)cloud->seed }, error);
 }
 
-static bool place_cloud(lom_reference *reference, const lom_cloud *cloud, const lom_image *density, lom_error *error)
+static bool place_cloud(lom_reference *reference, const lom_cloud *cloud, const lom_image *density,
+                        const lom_image *noise, lom_error *error)
 {
     const lom_clouds *all = &reference->scene->clouds;
     struct lom_ray_cloud *placed = &reference->clouds[reference->cloud_count];
@@ -48,6 +50,9 @@ static bool place_cloud(lom_reference *reference, const lom_cloud *cloud, const 
                                       .low = scaled(half, -1),
                                       .high = half,
                                       .extinction = cloud->extinction * cloud->density,
+                                      .detail = noise,
+                                      .detail_strength = lom_smaller(cloud->detail, 0.999),
+                                      .detail_size = cloud->detail_size,
                                       .albedo = { all->albedo, all->albedo, all->albedo },
                                       .phase = { (lom_cloud_phase)all->phase, all->forward, all->backward, all->blend },
                                       .transfer = points,
@@ -65,7 +70,8 @@ bool lom_load_ray_clouds(lom_reference *reference, lom_error *error)
         return true;
     reference->clouds = lom_allocate(scene->cloud_count, sizeof *reference->clouds, error);
     lom_image **images = lom_allocate(scene->cloud_count, sizeof(lom_image *), error);
-    bool done = reference->clouds != NULL && images != NULL;
+    lom_image *noise = lom_make_detail_noise(0, error);
+    bool done = reference->clouds != NULL && images != NULL && noise != NULL;
     for (size_t i = 0; done && i < scene->cloud_count; i++) {
         size_t owner = 0;
         while (owner < i && (images[owner] == NULL || !is_same_density(&scene->cloud[owner], &scene->cloud[i])))
@@ -74,11 +80,12 @@ bool lom_load_ray_clouds(lom_reference *reference, lom_error *error)
             continue;
         if (owner == i)
             images[i] = load_density(&scene->cloud[i], error);
-        done = images[owner] != NULL && place_cloud(reference, &scene->cloud[i], images[owner], error);
+        done = images[owner] != NULL && place_cloud(reference, &scene->cloud[i], images[owner], noise, error);
     }
     for (size_t i = 0; images != NULL && i < scene->cloud_count; i++)
         lom_free_image(images[i]);
     lom_release(images);
+    lom_free_image(noise);
     return done;
 }
 

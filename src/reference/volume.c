@@ -34,12 +34,31 @@ static bool check_volume(const lom_reference_volume_desc *d, lom_error *error)
     if (!(x > 0 && y > 0 && z > 0) || !(x + y + z < __builtin_inf()))
         return lom_fail(error, LOM_ERROR_USAGE, "A volume's box of %g x %g x %g m has no extent.", x, y, z);
     bool good = d->extinction >= 0 && d->extinction < __builtin_inf();
+    const lom_image *n = d->detail;
+    good = good && (n == NULL || (n->format == LOM_FORMAT_R8 && n->width == n->height && n->width == n->depth &&
+                                  d->detail_size > 0 && d->detail_strength >= 0 && d->detail_strength < 1));
     for (int i = 0; i < 3; i++)
         good = good && d->albedo[i] >= 0 && d->albedo[i] <= 1;
     if (!good)
-        return lom_fail(error, LOM_ERROR_USAGE,
-                        "A volume's extinction is finite and not negative, and its albedo lies in 0 to 1.");
+        return lom_fail(
+            error, LOM_ERROR_USAGE,
+            "A volume's extinction is finite and not negative, its albedo lies in 0 to 1, and its detail is an R8 "
+            "cube of some size whose strength lies in 0 to 1.");
     return lom_check_transfer_points(d->transfer, d->transfer_count, error);
+}
+
+static bool copy_detail(lom_reference_volume *v, const lom_reference_volume_desc *d, lom_error *error)
+{
+    if (d->detail == NULL || d->detail_strength == 0)
+        return true;
+    const size_t count = lom_image_size(d->detail);
+    v->detail = lom_allocate(count, sizeof *v->detail, error);
+    for (size_t i = 0; v->detail != NULL && i < count; i++)
+        v->detail[i] = read_voxel(d->detail, i);
+    v->detail_side = d->detail->width;
+    v->detail_strength = d->detail_strength;
+    v->detail_size = d->detail_size;
+    return v->detail != NULL;
 }
 
 lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_desc *d, lom_error *error)
@@ -59,8 +78,8 @@ lom_reference_volume *lom_create_reference_volume(const lom_reference_volume_des
                                      .phase = d->phase,
                                      .transfer_count = d->transfer_count,
                                      .look = d->look };
-    if (v == NULL || v->density == NULL) {
-        lom_release(v);
+    if (v == NULL || v->density == NULL || !copy_detail(v, d, error)) {
+        lom_free_reference_volume(v);
         return NULL;
     }
     double most = 0;
@@ -83,6 +102,7 @@ void lom_free_reference_volume(lom_reference_volume *volume)
     if (volume == NULL)
         return;
     lom_release(volume->density);
+    lom_release(volume->detail);
     lom_release(volume);
 }
 
@@ -114,6 +134,39 @@ static int find_voxel(double at, int size, double *weight)
     return voxel;
 }
 
+/* The noise at a place, in repetitions of it. */
+static double detail_at(const lom_reference_volume *v, const double place[3])
+{
+    const size_t side = (size_t)v->detail_side;
+    size_t voxel[3][2];
+    double w[3], sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double part = (place[i] - lom_double_floor(place[i])) * v->detail_side;
+        voxel[i][0] = (size_t)lom_count_of(part, 2 * (uint64_t)side);
+        w[i] = part - (double)voxel[i][0];
+        voxel[i][1] = (voxel[i][0] + 1) % side;
+        voxel[i][0] %= side;
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+        double weight = (x ? w[0] : 1 - w[0]) * (y ? w[1] : 1 - w[1]) * (z ? w[2] : 1 - w[2]);
+        sum += weight * (double)v->detail[(voxel[2][z] * side + voxel[1][y]) * side + voxel[0][x]];
+    }
+    return sum;
+}
+
+/* What the noise leaves of a density. */
+static double eroded_at(const lom_reference_volume *v, const double at[3], double density)
+{
+    if (v->detail == NULL || density <= 0)
+        return density;
+    double place[3];
+    for (int i = 0; i < 3; i++)
+        place[i] = (at[i] + 0.5) / v->voxels[i] / v->detail_size;
+    double eaten = v->detail_strength * detail_at(v, place);
+    return lom_smaller(lom_larger((density - eaten) / (1 - eaten), 0), 1);
+}
+
 /* Density at a place in units of voxels from the first centre. */
 static double density_at(const lom_reference_volume *v, const double at[3])
 {
@@ -130,7 +183,7 @@ static double density_at(const lom_reference_volume *v, const double at[3])
         row[i] = a + (b - a) * w[0];
     }
     double front = row[0] + (row[1] - row[0]) * w[1], behind = row[2] + (row[3] - row[2]) * w[1];
-    return front + (behind - front) * w[2];
+    return eroded_at(v, at, front + (behind - front) * w[2]);
 }
 
 static void to_voxels(const lom_reference_volume *v, lom_vec3 p, double at[3])
@@ -224,16 +277,18 @@ static double advance(struct walk *w, double to)
 }
 
 /* Optical depth between two planes, in parts of the volume's extinction: a cubic, of which Simpson's rule is exact; or by
- * a transfer function over a straight line for each quarter of it. */
+ * a transfer function over a straight line for each quarter of it; with detail Simpson's rule in each. */
 static double part_of_depth(const struct walk *w, double from, double to, double first, double last)
 {
     enum { PIECES = 4 };
-    if (w->volume->transfer_count == 0)
+    const bool plain = w->volume->transfer_count == 0, whole = plain && w->volume->detail == NULL;
+    if (whole)
         return (to - from) * ((first + last) + 4 * density_on(w, from + (to - from) / 2)) / 6;
     double sum = 0;
     for (int i = 1; i <= PIECES; i++) {
         double next = i < PIECES ? density_on(w, from + (to - from) * i / PIECES) : last;
-        sum += lom_mean_extinction(w->volume, first, next);
+        sum += plain ? (first + next + 4 * density_on(w, from + (to - from) * (i - 0.5) / PIECES)) / 6
+                     : lom_mean_extinction(w->volume, first, next);
         first = next;
     }
     return sum * (to - from) / PIECES;

@@ -9,6 +9,9 @@
 struct lom_reference_volume {
     int size[3];
     float *density; /* x, then y, then z */
+    float *detail;  /* likewise, detail_side voxels a side; NULL: none */
+    int detail_side;
+    double detail_strength, detail_size;
     double low[3], high[3];
     double voxels[3];  /* a metre along each axis */
     double extinction; /* 1/m where the density is 1 */

@@ -73,6 +73,46 @@ static void a_cubic_is_integrated_exactly(void)
     lom_free_reference_volume(v);
 }
 
+static double half(double x, double y, double z)
+{
+    return 0.5 + 0 * (x + y + z);
+}
+
+/* Even noise n leaves (d - s n) / (1 - s n) of a density d everywhere; noise of which every second voxel along x is 0,
+ * linear in between, eats 4 times as far where it is 1: on the way along x through whole repetitions the mean of
+ * (1/2 - n/4) / (1 - n/4) over n in 0..1, which is 1 + 2 ln(3/4). */
+static void detail_leaves_what_its_formula_says(void)
+{
+    lom_image *detail = lom_create_image(2, 2, 2, LOM_FORMAT_R8, NULL);
+    struct volume_of of = { .size = { 3, 3, 3 },
+                            .high = { 8, 3, 2 },
+                            .extinction = 0.7,
+                            .at = half,
+                            .detail = detail,
+                            .detail_strength = 0.25,
+                            .detail_size = 2 };
+    for (int n = 0; n <= 255; n += 51) {
+        memset(detail->pixels, n, 8);
+        lom_reference_volume *v = make_volume(&of);
+        double eaten = 0.25 * n / 255, want = 0.7 * 8 * (0.5 - eaten) / (1 - eaten);
+        double found = depth_along(v, (lom_vec3){ -5, 1, 1 }, (lom_vec3){ 1, 0, 0 });
+        CHECK(near(found, want, 1e-7) && near(lom_volume_extinction(v, (lom_vec3){ 3, 1, 1 }), want / 8, 1e-7),
+              "%d: %.17g, not %.17g", n, found, want);
+        lom_free_reference_volume(v);
+    }
+    for (int i = 0; i < 8; i++)
+        detail->pixels[i] = i % 2 == 1 ? 255 : 0;
+    of.size[0] = 64; /* so that a part of the way lies within a slope of the noise */
+    lom_reference_volume *v = make_volume(&of);
+    double found = depth_along(v, (lom_vec3){ -5, 1, 1 }, (lom_vec3){ 1, 0, 0 });
+    double want = 0.7 * 8 * (1 + 2 * lom_double_log(0.75));
+    CHECK(near(found, want, 1e-5), "%.17g, not %.17g", found, want);
+    lom_free_reference_volume(v);
+    of.detail_strength = 1;
+    CHECK(make_volume(&of) == NULL, "noise that leaves nothing");
+    lom_free_image(detail);
+}
+
 static double noise(double x, double y, double z)
 {
     return lom_random_uniform(9, (uint64_t)(x * 64) + 1000 * (uint64_t)(y * 64) + 1000000 * (uint64_t)(z * 64));
@@ -240,6 +280,7 @@ int main(int argc, char **argv)
 {
     RUN(a_uniform_slab_is_as_deep_as_its_chord);
     RUN(a_cubic_is_integrated_exactly);
+    RUN(detail_leaves_what_its_formula_says);
     RUN(noise_is_integrated_like_by_small_steps);
     RUN(v14_v15_parts_and_order_change_nothing);
     RUN(v2_v3_thin_and_thick);

@@ -9,6 +9,8 @@ struct volume_of {
     lom_vec3 low, high;
     double extinction, albedo;
     lom_reference_phase phase;
+    const lom_image *detail;
+    double detail_strength, detail_size;
     double (*at)(double x, double y, double z); /* the density at a centre, 0..1 over the box; NULL: 1 */
 };
 
@@ -28,6 +30,9 @@ static inline lom_reference_volume *make_volume(const struct volume_of *v)
                                                                   .low = v->low,
                                                                   .high = v->high,
                                                                   .extinction = v->extinction,
+                                                                  .detail = v->detail,
+                                                                  .detail_strength = v->detail_strength,
+                                                                  .detail_size = v->detail_size,
                                                                   .albedo = { v->albedo, v->albedo, v->albedo },
                                                                   .phase = v->phase },
                                     NULL);
