@@ -4,24 +4,20 @@
 #include "commands.h"
 #include "page.h"
 #include "paths.h"
-#include "progress.h"
-#include "scene_options.h"
-#include "trade_reference.h"
+#include "trade_options.h"
 
 #include "measure/sweep.h"
 
 #include <string.h>
 
 struct values {
-    struct lom_scene_options scene;
-    struct lom_trade_options common;
-    const char *output;
+    struct lom_trade_values common; /* first: its rows are at the same places */
     lom_option_integers combine;
-    bool cpu, quiet;
+    bool cpu;
 };
 
 static const lom_option options[] = {
-    { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "DIR", 0, 0,
+    { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, common.output), "DIR", 0, 0,
       "the folder for what is found; made when it is not there" },
     { "pairs", 0, LOM_OPTION_INTEGER, offsetof(struct values, common.pairs), "N", 1, LOM_MAX_PAIRS,
       "frames of each setting, in turn with the default, 9 when not given" },
@@ -29,9 +25,9 @@ static const lom_option options[] = {
       "milliseconds of processor time, of all threads, instead of the clock's" },
     { "combine", 0, LOM_OPTION_INTEGER, offsetof(struct values, combine), "N", 0, 4,
       "combine the best N dials, 3 when not given" },
-    LOM_TRADE_OPTIONS(struct values),
-    { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, quiet), NULL, 0, 0, "no progress bar, no table" },
-    LOM_SCENE_OPTIONS(struct values),
+    LOM_TRADE_OPTIONS,
+    { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, common.quiet), NULL, 0, 0, "no progress bar, no table" },
+    LOM_SCENE_OPTIONS(struct lom_trade_values),
 };
 
 static const lom_command_line line = {
@@ -51,9 +47,7 @@ static const lom_command_line line = {
 /* What the command line asks for, resolved. */
 struct trade {
     const struct values *values;
-    const char *scene;
-    struct lom_chosen_dials dials;
-    struct lom_trade_reference reference;
+    struct lom_trade common;
     lom_sweep_desc sweep;
 };
 
@@ -129,31 +123,25 @@ static bool write_results(const char *folder, const struct found *found, lom_err
 
 /* ---- running ---- */
 
-static bool move_bar(void *context, double done, const char *doing)
-{
-    lom_show_progress(context, 100 * done, doing);
-    return true;
-}
-
 /* The command that repeats it; paths as they were given. */
 static void print_command(char text[600], const struct trade *t, const lom_sweep_desc *desc)
 {
     const struct values *v = t->values;
     size_t length = (size_t)snprintf(text, 600, "lom trade %s -o DIR --size %dx%d --frame %d --pairs %d --combine %d",
-                                     t->scene, desc->subject.frame.width, desc->subject.frame.height,
+                                     t->common.path, desc->subject.frame.width, desc->subject.frame.height,
                                      desc->subject.frame.frame, desc->pairs, desc->combined);
     if (v->common.reference != NULL && length < 600)
         length += (size_t)snprintf(text + length, 600 - length, " --reference %s", v->common.reference);
-    if (t->reference.samples > 0 && length < 600)
-        length += (size_t)snprintf(text + length, 600 - length, " --samples %d", t->reference.samples);
+    if (t->common.reference.samples > 0 && length < 600)
+        length += (size_t)snprintf(text + length, 600 - length, " --samples %d", t->common.reference.samples);
     if (v->common.dials != NULL && length < 600)
         length += (size_t)snprintf(text + length, 600 - length, " --dials %s", v->common.dials);
     if (v->cpu && length < 600)
         length += (size_t)snprintf(text + length, 600 - length, " --cpu");
-    if (v->scene.threads.given && length < 600)
-        length += (size_t)snprintf(text + length, 600 - length, " --threads %d", (int)v->scene.threads.value[0]);
-    for (int i = 0; i < v->scene.set.count && length < 600; i++)
-        length += (size_t)snprintf(text + length, 600 - length, " --set '%s'", v->scene.set.items[i]);
+    if (v->common.scene.threads.given && length < 600)
+        length += (size_t)snprintf(text + length, 600 - length, " --threads %d", (int)v->common.scene.threads.value[0]);
+    for (int i = 0; i < v->common.scene.set.count && length < 600; i++)
+        length += (size_t)snprintf(text + length, 600 - length, " --set '%s'", v->common.scene.set.items[i]);
 }
 
 static bool report(const struct trade *t, const lom_sweep *sweep, bool *equal, lom_error *error)
@@ -164,7 +152,7 @@ static bool report(const struct trade *t, const lom_sweep *sweep, bool *equal, l
     const lom_device_desc used = lom_describe_device(device);
     lom_close_device(device);
     print_command(command, t, &t->sweep);
-    const lom_sweep_head head = { .scene = lom_path_file(t->scene),
+    const lom_sweep_head head = { .scene = lom_path_file(t->common.path),
                                   .command = command,
                                   .width = t->sweep.subject.frame.width,
                                   .height = t->sweep.subject.frame.height,
@@ -173,9 +161,9 @@ static bool report(const struct trade *t, const lom_sweep *sweep, bool *equal, l
                                   .threads = used.threads,
                                   .lanes = used.lanes };
     const struct found found = { sweep, &head };
-    if (!write_results(t->values->output, &found, error))
+    if (!write_results(t->values->common.output, &found, error))
         return false;
-    if (!t->values->quiet)
+    if (!t->values->common.quiet)
         lom_print_sweep_table(stdout, sweep, &head);
     const size_t unequal = lom_count_unequal(sweep, &first);
     *equal = unequal == 0;
@@ -189,16 +177,14 @@ static bool report(const struct trade *t, const lom_sweep *sweep, bool *equal, l
 static bool run(struct trade *t, bool *equal, lom_error *error)
 {
     lom_sweep sweep = { .count = 0 };
-    struct lom_progress bar = lom_begin_progress("lom trade", 100, t->values->quiet);
-    t->sweep.progress = move_bar;
-    t->sweep.context = &bar;
-    move_bar(&bar, 0, "reference");
-    bool done = lom_find_trade_reference(&t->reference, error);
+    t->sweep.progress = lom_show_trade;
+    t->sweep.context = &t->common;
+    bool done = lom_begin_trade(&t->common, "lom trade", &t->values->common, error);
     if (done) {
-        t->sweep.reference = t->reference.picture;
+        t->sweep.reference = t->common.reference.picture;
         done = lom_run_sweep(&t->sweep, &sweep, error);
     }
-    lom_end_progress(&bar);
+    lom_end_progress(&t->common.bar);
     done = done && report(t, &sweep, equal, error);
     lom_free_sweep(&sweep);
     return done;
@@ -207,14 +193,13 @@ static bool run(struct trade *t, bool *equal, lom_error *error)
 static bool prepare(struct trade *t, lom_error *error)
 {
     const struct values *v = t->values;
-    const lom_subject subject = { .path = t->scene, .of_processors = v->cpu };
-    if (!lom_prepare_trade(&t->reference, &t->dials, &v->common, &v->scene, subject, v->output, error))
+    if (!lom_prepare_trade(&t->common, &v->common, v->cpu, v->common.output, error))
         return false;
-    t->sweep = (lom_sweep_desc){ .subject = t->reference.subject,
-                                 .whole = t->reference.whole,
-                                 .reference_name = t->reference.name,
-                                 .dials = t->dials.chosen,
-                                 .dial_count = t->dials.count,
+    t->sweep = (lom_sweep_desc){ .subject = t->common.reference.subject,
+                                 .whole = t->common.reference.whole,
+                                 .reference_name = t->common.reference.name,
+                                 .dials = t->common.chosen,
+                                 .dial_count = t->common.count,
                                  .pairs = (int)lom_given_or(&v->common.pairs, 9),
                                  .combined = (int)lom_given_or(&v->combine, 3) };
     return true;
@@ -222,20 +207,15 @@ static bool prepare(struct trade *t, lom_error *error)
 
 int lom_command_trade(int argc, char **argv)
 {
-    struct values values = { .output = NULL };
-    lom_arguments arguments;
+    struct values values = { .cpu = false };
+    struct trade trade = { .values = &values };
     lom_error error = { .code = LOM_OK };
     int status;
     bool equal = true;
-    if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
+    if (!lom_read_trade(&trade.common, &line, "the folder for what it finds: -o DIR.", argc, argv, &values, &status))
         return status;
-    if (values.output == NULL || values.output[0] == '\0')
-        return lom_complain("trade takes the folder for what it finds: -o DIR.");
-    if (strcmp(arguments.items[0], "-") == 0)
-        return lom_complain("trade reads the scene again for each setting, and no standard input.");
-    struct trade trade = { .values = &values, .scene = arguments.items[0] };
     bool done = prepare(&trade, &error) && run(&trade, &equal, &error);
-    lom_end_trade_reference(&trade.reference);
+    lom_end_trade_reference(&trade.common.reference);
     if (!done)
         return lom_complain_error(&error);
     return equal ? LOM_EXIT_DONE : LOM_EXIT_DIFFERS;

@@ -210,18 +210,6 @@ bool lom_prepare_trade_reference(struct lom_trade_reference *r, const char *kind
     return r->picture != NULL;
 }
 
-bool lom_prepare_trade(struct lom_trade_reference *reference, struct lom_chosen_dials *dials,
-                       const struct lom_trade_options *options, const struct lom_scene_options *scene,
-                       lom_subject subject, const char *folder, lom_error *error)
-{
-    subject.frame = lom_small_frame_of_options(scene, (int)lom_given_or(&options->frame, 0));
-    subject.device = lom_device_of_options(scene);
-    lom_list_dials(&dials->all);
-    return lom_choose_dials(&dials->all, options->dials, dials->chosen, &dials->count, error) &&
-           lom_prepare_trade_reference(reference, options->reference, folder, scene, &subject,
-                                       (int)lom_given_or(&options->samples, 64), error);
-}
-
 bool lom_find_trade_reference(struct lom_trade_reference *r, lom_error *error)
 {
     const lom_choices none = { .count = 0 };

@@ -21,54 +21,6 @@ struct lom_trade_reference {
     const char **changes[3];
 };
 
-/* What both commands take beside a scene's options. */
-struct lom_trade_options {
-    const char *dials, *reference;
-    lom_option_integers frame, samples, pairs;
-};
-
-/* Rows for an option table whose values struct has a `struct lom_trade_options common`. */
-#define LOM_TRADE_OPTIONS(values)                                                                                      \
-    { "dials",                                                                                                         \
-      0,                                                                                                               \
-      LOM_OPTION_TEXT,                                                                                                 \
-      offsetof(values, common.dials),                                                                                  \
-      "A,B",                                                                                                           \
-      0,                                                                                                               \
-      0,                                                                                                               \
-      "these alone, as docs/dials.md names them; all that act when not given" },                                       \
-        { "reference",                                                                                                 \
-          0,                                                                                                           \
-          LOM_OPTION_TEXT,                                                                                             \
-          offsetof(values, common.reference),                                                                          \
-          "KIND",                                                                                                      \
-          0,                                                                                                           \
-          0,                                                                                                           \
-          "traced (when not given), rendered: every dial at its most exact, or a picture's file" },                    \
-        { "samples",                                                                                                   \
-          0,                                                                                                           \
-          LOM_OPTION_INTEGER,                                                                                          \
-          offsetof(values, common.samples),                                                                            \
-          "N",                                                                                                         \
-          1,                                                                                                           \
-          65536,                                                                                                       \
-          "rays a pixel of the traced reference, 64 when not given" },                                                 \
-    {                                                                                                                  \
-        "frame", 0, LOM_OPTION_INTEGER, offsetof(values, common.frame), "N", 0, 1e9, "the frame, 0 when not given"     \
-    }
-
-struct lom_chosen_dials {
-    lom_dials all;
-    const lom_dial *chosen[LOM_MAX_DIALS];
-    size_t count;
-};
-
-/* The dials that the options name, and the reference of the subject, whose frame and device they say: what
- * lom_prepare_trade_reference does. */
-bool lom_prepare_trade(struct lom_trade_reference *reference, struct lom_chosen_dials *dials,
-                       const struct lom_trade_options *options, const struct lom_scene_options *scene,
-                       lom_subject subject, const char *folder, lom_error *error);
-
 /* Finds out what the reference is, and checks the scene. kind: "traced", "rendered", a file, NULL: traced. folder:
  * for the cache; NULL: none. False with a sentence, and nothing is written. Ended by lom_end_trade_reference in any
  * case. */

@@ -3,24 +3,20 @@
 #include "commands.h"
 #include "page.h"
 #include "paths.h"
-#include "progress.h"
-#include "scene_options.h"
-#include "trade_reference.h"
+#include "trade_options.h"
 
 #include "measure/tuner.h"
 
 #include <string.h>
 
 struct values {
-    struct lom_scene_options scene;
-    struct lom_trade_options common;
-    const char *output;
+    struct lom_trade_values common; /* first: its rows are at the same places */
     lom_option_number max_flip, min_psnr, budget;
-    bool clock, quiet;
+    bool clock;
 };
 
 static const lom_option options[] = {
-    { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, output), "OVERLAY.toml", 0, 0,
+    { "output", 'o', LOM_OPTION_TEXT, offsetof(struct values, common.output), "OVERLAY.toml", 0, 0,
       "where the settings are written; - is stdout" },
     { "max-flip", 0, LOM_OPTION_NUMBER, offsetof(struct values, max_flip), "F", 0, 1,
       "the cheapest settings whose mean FLIP is at most F" },
@@ -32,9 +28,9 @@ static const lom_option options[] = {
       "cost is time by the clock, not declared work: another answer each time" },
     { "pairs", 0, LOM_OPTION_INTEGER, offsetof(struct values, common.pairs), "N", 1, LOM_MAX_PAIRS,
       "with --clock: frames of each way, in turn with the default, 9 when not given" },
-    LOM_TRADE_OPTIONS(struct values),
-    { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, quiet), NULL, 0, 0, "no progress bar, no report" },
-    LOM_SCENE_OPTIONS(struct values),
+    LOM_TRADE_OPTIONS,
+    { "quiet", 'q', LOM_OPTION_FLAG, offsetof(struct values, common.quiet), NULL, 0, 0, "no progress bar, no report" },
+    LOM_SCENE_OPTIONS(struct lom_trade_values),
 };
 
 static const lom_command_line line = {
@@ -52,9 +48,7 @@ static const lom_command_line line = {
 
 struct tune {
     const struct values *values;
-    const char *scene;
-    struct lom_chosen_dials dials;
-    struct lom_trade_reference reference;
+    struct lom_trade common;
     lom_tuner_desc desc;
 };
 
@@ -91,9 +85,9 @@ static void print_setting(FILE *out, const lom_choice *choice)
 static void print_overlay(FILE *out, const struct tune *t, const lom_tuning *tuning)
 {
     fprintf(out, "# settings for %s, made by `lom tune`%s; lom render SCENE --settings FILE takes them\n",
-            lom_path_file(t->scene), t->values->clock ? " by the clock" : "");
+            lom_path_file(t->common.path), t->values->clock ? " by the clock" : "");
     fprintf(out, "# %dx%d, frame %d, against %s\n", t->desc.subject.frame.width, t->desc.subject.frame.height,
-            t->desc.subject.frame.frame, t->reference.name);
+            t->desc.subject.frame.frame, t->common.reference.name);
     print_way(out, "# these:     ", &tuning->best, t->values);
     print_way(out, "# the scene: ", &tuning->standard, t->values);
     for (int i = 0; i < tuning->best.choices.count; i++)
@@ -107,8 +101,8 @@ static bool write_overlay(const struct tune *t, const lom_tuning *tuning, lom_er
     if (page.out != NULL)
         print_overlay(page.out, t, tuning);
     lom_bytes text = lom_end_page(&page, error);
-    const bool done = text.data != NULL && lom_write_file(t->values->output, text.data, text.size, error);
-    if (done && !t->values->quiet && strcmp(t->values->output, "-") != 0)
+    const bool done = text.data != NULL && lom_write_file(t->values->common.output, text.data, text.size, error);
+    if (done && !t->values->common.quiet && strcmp(t->values->common.output, "-") != 0)
         fwrite(text.data, 1, text.size, stdout);
     lom_release(text.data);
     return done;
@@ -116,34 +110,25 @@ static bool write_overlay(const struct tune *t, const lom_tuning *tuning, lom_er
 
 /* ---- running ---- */
 
-static bool move_bar(void *context, double done, const char *doing)
-{
-    lom_show_progress(context, 100 * done, doing);
-    return true;
-}
-
 static bool run(struct tune *t, lom_tuning *tuning, lom_error *error)
 {
-    struct lom_progress bar = lom_begin_progress("lom tune", 100, t->values->quiet);
-    t->desc.progress = move_bar;
-    t->desc.context = &bar;
-    move_bar(&bar, 0, "reference");
-    bool done = lom_find_trade_reference(&t->reference, error);
-    t->desc.reference = t->reference.picture;
+    t->desc.progress = lom_show_trade;
+    t->desc.context = &t->common;
+    bool done = lom_begin_trade(&t->common, "lom tune", &t->values->common, error);
+    t->desc.reference = t->common.reference.picture;
     done = done && lom_tune(&t->desc, tuning, error);
-    lom_end_progress(&bar);
+    lom_end_progress(&t->common.bar);
     return done && (!tuning->met || write_overlay(t, tuning, error));
 }
 
 static bool prepare(struct tune *t, lom_error *error)
 {
     const struct values *v = t->values;
-    const lom_subject subject = { .path = t->scene };
-    if (!lom_prepare_trade(&t->reference, &t->dials, &v->common, &v->scene, subject, NULL, error))
+    if (!lom_prepare_trade(&t->common, &v->common, false, NULL, error))
         return false;
-    t->desc.subject = t->reference.subject;
-    t->desc.dials = t->dials.chosen;
-    t->desc.dial_count = t->dials.count;
+    t->desc.subject = t->common.reference.subject;
+    t->desc.dials = t->common.chosen;
+    t->desc.dial_count = t->common.count;
     t->desc.by_clock = v->clock;
     t->desc.pairs = (int)lom_given_or(&v->common.pairs, 9);
     return true;
@@ -151,22 +136,18 @@ static bool prepare(struct tune *t, lom_error *error)
 
 int lom_command_tune(int argc, char **argv)
 {
-    struct values values = { .output = NULL };
-    lom_arguments arguments;
+    struct values values = { .clock = false };
+    struct tune tune = { .values = &values };
     lom_error error = { .code = LOM_OK };
     lom_tuning tuning;
     int status;
-    if (!lom_parse_options(&line, argc, argv, &values, &arguments, &status))
+    if (!lom_read_trade(&tune.common, &line, "the file for its settings: -o OVERLAY.toml.", argc, argv, &values,
+                        &status))
         return status;
-    struct tune tune = { .values = &values, .scene = arguments.items[0] };
-    if (values.output == NULL)
-        return lom_complain("tune takes the file for its settings: -o OVERLAY.toml.");
-    if (strcmp(arguments.items[0], "-") == 0)
-        return lom_complain("tune reads the scene again for each setting, and no standard input.");
     if (!find_goal(&values, &tune.desc))
         return lom_complain("tune takes one limit: --max-flip F, --min-psnr DB or --budget WORK.");
     const bool done = prepare(&tune, &error) && run(&tune, &tuning, &error);
-    lom_end_trade_reference(&tune.reference);
+    lom_end_trade_reference(&tune.common.reference);
     if (!done)
         return lom_complain_error(&error);
     if (tuning.met)

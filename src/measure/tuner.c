@@ -2,12 +2,11 @@
  * first stays; what is compared are whole numbers and errors that no machine computes differently, but for times. */
 #include "measure/tuner.h"
 
+#include "measure/work.h"
+
 #include <string.h>
 
 enum { MOST_ROUNDS = 4 };
-
-/* What draws where work is counted: vertices are counted in whole packets, of as many as there are lanes. */
-static const lom_device_desc counted = { .threads = 1, .lanes = 4, .tile = 64 };
 
 struct tuner {
     const lom_tuner_desc *desc;
@@ -53,8 +52,9 @@ static bool is_better(const lom_tuner_desc *desc, const lom_tuned *way, const lo
 
 static bool find_cost(struct tuner *tuner, lom_tuned *way, lom_error *error)
 {
-    lom_dial_work work;
+    lom_declared_work work;
     lom_pair_time time;
+    lom_frame_desc after = tuner->desc->subject.frame; /* the frame after the one whose error is measured */
     if (tuner->desc->by_clock) {
         if (!lom_time_pairs(&tuner->drawer, &tuner->standard, &tuner->desc->subject, tuner->desc->pairs, &time, error))
             return false;
@@ -63,9 +63,10 @@ static bool find_cost(struct tuner *tuner, lom_tuned *way, lom_error *error)
         way->cost = time.ratio * tuner->tuning->standard.cost;
         return true;
     }
-    if (!lom_measure_dial_work(&tuner->drawer, &tuner->desc->subject, &work, error))
+    after.frame++;
+    if (!lom_count_work(tuner->drawer.renderer, tuner->drawer.scene, &after, &work, error))
         return false;
-    way->cost = (double)work.work;
+    way->cost = (double)lom_weigh_work(&work);
     return true;
 }
 
@@ -198,7 +199,7 @@ bool lom_tune(const lom_tuner_desc *desc, lom_tuning *tuning, lom_error *error)
 {
     lom_tuner_desc own = *desc;
     if (!own.by_clock)
-        own.subject.device = counted;
+        own.subject.device = lom_counting_device();
     struct tuner tuner = { .desc = &own, .tuning = tuning };
     bool drawn = false;
     *tuning = (lom_tuning){ .met = false };

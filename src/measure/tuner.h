@@ -2,7 +2,7 @@
 #ifndef LOM_MEASURE_TUNER_H
 #define LOM_MEASURE_TUNER_H
 
-#include "measure/dial_work.h"
+#include "measure/trial.h"
 
 typedef enum lom_goal {
     LOM_GOAL_FLIP,  /* the cheapest whose mean FLIP is at most `limit` */

@@ -6,11 +6,11 @@ cd "$(dirname "$0")/../.." || exit 1
 . tests/cli/scene.sh
 
 work_of() {
-    "$lom" cost "$@" --json | grep -o '"cycles": [0-9.e+]*'
+    "$lom" cost "$@" --json | grep -o '"work": [0-9.e+]*'
 }
 
 same_work() {
-    work_of "$scene" --frames 0:9 --threads 1 --lanes 4 >"$folder/one" && work_of "$scene" --frames 0:9 --threads 3 --lanes 8 >"$folder/two" &&
+    work_of "$scene" --frames 0:9 --threads 1 --lanes 4 >"$folder/one" && work_of "$scene" --frames 0:9 --threads 3 --lanes 16 >"$folder/two" &&
         cmp "$folder/one" "$folder/two" && [ "$(wc -l <"$folder/one")" -eq 5 ] &&
         work_of "$scene" --size 96x64 --frames 0:9 >"$folder/more" && ! cmp -s "$folder/one" "$folder/more" &&
         ! "$lom" cost "$scene" --frames 0:9 | grep -i nan
@@ -24,15 +24,15 @@ four, one, steps = (json.load(open(sys.argv[1] + "/" + name)) for name in ("four
 assert [d["frame"] for d in four["drawn"]] == [3, 8, 14, 20] and four["frames"] == 18
 assert [d["frame"] for d in one["drawn"]] == [7] and one["frames"] == 1
 assert abs(one["seconds"] - one["drawn"][0]["seconds"]) < 1e-9
-at = {d["frame"]: d["cycles"] for d in four["drawn"]}
+at = {d["frame"]: d["work"] for d in four["drawn"]}
 total = 0
 for frame in range(3, 21):
     low, high = max(f for f in at if f <= frame), min(f for f in at if f >= frame)
     total += at[low] if low == high else at[low] + (at[high] - at[low]) * (frame - low) / (high - low)
-assert abs(total / four["cycles_per_second"] / four["seconds"] - 1) < 1e-9
+assert abs(total / four["work_per_second"] / four["seconds"] - 1) < 1e-9
 assert abs(four["frames_per_core_hour"] * four["seconds"] / 3600 / 18 - 1) < 1e-9
-cycles = [d["cycles"] for d in steps["drawn"]]
-assert max(cycles) < 3 * min(cycles), cycles # a frame's own steps, not those of the frames between
+work = [d["work"] for d in steps["drawn"]]
+assert max(work) < 3 * min(work), work # a frame's own steps, not those of the frames between
 CODE
 }
 

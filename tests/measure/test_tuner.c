@@ -3,41 +3,74 @@
  * with what is drawn. */
 #include "check.h"
 #include "measure/tuner.h"
+#include "measure/work.h"
 
 #include <string.h>
 
 static const char *const changes[] = { "output.format=rgb8" };
 
-static lom_subject small_subject(lom_device_desc device)
+static lom_subject small_subject(const char *path, lom_device_desc device)
 {
-    return (lom_subject){ .path = "assets/scenes/lake.toml",
-                          .changes = changes,
-                          .change_count = 1,
-                          .frame = { .width = 32, .height = 18 },
-                          .device = device };
+    return (lom_subject){
+        .path = path, .changes = changes, .change_count = 1, .frame = { .width = 32, .height = 18 }, .device = device
+    };
 }
 
-static lom_dial_work work_of(const lom_choices *choices, lom_device_desc device)
+static lom_declared_work work_in(const char *path, const lom_choices *choices)
 {
-    const lom_subject subject = small_subject(device);
+    const lom_subject subject = small_subject(path, lom_counting_device());
     lom_drawer drawer = { .scene = NULL };
-    lom_dial_work work = { .work = 0 };
+    lom_declared_work work = { .count = { 0 } };
+    lom_frame_desc after = subject.frame;
     lom_error error = { 0 };
-    CHECK(lom_set_drawer(&drawer, &subject, choices, &error) && lom_measure_dial_work(&drawer, &subject, &work, &error),
+    after.frame = 2;
+    CHECK(lom_set_drawer(&drawer, &subject, choices, &error) &&
+              lom_count_work(drawer.renderer, drawer.scene, &after, &work, &error),
           "%s", error.text);
     lom_end_drawer(&drawer);
     return work;
 }
 
-static void work_is_the_sum_of_its_weights(void)
+static uint64_t work_of(const lom_choices *choices)
+{
+    const lom_declared_work work = work_in("assets/scenes/lake.toml", choices);
+    return lom_weigh_work(&work);
+}
+
+/* Every kind is counted where there is something of it, and nowhere else. */
+static void every_kind_is_counted(void)
+{
+    static const char *const scenes[] = { "assets/scenes/lake.toml", "assets/scenes/cumulus.toml",
+                                          "assets/scenes/wake.toml", "assets/scenes/features/splash.toml" };
+    static const struct {
+        const char *name;
+        uint32_t scenes; /* bits */
+    } expected[LOM_WORK_KINDS] = {
+        [LOM_WORK_PIXELS] = { "pixels", 15 },    [LOM_WORK_VERTICES] = { "vertices", 15 },
+        [LOM_WORK_TRIANGLES] = { "triang", 15 }, [LOM_WORK_FRAGMENTS] = { "fragments", 15 },
+        [LOM_WORK_LOOKUPS] = { "texture", 15 },  [LOM_WORK_STEPS] = { "steps", 2 },
+        [LOM_WORK_SAMPLES] = { "samples", 8 },   [LOM_WORK_TRANSFORMED] = { "N^2", 0 },
+        [LOM_WORK_SHALLOW] = { "cells", 4 },     [LOM_WORK_PARTICLES] = { "particles", 8 },
+    };
+    const lom_choices none = { .count = 0 };
+    for (int s = 0; s < 4; s++) {
+        const lom_declared_work one = work_in(scenes[s], &none);
+        uint64_t weight, sum = 0;
+        for (size_t i = 0; i < LOM_WORK_KINDS; i++) {
+            const char *name = lom_describe_work(i, &weight);
+            CHECK(strncmp(name, expected[i].name, strlen(expected[i].name)) == 0 && weight > 0);
+            CHECK((one.count[i] > 0) == (expected[i].scenes >> s & 1), "%s: %s", scenes[s], name);
+            sum += weight * one.count[i];
+        }
+        CHECK(lom_weigh_work(&one) == sum / 10 && sum > 0);
+    }
+    CHECK(lom_describe_work(LOM_WORK_KINDS, &(uint64_t){ 0 }) == NULL);
+}
+
+static void work_is_the_same_again(void)
 {
     const lom_choices none = { .count = 0 };
-    const lom_device_desc device = { .threads = 1, .lanes = 4 };
-    const lom_dial_work one = work_of(&none, device), again = work_of(&none, device);
-    uint64_t weight, sum = 0;
-    for (size_t i = 0; lom_dial_work_kind(i, &weight) != NULL; i++)
-        sum += weight * lom_dial_work_count(&one, i);
-    CHECK(one.work > 0 && sum / 10 == one.work && one.work == again.work);
+    CHECK(work_of(&none) == work_of(&none));
 }
 
 static void finer_is_more_work(void)
@@ -47,10 +80,9 @@ static void finer_is_more_work(void)
     lom_list_dials(&dials);
     const lom_dial *samples = lom_find_dial(&dials, "output.samples", &error);
     const lom_dial *terrain = lom_find_dial(&dials, "terrain_error", &error);
-    const lom_device_desc device = { .threads = 1, .lanes = 4 };
     const lom_choices none = { .count = 0 }, smooth = { 1, { { samples, "4" } } }, fine = { 1, { { terrain, "0" } } };
-    CHECK(work_of(&smooth, device).work > work_of(&none, device).work);
-    CHECK(work_of(&fine, device).work > work_of(&none, device).work);
+    CHECK(work_of(&smooth) > work_of(&none));
+    CHECK(work_of(&fine) > work_of(&none));
 }
 
 struct found {
@@ -66,7 +98,9 @@ static bool tune(struct found *f, lom_goal goal, double limit, lom_device_desc d
 {
     lom_error error = { 0 };
     lom_drawer drawer = { .scene = NULL };
-    *f = (struct found){ .desc = { .subject = small_subject(device), .goal = goal, .limit = limit } };
+    *f = (struct found){
+        .desc = { .subject = small_subject("assets/scenes/lake.toml", device), .goal = goal, .limit = limit }
+    };
     lom_list_dials(&f->dials);
     CHECK(lom_choose_dials(&f->dials, "shading,texture_filter,terrain_error,scissor", f->chosen, &f->desc.dial_count,
                            &error));
@@ -82,7 +116,8 @@ static bool tune(struct found *f, lom_goal goal, double limit, lom_device_desc d
 
 static void what_is_found_keeps_the_limit(void)
 {
-    static const lom_device_desc devices[] = { { .threads = 1, .lanes = 4 }, { .threads = 2, .lanes = 8, .tile = 16 } };
+    static const lom_device_desc devices[] = { { .threads = 1, .lanes = 4 },
+                                               { .threads = 2, .lanes = 16, .tile = 16 } };
     struct found f[2];
     for (int i = 0; i < 2; i++)
         if (!tune(&f[i], LOM_GOAL_FLIP, 0.01, devices[i]))
@@ -103,7 +138,7 @@ static void a_budget_is_kept(void)
     const lom_device_desc device = { .threads = 1, .lanes = 4 };
     struct found f;
     const lom_choices none = { .count = 0 };
-    const double whole = (double)work_of(&none, device).work;
+    const double whole = (double)work_of(&none);
     if (tune(&f, LOM_GOAL_BUDGET, whole, device))
         CHECK(f.tuning.met && f.tuning.best.cost <= whole && f.tuning.best.error.flip <= f.tuning.standard.error.flip);
     lom_free_image(f.reference);
@@ -117,7 +152,8 @@ static void a_budget_is_kept(void)
 
 int main(int argc, char **argv)
 {
-    RUN(work_is_the_sum_of_its_weights);
+    RUN(every_kind_is_counted);
+    RUN(work_is_the_same_again);
     RUN(finer_is_more_work);
     RUN(what_is_found_keeps_the_limit);
     RUN(a_budget_is_kept);
