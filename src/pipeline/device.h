@@ -5,6 +5,17 @@
 #include "pipeline/clusters.h"
 #include "pipeline/stages.h"
 
+/* A descriptor, to know it again, and the draw that was made of it; copied uniforms likewise. */
+enum { KNOWN_DRAWS = 4 };
+struct lom_known_draw {
+    lom_draw_desc desc;
+    uint32_t draw;
+};
+struct lom_known_uniforms {
+    uint32_t place; /* lom_call.uniforms */
+    size_t size;
+};
+
 struct lom_device {
     lom_error error;
     lom_device_desc desc; /* resolved */
@@ -33,8 +44,11 @@ struct lom_device {
     uint8_t *tile_memory, *tile_touched;
     size_t tile_memory_capacity, tile_touched_capacity;
     struct lom_draw *draws;
-    size_t draw_capacity;
-    struct lom_run *runs; /* of the pass's draws that have clusters */
+    struct lom_call *calls;
+    size_t draw_capacity, call_capacity;
+    struct lom_known_draw known_draw[KNOWN_DRAWS];         /* the last of the pass, in turn */
+    struct lom_known_uniforms known_uniforms[KNOWN_DRAWS]; /* likewise */
+    struct lom_run *runs;                                  /* of the pass's draws that have clusters */
     size_t run_count, run_capacity;
     lom_query **queries; /* all; those that draws of the pass name come first */
     size_t query_count, query_capacity;
@@ -48,6 +62,13 @@ struct lom_device {
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
 /* Chunks for the batches of a pass that has so many. */
 bool lom_lay_chunks(lom_device *device, size_t count);
+/* Whether a draw that the pass has already is what a descriptor asks for but for its triangles and its uniforms: which, and
+ * which triangles of it (call.c). */
+bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct lom_call *call);
+/* Keeps a descriptor of which the pass's last draw was made, where others may be like it. */
+void lom_note_draw(lom_device *device, const lom_draw_desc *desc);
+/* Copies the descriptor's uniforms and adds the call to the pass. */
+bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call *call);
 /* Whether a draw's stencil can be, or an error; the same with its defaults resolved (stencil.c). */
 bool lom_check_stencil(lom_device *device, const lom_draw_desc *desc);
 void lom_resolve_stencil_state(lom_stencil *stencil);

@@ -1,5 +1,5 @@
-/* Recording a draw. In: a descriptor. Out: a checked copy of it and of its uniforms, with the pass's defaults filled
- * in. Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
+/* Recording a draw. In: a descriptor. Out: a checked copy of it, with the pass's defaults filled in, unless there is one
+ * already that differs in what a call names (call.c). Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
 #include "lanes/variants.h"
 #include "pipeline/expand.h"
 
@@ -186,50 +186,6 @@ static size_t count_triangles(const lom_draw_desc *desc)
     }
 }
 
-/* A caller's structure may have padding that nobody set, and a sanitizer of memory need not hear of it: where that alone
- * differs, both draws have a copy and draw the same. */
-#ifdef __clang__
-__attribute__((no_sanitize("memory")))
-#endif
-static bool
-are_same(const unsigned char *a, const unsigned char *b, size_t size)
-{
-    enum { WORDS = 8 };
-    uint64_t different = 0;
-    size_t i = 0;
-    for (; i + WORDS * sizeof(uint64_t) <= size && different == 0; i += WORDS * sizeof(uint64_t)) {
-        uint64_t from[2][WORDS];
-        memcpy(from[0], a + i, sizeof from[0]);
-        memcpy(from[1], b + i, sizeof from[1]);
-        for (int k = 0; k < WORDS; k++)
-            different |= from[0][k] ^ from[1][k];
-    }
-    for (; i < size && different == 0; i++)
-        different |= a[i] ^ (unsigned)b[i];
-    return different == 0;
-}
-
-/* A draw whose uniforms are those of the draw before it shares their copy. */
-static bool copy_uniforms(lom_device *device, struct lom_draw *draw)
-{
-    size_t size = draw->desc.shader->uniforms_size;
-    const struct lom_draw *before = draw > device->draws ? draw - 1 : NULL;
-    if (before != NULL && size != 0 && before->desc.shader->uniforms_size == size &&
-        are_same(device->uniforms + before->uniforms_offset, draw->desc.uniforms, size)) {
-        draw->uniforms_offset = before->uniforms_offset;
-        return true;
-    }
-    size_t offset = (device->uniforms_size + 63) & ~(size_t)63;
-    if (!lom_reserve(&device->uniforms, &device->uniforms_capacity, offset + size, 1, NULL))
-        return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for a draw's uniforms.");
-    if (size != 0)
-        memcpy(device->uniforms + offset, draw->desc.uniforms, size);
-    draw->uniforms = NULL;
-    draw->uniforms_offset = offset;
-    device->uniforms_size = offset + size;
-    return true;
-}
-
 static void derive(struct lom_pass *pass, struct lom_draw *draw)
 {
     lom_draw_desc *desc = &draw->desc;
@@ -274,23 +230,18 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
     draw->constant &= draw->rasterizes;
 }
 
-bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
+static bool check_draw(lom_device *device, const lom_draw_desc *desc)
+{
+    return check_shader(device, desc) && check_geometry(device, desc) && lom_check_draw_viewport(device, desc) &&
+           lom_check_stages(device, desc) && check_sprites(device, desc) && check_vertices(device, desc) &&
+           check_clusters(device, desc) && lom_check_output(device, desc) && lom_check_stencil(device, desc) &&
+           lom_check_queries(device, desc);
+}
+
+static bool add_draw(lom_device *device, const lom_draw_desc *desc, struct lom_call *call)
 {
     struct lom_pass *pass = &device->pass;
-    lom_draw_desc counted;
-    if (desc->count_from != NULL) {
-        counted = *desc;
-        counted.count = desc->count_from->written;
-        desc = &counted;
-    }
-    if (!check_shader(device, desc) || !check_geometry(device, desc) || !lom_check_draw_viewport(device, desc) ||
-        !lom_check_stages(device, desc) || !check_sprites(device, desc) || !check_vertices(device, desc) ||
-        !check_clusters(device, desc) || !lom_check_output(device, desc) || !lom_check_stencil(device, desc) ||
-        !lom_check_queries(device, desc))
-        return false;
     size_t counter = desc->query != NULL ? lom_name_query(device, desc->query) : 0;
-    if (!lom_meets_condition(desc))
-        return true;
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     struct lom_draw *draw = &device->draws[pass->draw_count];
@@ -302,9 +253,23 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
     if (device->desc.chunk < CLUSTER_TRIANGLES || pass->recorder != NULL || /* records number all triangles */
         draw->desc.depth_clamp || draw->desc.provoking == LOM_PROVOKING_FIRST)
         draw->desc.culling.clusters = NULL;
-    if (!copy_uniforms(device, draw))
-        return false;
-    device->counters.draws++;
-    pass->draw_count++;
+    *call = (struct lom_call){ .draw = (uint32_t)pass->draw_count++, .triangles = (uint32_t)draw->triangles };
+    lom_note_draw(device, desc);
     return true;
+}
+
+bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
+{
+    struct lom_call call;
+    if (lom_find_draw(device, desc, &call))
+        return lom_add_call(device, desc, &call);
+    lom_draw_desc counted;
+    if (desc->count_from != NULL) {
+        counted = *desc;
+        counted.count = desc->count_from->written;
+        desc = &counted;
+    }
+    if (!check_draw(device, desc))
+        return false;
+    return !lom_meets_condition(desc) || (add_draw(device, desc, &call) && lom_add_call(device, desc, &call));
 }

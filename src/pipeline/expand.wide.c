@@ -25,7 +25,7 @@ void LOM_WIDE(lom_control_patches)(const struct lom_chunk *chunk, size_t first, 
                      .number = lom_gather_int((const int32_t *)e->pieces[0].number, piece),
                      .instance = lom_splat_int(chunk->instance) };
     load_pieces(draw, &e->rows[0], &e->pieces[0], piece, (lom_vertex *)(void *)e->point);
-    draw->desc.tessellation->control[draw->variant](&out, &in, draw->uniforms);
+    draw->desc.tessellation->control[draw->variant](&out, &in, chunk->uniforms);
     for (int i = 0; i < LOM_LANES; i++)
         for (int k = 0; k < LEVEL_WORDS; k++)
             levels[i][k] = k < 4 ? out.outer[k][i] : out.inner[k - 4][i];
@@ -60,7 +60,7 @@ void LOM_WIDE(lom_evaluate_patch)(const struct lom_chunk *chunk, size_t patch, c
     for (size_t first = 0; first < e->pattern->places; first += LOM_LANES) {
         place_points(e->pattern, t->domain, lanes_from(first, e->pattern->places), &in);
         vertex.point_size = lom_splat(1);
-        t->evaluation[draw->variant](&vertex, &in, draw->uniforms);
+        t->evaluation[draw->variant](&vertex, &in, chunk->uniforms);
         store_vertex(draw, rows + first * (size_t)draw->stage_pitch, &vertex);
     }
 }
@@ -84,6 +84,6 @@ void LOM_WIDE(lom_emit_pieces)(const struct lom_chunk *chunk, int from, size_t f
                                  .distances = draw->distances,
                                  .alive = piece == lom_lane_index() + (int32_t)first };
     load_pieces(draw, &e->rows[from], pieces, piece, (lom_vertex *)(void *)e->point);
-    geometry->geometry[draw->variant](&out, &in, draw->uniforms);
+    geometry->geometry[draw->variant](&out, &in, chunk->uniforms);
     lom_store_int(count, out.count);
 }

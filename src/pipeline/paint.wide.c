@@ -42,7 +42,7 @@ static uint32_t first_lane(pairs x)
     return (uint32_t)((lom_int)x)[0];
 }
 
-void LOM_WIDE(lom_find_paint)(const struct lom_pass *pass, struct lom_draw *draw)
+void LOM_WIDE(lom_find_paint)(const struct lom_pass *pass, struct lom_draw *draw, const void *uniforms)
 {
     const lom_draw_desc *desc = &draw->desc;
     struct lom_paint *paint = &draw->paint;
@@ -51,7 +51,7 @@ void LOM_WIDE(lom_find_paint)(const struct lom_pass *pass, struct lom_draw *draw
     lom_fragment out;
     memset(&in, 0, sizeof in);
     memset(&out, 0, sizeof out);
-    desc->shader->fragment[draw->variant](&out, &in, draw->uniforms);
+    desc->shader->fragment[draw->variant](&out, &in, uniforms);
     for (int i = 0; i < pass->colors; i++) {
         const float color[4] = { out.color[i].x[0], out.color[i].y[0], out.color[i].z[0], out.color[i].w[0] };
         memcpy(paint->color[i], color, sizeof color);

@@ -42,9 +42,12 @@ bool lom_record_vertices(const struct lom_pass *pass, const struct lom_chunk *ch
     uint32_t list[3] = { index[0], index[1], index[2] };
     struct lom_notes *notes = &pass->recorder->worker[0].notes;
     struct lom_assembly assembly = { .vertex_list = list };
-    struct lom_chunk three = {
-        .draw = chunk->draw, .instance = chunk->instance, .assembly = &assembly, .vertex_count = 3, .listed = true
-    };
+    struct lom_chunk three = { .draw = chunk->draw,
+                               .uniforms = chunk->uniforms,
+                               .instance = chunk->instance,
+                               .assembly = &assembly,
+                               .vertex_count = 3,
+                               .listed = true };
     bool done = lom_reserve_rows(&three, 3);
     if (done) {
         lom_open_notes(notes);

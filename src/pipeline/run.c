@@ -21,147 +21,6 @@ static void run_chunks(void *context, int worker)
     }
 }
 
-/* A tile's memory lasts from batch to batch; in a pass of one batch a worker's serves all its tiles, and stays in its
- * cache. */
-static uint8_t *memory_of(const struct lom_pass *pass, int number, int worker)
-{
-    return pass->tile_memory + (size_t)(pass->single_batch ? worker : number) * pass->tile_bytes;
-}
-
-static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
-{
-    size_t pixels = (size_t)pass->tile * (size_t)pass->tile;
-    tile->pass = pass;
-    tile->draw = NULL;
-    tile->edge = pass->tile;
-    tile->x = pass->tile_x0 + number % pass->tiles_x * pass->tile;
-    tile->y = pass->tile_y0 + number / pass->tiles_x * pass->tile;
-    tile->depth = NULL;
-    tile->stencil = NULL;
-    tile->number = number;
-    tile->memory = memory;
-    for (int k = 0; k < 16; k++)
-        tile->offset[k] = (k & 7) + (k >> 3) * 2 * pass->tile;
-    if (pass->samples > 1) {
-        lom_place_samples(pass, tile, memory);
-        return;
-    }
-    if (pass->uses_depth) {
-        tile->depth = (float *)(void *)memory;
-        memory += pixels * 4;
-    }
-    if (pass->uses_stencil) {
-        tile->stencil = (int32_t *)(void *)memory;
-        memory += pixels * 4;
-    }
-    for (int i = 0; i < pass->colors; i++) {
-        tile->color[i] = memory;
-        memory += lom_image_bytes(pass, i);
-    }
-}
-
-/* The chunk from `i` on that has a list for a tile, which may be empty; or the number of chunks. */
-static size_t next_reaching(const struct lom_pass *pass, size_t i, int number)
-{
-    while (i < pass->chunk_count && (uint32_t)(number - pass->reaches[i].low) > pass->reaches[i].span)
-        i++;
-    return i;
-}
-
-/* Where the chunk's list for the tile begins, and behind it where it ends. */
-static const uint32_t *ends_of_list(const struct lom_chunk *chunk, int number)
-{
-    return chunk->tile_first + (number - chunk->tile_low);
-}
-
-/* Brings a chunk's list of the tile near: another core may have written it. */
-static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
-{
-    if (i >= pass->chunk_count)
-        return;
-    const uint32_t *list = pass->chunks[i].tile_list + *ends_of_list(&pass->chunks[i], number);
-    __builtin_prefetch(list);
-    __builtin_prefetch(list + 16);
-}
-
-/* A tile that is drawn for the first time begins as the clear colour, in memory only where that is not one word. */
-static void begin_tile(struct lom_pass *pass, struct lom_tile *tile)
-{
-    const struct lom_color_target *target = &pass->color[0];
-    if (pass->samples > 1) {
-        lom_begin_samples(pass, tile);
-        return;
-    }
-    tile->is_whole = pass->single_batch && pass->colors == 1 && target->kind != COLOR_FLOAT && !target->keep;
-    tile->whole = target->clear_bytes;
-    if (!tile->is_whole)
-        lom_load_tile(pass, tile->number, tile->memory);
-}
-
-/* The batch's triangles of one tile. */
-static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
-{
-    bool placed = false;
-    tile->is_whole = false;
-    for (size_t i = next_reaching(pass, 0, number), next; i < pass->chunk_count; i = next) {
-        const struct lom_chunk *chunk = &pass->chunks[i];
-        next = next_reaching(pass, i + 1, number);
-        prefetch_list(pass, next, number);
-        const uint32_t *begin = ends_of_list(chunk, number);
-        uint32_t first = begin[0], end = begin[1];
-        if (first == end)
-            continue;
-        if (!placed) {
-            place_tile(pass, tile, number, memory);
-            if (!pass->tile_touched[number])
-                begin_tile(pass, tile);
-            pass->tile_touched[number] = 1;
-            placed = true;
-        }
-        if (tile->draw != NULL && tile->draw != chunk->draw)
-            lom_stages_of(tile->draw->variant)->flush(tile);
-        tile->draw = chunk->draw;
-        lom_stages_of(chunk->draw->variant)->raster(tile, chunk, chunk->tile_list + first, end - first);
-    }
-    if (placed)
-        lom_stages_of(tile->draw->variant)->flush(tile);
-}
-
-/* After the last batch a tile is resolved at once; one that no triangle came near holds its clear values, or keeps what
- * the attachments hold. */
-static void finish_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
-{
-    if (pass->samples > 1) {
-        place_tile(pass, tile, number, memory);
-        lom_end_samples(pass, tile, pass->tile_touched[number]);
-    } else if (tile->is_whole)
-        lom_resolve_whole_tile(pass, number, tile->whole);
-    else if (pass->tile_touched[number])
-        lom_resolve_tile(pass, number, memory);
-    else
-        lom_clear_tile(pass, number, memory);
-}
-
-static void run_tiles(void *context, int worker)
-{
-    struct lom_pass *pass = context;
-    struct lom_tile *tile = &pass->device->worker_tiles[worker];
-    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    for (;;) {
-        size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
-        if (i >= tiles)
-            return;
-        uint8_t *memory = memory_of(pass, (int)i, worker);
-        bool clocked = pass->tallier != NULL && pass->tallier->desc.clock;
-        int64_t since = clocked ? lom_tally_clock() : 0;
-        run_tile(pass, tile, (int)i, memory);
-        if (pass->last_batch)
-            finish_tile(pass, tile, (int)i, memory);
-        if (clocked)
-            lom_tally_time(pass, (int)i, since);
-    }
-}
-
 static void run_all(lom_device *device, lom_work *work)
 {
     atomic_store_explicit(&device->pass.next, 0, memory_order_relaxed);
@@ -225,32 +84,38 @@ static bool run_batch(lom_device *device)
     if (pass->feeds_back)
         lom_share_out(device->pool, pass->chunk_count, 1, copy_feedback, pass);
     if (!pass->desc.feedback_only)
-        run_all(device, run_tiles);
+        run_all(device, lom_run_tiles);
     if (pass->recorder != NULL)
         lom_record_batch(device);
     pass->chunk_count = 0;
     return true;
 }
 
+static const void *uniforms_of(const lom_device *device, const struct lom_call *call)
+{
+    return device->uniforms + (size_t)call->uniforms * UNIFORMS_UNIT;
+}
+
 /* Whether a chunk of the draw may follow `chunks` others in a batch. Batches of small draws are longer: what a tile and a
  * barrier cost does not depend on how much a chunk holds. Their memory is little, since large ones never come there. */
-static bool fits(const lom_device *device, size_t chunks, const struct lom_draw *draw)
+static bool fits(const lom_device *device, size_t chunks, const struct lom_draw *draw, size_t triangles)
 {
-    enum { SMALL = 256 };
-    bool small = draw->triangles <= SMALL && !draw->expands && draw->desc.culling.clusters == NULL;
+    bool small = triangles <= SMALL_DRAW && !draw->expands && draw->desc.culling.clusters == NULL;
     return chunks < (size_t)device->desc.batch || (small && chunks < device->most_chunks);
 }
 
-static bool add_chunk(lom_device *device, const struct lom_draw *draw, int instance, size_t first, size_t count,
+static bool add_chunk(lom_device *device, const struct lom_call *call, int instance, size_t first, size_t count,
                       const struct lom_run *runs, size_t run_count)
 {
     struct lom_pass *pass = &device->pass;
-    if (!fits(device, pass->chunk_count, draw) && !run_batch(device))
+    const struct lom_draw *draw = &device->draws[call->draw];
+    if (!fits(device, pass->chunk_count, draw, call->triangles) && !run_batch(device))
         return false;
     struct lom_chunk *chunk = &device->chunks[pass->chunk_count++];
     chunk->draw = draw;
+    chunk->uniforms = uniforms_of(device, call);
     chunk->instance = instance;
-    chunk->first = first;
+    chunk->first = call->first + first;
     chunk->count = count;
     chunk->runs = runs;
     chunk->run_count = run_count;
@@ -258,31 +123,33 @@ static bool add_chunk(lom_device *device, const struct lom_draw *draw, int insta
 }
 
 /* Clusters of a draw: the runs of each chunk. */
-static bool run_clusters(lom_device *device, const struct lom_draw *draw)
+static bool run_clusters(lom_device *device, const struct lom_call *call)
 {
+    const struct lom_draw *draw = &device->draws[call->draw];
     const struct lom_run *run = device->runs + draw->first_run, *end = run + draw->run_count;
     while (run < end) {
         const struct lom_run *first = run;
         size_t count = 0;
         for (; run < end && run->chunk == first->chunk; run++)
             count += lom_triangles_of_run(draw->desc.culling.clusters, run);
-        if (!add_chunk(device, draw, 0, 0, count, first, (size_t)(run - first)))
+        if (!add_chunk(device, call, 0, 0, count, first, (size_t)(run - first)))
             return false;
     }
     return true;
 }
 
-static bool run_draw(lom_device *device, const struct lom_draw *draw)
+static bool run_call(lom_device *device, const struct lom_call *call)
 {
+    const struct lom_draw *draw = &device->draws[call->draw];
     size_t limit = draw->unit;
     if (draw->desc.culling.clusters != NULL)
-        return run_clusters(device, draw);
+        return run_clusters(device, call);
     if (!draw->rasterizes && draw->desc.feedback == NULL)
         return true;
     for (int instance = 0; instance < draw->desc.instances; instance++)
-        for (size_t first = 0; first < draw->triangles; first += limit) {
-            size_t count = draw->triangles - first < limit ? draw->triangles - first : limit;
-            if (!add_chunk(device, draw, instance, first, count, NULL, 0))
+        for (size_t first = 0; first < call->triangles; first += limit) {
+            size_t count = call->triangles - first < limit ? call->triangles - first : limit;
+            if (!add_chunk(device, call, instance, first, count, NULL, 0))
                 return false;
         }
     return true;
@@ -300,15 +167,15 @@ static void count_work(lom_device *device)
     }
 }
 
-/* Chunks that run_draw will make of a draw. */
-static size_t count_chunks(const struct lom_draw *draw)
+/* Chunks that run_call will make of a call. */
+static size_t count_chunks(const struct lom_draw *draw, size_t triangles)
 {
     size_t limit = draw->unit;
     if (!draw->rasterizes && draw->desc.feedback == NULL)
         return 0;
     if (draw->desc.culling.clusters != NULL)
         return draw->chunk_count;
-    return (draw->triangles + limit - 1) / limit * (size_t)draw->desc.instances;
+    return (triangles + limit - 1) / limit * (size_t)draw->desc.instances;
 }
 
 static bool lay_tile_memory(lom_device *device)
@@ -317,10 +184,12 @@ static bool lay_tile_memory(lom_device *device)
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     pass->chunks_left = 0;
     pass->single_batch = true;
-    for (size_t i = 0; i < pass->draw_count; i++) {
-        size_t chunks = count_chunks(&device->draws[i]);
+    for (size_t i = 0; i < pass->call_count; i++) {
+        const struct lom_call *call = &device->calls[i];
+        const struct lom_draw *draw = &device->draws[call->draw];
+        size_t chunks = count_chunks(draw, call->triangles);
         pass->chunks_left += chunks;
-        pass->single_batch &= chunks == 0 || fits(device, pass->chunks_left - 1, &device->draws[i]);
+        pass->single_batch &= chunks == 0 || fits(device, pass->chunks_left - 1, draw, call->triangles);
     }
     if (!lom_lay_chunks(device, pass->chunks_left))
         return false;
@@ -337,9 +206,9 @@ static bool lay_tile_memory(lom_device *device)
 }
 
 /* A draw whose shader reads nothing runs it once. */
-static void find_paint(lom_device *device, struct lom_draw *draw)
+static void find_paint(lom_device *device, struct lom_draw *draw, const void *uniforms)
 {
-    lom_stages_of(draw->variant)->find_paint(&device->pass, draw);
+    lom_stages_of(draw->variant)->find_paint(&device->pass, draw, uniforms);
     device->counters.packets++;
 }
 
@@ -377,12 +246,12 @@ bool lom_run_pass(lom_device *device)
         return false;
     if (!lay_tile_memory(device))
         return false;
-    for (size_t i = 0; i < pass->draw_count; i++) {
-        struct lom_draw *draw = &device->draws[i];
-        draw->uniforms = device->uniforms + draw->uniforms_offset;
+    for (size_t i = 0; i < pass->call_count; i++) {
+        const struct lom_call *call = &device->calls[i];
+        struct lom_draw *draw = &device->draws[call->draw];
         if (draw->constant)
-            find_paint(device, draw);
-        if (!run_draw(device, draw))
+            find_paint(device, draw, uniforms_of(device, call));
+        if (!run_call(device, call))
             return false;
     }
     if (!run_batch(device))

@@ -66,9 +66,7 @@ typedef enum lom_output_kind {
 /* A draw as recorded. */
 struct lom_draw {
     lom_draw_desc desc;
-    const void *uniforms;   /* the copy, set when the pass runs */
-    size_t uniforms_offset; /* where it lies in the device's uniforms */
-    lom_rect scissor;       /* resolved, within viewport, pass and target, in frame pixels */
+    lom_rect scissor; /* resolved, within viewport, pass and target, in frame pixels */
     int variant;
     int row_floats; /* of a vertex row: header, varyings, distances, padded to 4 */
     int distance_offset;
@@ -96,6 +94,15 @@ struct lom_draw {
     struct lom_paint paint; /* with `constant`, once the pass runs */
     size_t first_run, run_count, chunk_count; /* with clusters: which of the device's runs; the chunks they make */
 };
+
+/* A call of lom_draw: a draw that others may share, which of its triangles (or sprites, points, lines) of one instance, and
+ * where its uniforms lie in the device's. */
+struct lom_call {
+    uint32_t draw, first, triangles;
+    uint32_t uniforms; /* in UNIFORMS_UNIT */
+};
+enum { UNIFORMS_UNIT = 64 };
+enum { SMALL_DRAW = 256 }; /* triangles at most */
 
 enum { SEVERAL_TILES = -1 };
 enum { NEEDED_VERTICES = 16 }; /* a whole number of packets at every width */
@@ -152,6 +159,7 @@ struct lom_room {
 /* A range of triangles of one instance of a draw, and what the first half of the pipeline made of it. */
 struct lom_chunk {
     const struct lom_draw *draw;
+    const void *uniforms;
     int instance;
     size_t first, count;        /* triangles */
     const struct lom_run *runs; /* with clusters: where the triangles are, in place of `first` */
@@ -245,7 +253,8 @@ struct lom_pass {
     uint8_t *tile_memory;  /* tile_bytes for each tile, or for each worker when there is a single batch */
     uint8_t *tile_touched; /* a flag for each tile */
 
-    size_t draw_count; /* recorded in the device */
+    size_t draw_count, call_count;      /* recorded in the device */
+    size_t known_draws, known_uniforms; /* of them that the device has noted (call.c) */
 
     struct lom_chunk *chunks; /* the batch's */
     const struct lom_tile_range *reaches;
@@ -326,6 +335,9 @@ static inline void lom_widen_tiles(struct lom_chunk *chunk, int32_t low, int32_t
     chunk->tile_low = low < chunk->tile_low ? low : chunk->tile_low;
     chunk->tile_high = high > chunk->tile_high ? high : chunk->tile_high;
 }
+
+/* The second half for the batch's tiles, which workers take by a counter. */
+void lom_run_tiles(void *context, int worker);
 
 /* Stage 4: sorts the chunk's triangles into its bins. */
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);

@@ -27,7 +27,7 @@ struct lom_stages {
     /* Shades what is left in the queue. */
     void (*flush)(struct lom_tile *tile);
     /* The paint of a constant draw. */
-    void (*find_paint)(const struct lom_pass *pass, struct lom_draw *draw);
+    void (*find_paint)(const struct lom_pass *pass, struct lom_draw *draw, const void *uniforms);
     /* A rectangle of a plane of tile memory, or one value, to an attachment. */
     void (*store_rectangle)(const struct lom_rectangle *rectangle, const uint32_t *memory);
     void (*fill_rectangle)(const struct lom_rectangle *rectangle, uint32_t value);
@@ -57,7 +57,7 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_raster_##variant(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list,              \
                               size_t count);                                                                           \
     void lom_flush_##variant(struct lom_tile *tile);                                                                   \
-    void lom_find_paint_##variant(const struct lom_pass *pass, struct lom_draw *draw);                                 \
+    void lom_find_paint_##variant(const struct lom_pass *pass, struct lom_draw *draw, const void *uniforms);           \
     void lom_store_rectangle_##variant(const struct lom_rectangle *rectangle, const uint32_t *memory);                 \
     void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \

@@ -283,7 +283,7 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
             fetch(attributes, draw->desc.shader->attributes, &n, &in);
             vertex.point_size = lom_splat(1);
             LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
-            shade(&vertex, &in, draw->uniforms);
+            shade(&vertex, &in, chunk->uniforms);
         }
         if (__builtin_expect(chunk->kept_rows != NULL, 0))
             keep(chunk, first, &vertex);

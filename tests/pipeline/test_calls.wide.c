@@ -1,0 +1,170 @@
+/* Proves that draws which share a checked descriptor and copies of uniforms, since they differ in little or come back
+ * (call.c), leave what the same draws leave each in a pass of its own, where nothing is shared; at this width. The
+ * descriptors of hundreds of draws come from a few states and fixed random numbers: which triangles of the indices (also
+ * earlier ones, and places that are no multiple of three), which uniforms, shader, cull, blend, scissor, depth test. And
+ * that what is wrong in a draw that is like one before is an error as ever. */
+#include "stage.h"
+
+enum { WIDTH = 160, HEIGHT = 96, TRIANGLES = 60, DRAWS = 600, STATES = 9, TINTS = 7 };
+
+struct tint {
+    float matrix[16]; /* what all share, in front */
+    float color[4];
+    char tail; /* no whole number of words */
+};
+
+static void place(lom_vertex *out, const lom_attributes *in, const void *uniforms)
+{
+    const struct tint *tint = uniforms;
+    out->position = in->attribute[0];
+    out->position.x = out->position.x * tint->matrix[0] + tint->matrix[12];
+    out->varying[0] = in->attribute[1].x;
+    out->varying[1] = in->attribute[1].y;
+}
+
+static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct tint *tint = uniforms;
+    lom_float low = lom_splat(tint->color[2] + (float)tint->tail * 0.0625f);
+    out->color[0] = (lom_float4){ in->varying[0] * tint->color[0], in->varying[1] + tint->color[1], low, low * 0.5f };
+}
+
+/* A colour alone: found once a draw (paint.wide.c), so never shared. */
+static void paint(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    const struct tint *tint = uniforms;
+    (void)in;
+    out->color[0] = (lom_float4){ lom_splat(tint->color[0]), lom_splat(tint->color[1]), lom_splat(tint->color[2]),
+                                  lom_splat(0.25f) };
+}
+
+LOM_SHADER(varied, place, show, .attributes = 2, .varyings = 2, .reads = LOM_VARYINGS(0, 2), .colors = 1,
+           .uniforms_size = sizeof(struct tint))
+LOM_SHADER(painted, place, paint, .attributes = 2, .varyings = 2, .colors = 1, .uniforms_size = sizeof(struct tint))
+
+static vertex vertices[3 * TRIANGLES];
+static uint32_t indices[3 * TRIANGLES];
+
+static void make_scene(void)
+{
+    random_draws = 0;
+    for (size_t i = 0; i < 3 * TRIANGLES; i++) {
+        vertex *v = &vertices[i];
+        const float w = random_float(0.5f, 2);
+        v->position[0] = random_float(-1, 1) * w;
+        v->position[1] = random_float(-1, 1) * w;
+        v->position[2] = random_float(0, 1) * w;
+        v->position[3] = w;
+        for (int k = 0; k < 8; k++)
+            v->value[k] = random_float(0, 1);
+        indices[i] = (uint32_t)random_whole(0, 3 * TRIANGLES - 1);
+    }
+}
+
+static lom_draw_desc state(int number)
+{
+    lom_draw_desc desc = draw_of(number == 3 ? &painted : &varied, vertices, 3 * TRIANGLES);
+    desc.indices = indices;
+    desc.cull = number == 1 ? LOM_CULL_NONE : LOM_CULL_BACK;
+    desc.front_clockwise = number == 2;
+    desc.depth_write_off = number == 4;
+    desc.blend[0] = number == 4 || number == 3 ? adding() : (lom_blend){ 0 };
+    desc.scissor = number == 5 ? (lom_rect){ 20, 10, 70, 60 } : (lom_rect){ 0 };
+    desc.instances = number == 6 ? 2 : 0;
+    desc.topology = number == 7 ? LOM_TRIANGLE_STRIP : LOM_TRIANGLES;
+    desc.indices = number == 8 ? NULL : desc.indices;
+    return desc;
+}
+
+/* Draw i of the scene; states and tints often follow one another, and come back. */
+static void draw(stage *s, size_t i)
+{
+    struct tint tint;
+    lom_draw_desc desc;
+    random_draws = 10000 + 16 * i;
+    const bool comes_back = i % 3 == 0;
+    desc = state(comes_back ? (int)random_whole(0, STATES - 1) : (int)(i / 100));
+    const int number = (int)random_whole(0, TINTS - 1);
+    memset(&tint, 0, sizeof tint);
+    tint.matrix[0] = number % 2 == 0 ? 1 : -1;
+    tint.matrix[12] = 0.0625f * (float)(number % 3);
+    for (int k = 0; k < 4; k++)
+        tint.color[k] = 0.125f * (float)((number + k) % TINTS);
+    tint.tail = (char)(number == 6);
+    desc.uniforms = &tint;
+    desc.first = (size_t)random_whole(0, 3 * TRIANGLES - 30);
+    desc.first -= i % 5 != 0 ? desc.first % 3 : 0;
+    desc.count = (size_t)random_whole(0, 30);
+    lom_draw(s->device, &desc);
+    memset(&tint, 0x55, sizeof tint); /* lom_draw has copied it */
+}
+
+static lom_pass_desc kept(bool keeps)
+{
+    const lom_load_action load = keeps ? LOM_LOAD_KEEP : LOM_LOAD_CLEAR;
+    return (lom_pass_desc){ .color_load = { load }, .depth_load = load };
+}
+
+static void shared_draws_are_those_of_their_own_passes(void)
+{
+    lom_device_desc desc = { .threads = 2, .chunk = 16, .batch = 3 };
+    stage together = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    stage apart = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    begin(&together, kept(false));
+    for (size_t i = 0; i < DRAWS; i++)
+        draw(&together, i);
+    finish(&together);
+    for (size_t i = 0; i < DRAWS; i++) {
+        begin(&apart, kept(i > 0));
+        draw(&apart, i);
+        CHECK(lom_end_pass(apart.device), "%s", lom_device_error(apart.device)->text);
+    }
+    begin(&apart, kept(true));
+    finish(&apart);
+    CHECK(same_images(together.image, apart.image), "colours differ");
+    CHECK(same_images(together.depths, apart.depths), "depths differ");
+    const lom_counters a = lom_device_counters(together.device), b = lom_device_counters(apart.device);
+    CHECK(a.draws == DRAWS && b.draws == DRAWS, "%llu and %llu draws", (unsigned long long)a.draws,
+          (unsigned long long)b.draws);
+    CHECK(a.triangles == b.triangles && a.vertices == b.vertices && a.fragments == b.fragments,
+          "%llu and %llu triangles, %llu and %llu vertices, %llu and %llu fragments", (unsigned long long)a.triangles,
+          (unsigned long long)b.triangles, (unsigned long long)a.vertices, (unsigned long long)b.vertices,
+          (unsigned long long)a.fragments, (unsigned long long)b.fragments);
+    CHECK(a.fragments > 40000, "only %llu fragments", (unsigned long long)a.fragments);
+    close_stage(&together);
+    close_stage(&apart);
+}
+
+/* What the first draw did right does not hide what the second does wrong. */
+static void errors_stay_errors(void)
+{
+    static const struct tint tint = { .color = { 1, 1, 1, 1 } };
+    static const char *const texts[] = { "uniforms", "finite", "indices" };
+    for (int i = 0; i < 3; i++) {
+        stage s = open_stage((lom_device_desc){ .threads = 1 }, WIDTH, HEIGHT, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH24);
+        lom_draw_desc desc = state(0);
+        desc.uniforms = &tint;
+        begin(&s, kept(false));
+        lom_draw(s.device, &desc);
+        CHECK(lom_device_error(s.device)->code == LOM_OK, "%s", lom_device_error(s.device)->text);
+        if (i == 0)
+            desc.uniforms = NULL;
+        else if (i == 1)
+            desc.depth_bias = __builtin_inff();
+        else
+            desc.first = (size_t)UINT32_MAX + 3;
+        lom_draw(s.device, &desc);
+        CHECK(lom_device_error(s.device)->code != LOM_OK && strstr(lom_device_error(s.device)->text, texts[i]) != NULL,
+              "draw %d: %s", i, lom_device_error(s.device)->text);
+        lom_end_pass(s.device);
+        close_stage(&s);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    make_scene();
+    RUN(shared_draws_are_those_of_their_own_passes);
+    RUN(errors_stay_errors);
+    return check_result();
+}
