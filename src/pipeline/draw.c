@@ -238,10 +238,9 @@ static bool check_draw(lom_device *device, const lom_draw_desc *desc)
            lom_check_queries(device, desc);
 }
 
-static bool add_draw(lom_device *device, const lom_draw_desc *desc, struct lom_call *call)
+static bool add_draw(lom_device *device, const lom_draw_desc *desc, size_t counter, struct lom_call *call)
 {
     struct lom_pass *pass = &device->pass;
-    size_t counter = desc->query != NULL ? lom_name_query(device, desc->query) : 0;
     if (!lom_reserve(&device->draws, &device->draw_capacity, pass->draw_count + 1, sizeof *device->draws, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     struct lom_draw *draw = &device->draws[pass->draw_count];
@@ -271,5 +270,6 @@ bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
     }
     if (!check_draw(device, desc))
         return false;
-    return !lom_meets_condition(desc) || (add_draw(device, desc, &call) && lom_add_call(device, desc, &call));
+    size_t counter = desc->query != NULL ? lom_name_query(device, desc->query) : 0; /* also of what is left out */
+    return !lom_meets_condition(desc) || (add_draw(device, desc, counter, &call) && lom_add_call(device, desc, &call));
 }
