@@ -1,27 +1,37 @@
-/* Checked memory. Every allocation of the library goes through lom_allocate, so that one place checks the size and
- * tests can make any allocation fail. */
-#include <lom/base.h>
+/* Checked memory. Every allocation of the library goes through this file, so that one place checks the size and tests
+ * can make any allocation fail. */
+#include "base/reserve.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { ALIGNMENT = 64 }; /* a cache line, and the widest vector */
 
-void *lom_allocate(size_t count, size_t size, lom_error *error)
+/* Bytes of a block for that many. 0: more than there is. */
+static size_t measure(size_t count, size_t size, lom_error *error)
 {
     size_t total;
     if (__builtin_mul_overflow(count, size, &total) || total > SIZE_MAX / 2) {
         lom_fail(error, LOM_ERROR_MEMORY, "%zu elements of %zu bytes are more than the address space holds.", count,
                  size);
-        return NULL;
+        return 0;
     }
-    size_t rounded = (total + ALIGNMENT) & ~(size_t)(ALIGNMENT - 1);
-    void *memory = aligned_alloc(ALIGNMENT, rounded);
-    if (memory == NULL) {
-        lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for %zu bytes.", total);
-        return NULL;
-    }
-    return memset(memory, 0, rounded);
+    return (total + ALIGNMENT) & ~(size_t)(ALIGNMENT - 1);
+}
+
+void *lom_allocate_bare(size_t count, size_t size, lom_error *error)
+{
+    size_t bytes = measure(count, size, error);
+    void *memory = bytes == 0 ? NULL : aligned_alloc(ALIGNMENT, bytes);
+    if (memory == NULL && bytes != 0)
+        lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for %zu bytes.", count * size);
+    return memory;
+}
+
+void *lom_allocate(size_t count, size_t size, lom_error *error)
+{
+    void *memory = lom_allocate_bare(count, size, error);
+    return memory == NULL ? NULL : memset(memory, 0, measure(count, size, NULL));
 }
 
 void lom_release(void *memory)

@@ -24,6 +24,19 @@ bool lom_reserve(void *array, size_t *capacity, size_t needed, size_t size, lom_
     return true;
 }
 
+bool lom_renew_bare(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error)
+{
+    void *items;
+    if (needed <= *capacity)
+        return true;
+    memcpy(&items, array, sizeof items);
+    lom_release(items);
+    items = lom_allocate_bare(needed, size, error);
+    memcpy(array, &items, sizeof items);
+    *capacity = items != NULL ? needed : 0;
+    return items != NULL;
+}
+
 bool lom_renew(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error)
 {
     if (needed <= *capacity)

@@ -12,5 +12,9 @@ bool lom_reserve(void *array, size_t *capacity, size_t needed, size_t size, lom_
 /* The same for an array whose elements are of no use any more: where *capacity is less, it becomes `needed` zeros (at least
  * 16). False without memory; the array is empty then. */
 bool lom_renew(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error);
+/* The same, but the elements are not set: for what is large and written before it is read. */
+bool lom_renew_bare(void *array, size_t *capacity, size_t needed, size_t size, lom_error *error);
+/* lom_allocate without zeros. */
+void *lom_allocate_bare(size_t count, size_t size, lom_error *error);
 
 #endif

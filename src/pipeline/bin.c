@@ -62,6 +62,19 @@ static void list_triangles(const struct lom_pass *pass, const struct lom_chunk *
     }
 }
 
+/* Counts of tiles become where their lists begin; those that have one are noted. */
+static void sum_up(const struct lom_pass *pass, const struct lom_chunk *chunk, uint32_t *first, size_t tiles)
+{
+    const size_t number = (size_t)(chunk - pass->chunks), words = pass->reached_words;
+    const uint64_t bit = UINT64_C(1) << number % CHUNKS_WORD;
+    _Atomic uint64_t *reached = pass->reached + (size_t)chunk->tile_low * words + number / CHUNKS_WORD;
+    for (size_t i = 0; i < tiles; i++) {
+        if (first[i + 2] != 0)
+            atomic_fetch_or_explicit(&reached[i * words], bit, memory_order_relaxed);
+        first[i + 2] += first[i + 1];
+    }
+}
+
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
 {
     if (chunk->tile_high < 0)
@@ -78,7 +91,6 @@ void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk)
         chunk->failed = true;
         return;
     }
-    for (size_t i = 2; i < tiles + 2; i++)
-        first[i] += first[i - 1];
+    sum_up(pass, chunk, first, tiles);
     list_triangles(pass, chunk, first);
 }

@@ -63,11 +63,9 @@ bool lom_lay_chunks(lom_device *device, size_t count)
 {
     const size_t most = count < device->most_chunks ? count : device->most_chunks;
     lom_error *error = &device->error;
-    if (!lom_reserve(&device->chunks, &device->chunk_capacity, most, sizeof *device->chunks, error) ||
-        !lom_reserve(&device->reaches, &device->reach_capacity, most, sizeof *device->reaches, error))
+    if (!lom_reserve(&device->chunks, &device->chunk_capacity, most, sizeof *device->chunks, error))
         return false;
     device->pass.chunks = device->chunks;
-    device->pass.reaches = device->reaches;
     return true;
 }
 
@@ -105,7 +103,7 @@ void lom_close_device(lom_device *device)
         lom_free_texture(device->textures[i]);
     lom_release(device->textures);
     lom_release(device->chunks);
-    lom_release(device->reaches);
+    lom_release(device->reached);
     lom_release(device->assemblies);
     lom_release(device->worker_tiles);
     lom_release(device->sampled);

@@ -36,13 +36,13 @@ struct lom_device {
     struct lom_assembly *assemblies; /* likewise */
     struct lom_sample_room *sampled; /* likewise, once a pass had several samples */
     struct lom_chunk *chunks;        /* as many as the longest batch so far had, at most most_chunks */
-    struct lom_tile_range *reaches;  /* likewise */
-    size_t chunk_capacity, reach_capacity;
+    size_t chunk_capacity;
     size_t most_chunks;         /* of a batch: desc.batch, and behind those only ones of small draws (run.c) */
     struct lom_room room;       /* of the batches before this one */
     struct lom_room small_room; /* of chunks behind the first desc.batch */
     uint8_t *tile_memory, *tile_touched;
-    size_t tile_memory_capacity, tile_touched_capacity;
+    _Atomic uint64_t *reached; /* zeros between batches */
+    size_t tile_memory_capacity, tile_touched_capacity, reached_capacity;
     struct lom_draw *draws;
     struct lom_call *calls;
     size_t draw_capacity, call_capacity;

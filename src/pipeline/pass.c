@@ -161,7 +161,9 @@ static bool lay_tiles(lom_device *device)
     if (pass->samples > 1 && !lom_lay_samples(device, pass))
         return false;
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    if (!lom_reserve(&device->tile_touched, &device->tile_touched_capacity, tiles, 1, NULL))
+    pass->reached_words = (device->most_chunks + CHUNKS_WORD - 1) / CHUNKS_WORD;
+    if (!lom_reserve(&device->tile_touched, &device->tile_touched_capacity, tiles, 1, NULL) ||
+        !lom_reserve(&device->reached, &device->reached_capacity, tiles * pass->reached_words, sizeof(uint64_t), NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
                         pass->width, pass->height);
     pass->tile_touched = device->tile_touched;

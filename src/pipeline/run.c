@@ -46,10 +46,6 @@ static void take_chunk(lom_device *device, size_t i)
     device->counters.triangles += chunk->count;
     device->counters.triangles_clipped += chunk->triangles_clipped;
     device->counters.triangles_binned += chunk->triangle_count;
-    device->reaches[i] =
-        chunk->tile_high < 0
-            ? (struct lom_tile_range){ .low = INT32_MAX }
-            : (struct lom_tile_range){ chunk->tile_low, (uint32_t)(chunk->tile_high - chunk->tile_low) };
     if (chunk->draw->desc.feedback != NULL)
         lom_place_feedback(chunk);
 }
@@ -195,8 +191,8 @@ static bool lay_tile_memory(lom_device *device)
         return false;
     size_t threads = (size_t)device->desc.threads, count = pass->single_batch ? threads : tiles;
     size_t scratch = pass->samples > 1 ? lom_scratch_bytes(pass) : 0;
-    if (!lom_reserve(&device->tile_memory, &device->tile_memory_capacity, count * pass->tile_bytes + threads * scratch,
-                     1, NULL))
+    if (!lom_renew_bare(&device->tile_memory, &device->tile_memory_capacity,
+                        count * pass->tile_bytes + threads * scratch, 1, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the tiles of a %dx%d pass.",
                         pass->width, pass->height);
     pass->tile_memory = device->tile_memory;
@@ -235,6 +231,7 @@ static bool cull_draws(lom_device *device)
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
+    pass->reached = device->reached;
     pass->chunk_count = 0;
     for (size_t i = 0; i < pass->draw_count; i++) {
         note_depth(pass, &device->draws[i]);

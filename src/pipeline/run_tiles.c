@@ -44,14 +44,6 @@ static void place_tile(struct lom_pass *pass, struct lom_tile *tile, int number,
     }
 }
 
-/* The chunk from `i` on that has a list for a tile, which may be empty; or the number of chunks. */
-static size_t next_reaching(const struct lom_pass *pass, size_t i, int number)
-{
-    while (i < pass->chunk_count && (uint32_t)(number - pass->reaches[i].low) > pass->reaches[i].span)
-        i++;
-    return i;
-}
-
 /* Where the chunk's list for the tile begins, and behind it where it ends. */
 static const uint32_t *ends_of_list(const struct lom_chunk *chunk, int number)
 {
@@ -59,11 +51,9 @@ static const uint32_t *ends_of_list(const struct lom_chunk *chunk, int number)
 }
 
 /* Brings a chunk's list of the tile near: another core may have written it. */
-static void prefetch_list(const struct lom_pass *pass, size_t i, int number)
+static void prefetch_list(const struct lom_chunk *chunk, int number)
 {
-    if (i >= pass->chunk_count)
-        return;
-    const uint32_t *list = pass->chunks[i].tile_list + *ends_of_list(&pass->chunks[i], number);
+    const uint32_t *list = chunk->tile_list + *ends_of_list(chunk, number);
     __builtin_prefetch(list);
     __builtin_prefetch(list + 16);
 }
@@ -82,19 +72,27 @@ static void begin_tile(struct lom_pass *pass, struct lom_tile *tile)
         lom_load_tile(pass, tile->number, tile->memory);
 }
 
-/* The batch's triangles of one tile. */
+/* A chunk's triangles of the tile at hand. */
+static void run_list(struct lom_tile *tile, const struct lom_chunk *chunk)
+{
+    const uint32_t *end = ends_of_list(chunk, tile->number);
+    if (tile->draw != NULL && tile->draw != chunk->draw)
+        lom_stages_of(tile->draw->variant)->flush(tile);
+    tile->draw = chunk->draw;
+    lom_stages_of(chunk->draw->variant)->raster(tile, chunk, chunk->tile_list + end[0], end[1] - end[0]);
+}
+
+/* The batch's triangles of one tile; its bits are zeros again for the next batch. */
 static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, uint8_t *memory)
 {
+    _Atomic uint64_t *reached = pass->reached + (size_t)number * pass->reached_words;
     bool placed = false;
     tile->is_whole = false;
-    for (size_t i = next_reaching(pass, 0, number), next; i < pass->chunk_count; i = next) {
-        const struct lom_chunk *chunk = &pass->chunks[i];
-        next = next_reaching(pass, i + 1, number);
-        prefetch_list(pass, next, number);
-        const uint32_t *begin = ends_of_list(chunk, number);
-        uint32_t first = begin[0], end = begin[1];
-        if (first == end)
+    for (size_t first = 0; first < pass->chunk_count; first += CHUNKS_WORD, reached++) {
+        uint64_t bits = atomic_load_explicit(reached, memory_order_relaxed);
+        if (bits == 0)
             continue;
+        atomic_store_explicit(reached, 0, memory_order_relaxed);
         if (!placed) {
             place_tile(pass, tile, number, memory);
             if (!pass->tile_touched[number])
@@ -102,10 +100,13 @@ static void run_tile(struct lom_pass *pass, struct lom_tile *tile, int number, u
             pass->tile_touched[number] = 1;
             placed = true;
         }
-        if (tile->draw != NULL && tile->draw != chunk->draw)
-            lom_stages_of(tile->draw->variant)->flush(tile);
-        tile->draw = chunk->draw;
-        lom_stages_of(chunk->draw->variant)->raster(tile, chunk, chunk->tile_list + first, end - first);
+        while (bits != 0) {
+            const struct lom_chunk *chunk = &pass->chunks[first + (size_t)__builtin_ctzll(bits)];
+            bits &= bits - 1;
+            if (bits != 0)
+                prefetch_list(&pass->chunks[first + (size_t)__builtin_ctzll(bits)], number);
+            run_list(tile, chunk);
+        }
     }
     if (placed)
         lom_stages_of(tile->draw->variant)->flush(tile);

@@ -102,6 +102,7 @@ struct lom_call {
     uint32_t uniforms; /* in UNIFORMS_UNIT */
 };
 enum { UNIFORMS_UNIT = 64 };
+enum { CHUNKS_WORD = 64 }; /* of lom_pass.reached */
 enum { SMALL_DRAW = 256 }; /* triangles at most */
 
 enum { SEVERAL_TILES = -1 };
@@ -191,13 +192,6 @@ struct lom_chunk {
     bool failed;                  /* memory ran out */
 };
 
-/* The numbers of the tiles that a chunk of the batch has lists for, from low to low + span, side by side with those of the
- * others: a tile looks at all of them. None: low is beyond all tiles. */
-struct lom_tile_range {
-    int32_t low;
-    uint32_t span;
-};
-
 typedef enum lom_color_kind { COLOR_UNORM8 = 0, COLOR_SRGB8, COLOR_FLOAT } lom_color_kind;
 
 struct lom_color_target {
@@ -257,7 +251,9 @@ struct lom_pass {
     size_t known_draws, known_uniforms; /* of them that the device has noted (call.c) */
 
     struct lom_chunk *chunks; /* the batch's */
-    const struct lom_tile_range *reaches;
+    _Atomic uint64_t
+        *reached; /* of each tile reached_words, a bit for each of the batch's chunks that has a list for it */
+    size_t reached_words;
     size_t chunk_count;
     size_t chunks_left;            /* of the pass, the batch's included until it runs */
     bool feeds_back;               /* a draw has feedback */
@@ -339,7 +335,7 @@ static inline void lom_widen_tiles(struct lom_chunk *chunk, int32_t low, int32_t
 /* The second half for the batch's tiles, which workers take by a counter. */
 void lom_run_tiles(void *context, int worker);
 
-/* Stage 4: sorts the chunk's triangles into its bins. */
+/* Stage 4: sorts the chunk's triangles into its bins, and says in pass->reached which tiles have one. */
 void lom_bin_chunk(const struct lom_pass *pass, struct lom_chunk *chunk);
 
 /* What a draw's depth bias adds to the depths of a triangle (draw->biased). */

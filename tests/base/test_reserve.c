@@ -54,6 +54,24 @@ static void what_is_renewed_is_zero_and_as_long_as_was_asked(void)
     CHECK(text == NULL && capacity == 0, "the array that was given up is still there");
 }
 
+static void bare_arrays_are_as_long_as_was_asked(void)
+{
+    char *text = NULL;
+    size_t capacity = 0;
+    CHECK(lom_renew_bare(&text, &capacity, 100, 1, NULL) && capacity == 100, "room for %zu, not 100", capacity);
+    CHECK((uintptr_t)text % 64 == 0, "the array is not on a cache line");
+    memset(text, 'x', 100);
+    CHECK(lom_renew_bare(&text, &capacity, 99, 1, NULL) && text[99] == 'x' && capacity == 100,
+          "an array that is long enough was renewed");
+    CHECK(lom_renew_bare(&text, &capacity, 1000, 1, NULL) && capacity == 1000, "room for %zu, not 1000", capacity);
+    memset(text, 'y', 1000);
+    lom_error error = { 0 };
+    CHECK(!lom_renew_bare(&text, &capacity, SIZE_MAX, 2, &error) && error.code == LOM_ERROR_MEMORY &&
+              error.text[0] != 0,
+          "an array beyond memory");
+    CHECK(text == NULL && capacity == 0, "the array that was given up is still there");
+}
+
 static void what_cannot_be_had_is_an_error(void)
 {
     uint64_t *array = NULL;
@@ -77,6 +95,7 @@ int main(int argc, char **argv)
     RUN(elements_stay_and_zeros_follow);
     RUN(what_is_there_is_not_moved);
     RUN(what_is_renewed_is_zero_and_as_long_as_was_asked);
+    RUN(bare_arrays_are_as_long_as_was_asked);
     RUN(what_cannot_be_had_is_an_error);
     return check_result();
 }
