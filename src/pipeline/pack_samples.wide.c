@@ -89,6 +89,7 @@ struct test {
     bool tests, writes;
     float scale; /* of depths that are whole numbers, else 0 */
     bool cuts;
+    bool orders; /* the lesser or the greater of two is written: what comes next there waits for no comparison */
 };
 
 /* What a slot's triangle is made of, the same in all lanes. */
@@ -133,11 +134,18 @@ LOM_INLINE struct bits test_vector(const struct plane *p, const struct test *t, 
     lom_float z = lom_clamp(p->depth + l1 * p->by1 + l2 * p->by2, p->low, p->high);
     if (t->scale != 0)
         z = lom_to_float(lom_unorm_of_unit_lanes(z, t->scale));
+    const uint32_t outside = lom_bits(signs >> 31);
     const lom_float before = lom_load(memory);
+    if (t->orders) {
+        const bool lesser = t->compare == LOM_COMPARE_LESS || t->compare == LOM_COMPARE_LESS_EQUAL;
+        z = lom_select(signs >> 31, lom_splat(lesser ? __builtin_inff() : -__builtin_inff()), z);
+        lom_store(memory, lesser ? lom_min(z, before) : lom_max(z, before));
+        return (struct bits){ lom_bits(lom_compare_depth(t->compare, z, before)), outside };
+    }
     const lom_mask passed = (signs >= 0) & lom_compare_depth(t->compare, z, before);
     if (t->writes)
         lom_store(memory, lom_select(passed, z, before));
-    return (struct bits){ lom_bits(passed), lom_bits(signs < 0) };
+    return (struct bits){ lom_bits(passed), outside };
 }
 
 /* A strip's words of strips->found: of up to sixteen samples each, those that pass below, those that are covered above. */
@@ -157,13 +165,14 @@ static __attribute__((noinline)) void find_allowed(const struct lom_tile *tile, 
     *allowed = (x >= b.left) & (x <= b.right) & (y >= b.top) & (y <= b.bottom);
 }
 
-LOM_INLINE void test_strip(struct lom_tile *tile, const struct plane *p, const struct test *t, int i)
+LOM_INLINE void test_strip(struct lom_tile *tile, struct lom_strips *strips, const struct plane *p,
+                           const struct test *t, int i)
 {
-    const int32_t *samples = tile->pass->strip_pair, code = tile->sampled->strips.code[i];
-    const lom_int place = lom_splat_int(tile->sampled->strips.place[i]);
+    const int32_t *samples = tile->pass->strip_pair, code = strips->code[i];
+    const lom_int place = lom_splat_int(strips->place[i]);
     const int words = STRIP_PIXELS << t->shift;
     float *memory = t->tests ? tile->depth + ((code & ((1 << CODE_X) - 1)) << t->shift) : NULL;
-    int32_t *found = tile->sampled->strips.found + i * found_words(t->shift);
+    int32_t *found = strips->found + i * found_words(t->shift);
     for (int first = 0; first < words; first += 16) {
         uint32_t passed = 0, outside = 0;
         for (int at = first; at < words && at < first + 16; at += LOM_LANES) {
@@ -192,9 +201,10 @@ static struct test find_test(const struct lom_tile *tile, bool cuts)
 /* Those of a slot, from strip i on. */
 LOM_INLINE int test_slot(struct lom_tile *tile, int slot, int i, const struct test *t)
 {
+    struct lom_strips *strips = &tile->sampled->strips;
     const struct plane p = find_plane(find_slot(tile, slot));
-    for (; i < tile->sampled->strips.end[slot]; i++)
-        test_strip(tile, &p, t, i);
+    for (const int end = strips->end[slot]; i < end; i++)
+        test_strip(tile, strips, &p, t, i);
     return i;
 }
 
@@ -216,9 +226,9 @@ LOM_INLINE void test_strips(struct lom_tile *tile, int slot, int end, const stru
 /* With what most draws have as constants. */
 static void test_all_strips(struct lom_tile *tile, int slot, int end)
 {
-    const struct test nearer = { 2, LOM_COMPARE_GREATER, true, true, 0, false },
-                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false },
-                      not_greater = { 2, LOM_COMPARE_LESS_EQUAL, true, true, 16777215, false },
+    const struct test nearer = { 2, LOM_COMPARE_GREATER, true, true, 0, false, true },
+                      less = { 2, LOM_COMPARE_LESS, true, true, 16777215, false, true },
+                      not_greater = { 2, LOM_COMPARE_LESS_EQUAL, true, true, 16777215, false, true },
                       t = find_test(tile, false);
     const bool usual = t.shift == 2 && t.tests && t.writes;
     if (usual && t.compare == nearer.compare && t.scale == nearer.scale)
@@ -293,6 +303,14 @@ LOM_INLINE lom_int find_lowest(lom_int bits)
     return (lom_as_int(lom_to_float(bits & -bits)) >> 23) - 126;
 }
 
+/* Of places of shading, as pairs of sixteenths of a pixel; there are up to nine in most passes. */
+LOM_INLINE lom_int find_offsets(const struct lom_pass *pass, lom_int place)
+{
+    if (pass->samples < LOM_LANES)
+        return lom_as_int(lom_permute(lom_as_float(lom_load_int(pass->offset_pair)), place));
+    return lom_gather_int(pass->offset_pair, place);
+}
+
 void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct packed *p, int at,
                                       struct lom_packet *packet, lom_float depth[LOM_MAX_SAMPLES])
 {
@@ -304,7 +322,7 @@ void LOM_WIDE(lom_fill_entry_samples)(const struct lom_tile *tile, const struct 
     packet->samples = samples & ((1 << ENTRY_COVERED) - 1);
     packet->place = lom_select_int(cover_centres(list, p, &centre), (lom_int){ 0 },
                                    find_lowest((lom_int)((lom_uint)samples >> ENTRY_COVERED)));
-    struct entry_edges placed = move_entries(centre, lom_gather_int(tile->pass->offset_pair, packet->place));
+    struct entry_edges placed = move_entries(centre, find_offsets(tile->pass, packet->place));
     weigh_entries(&placed, packet->l);
     packet->sample_depth = (const float *)depth;
     packet->depth_pitch = LOM_LANES;

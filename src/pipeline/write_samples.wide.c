@@ -188,11 +188,23 @@ LOM_INLINE void find_codes(struct lom_tile *tile, const lom_float4 *color, int32
     tile->color[0] = images;
 }
 
-/* Which of four samples have a bit. */
+/* A code to those of four samples whose bits are set: stored under a mask, or joined with what is there. */
+#if LOM_LANES == 16 && defined __AVX512VL__ && !defined LOM_NO_OVERRIDES
+LOM_INLINE void store_row(row *to, int32_t code, uint32_t samples)
+{
+    _mm_mask_storeu_epi32(to, (__mmask8)samples, _mm_set1_epi32(code));
+}
+#else
 static const row row_masks[16] = { { 0, 0, 0, 0 },   { -1, 0, 0, 0 },   { 0, -1, 0, 0 },   { -1, -1, 0, 0 },
                                    { 0, 0, -1, 0 },  { -1, 0, -1, 0 },  { 0, -1, -1, 0 },  { -1, -1, -1, 0 },
                                    { 0, 0, 0, -1 },  { -1, 0, 0, -1 },  { 0, -1, 0, -1 },  { -1, -1, 0, -1 },
                                    { 0, 0, -1, -1 }, { -1, 0, -1, -1 }, { 0, -1, -1, -1 }, { -1, -1, -1, -1 } };
+
+LOM_INLINE void store_row(row *to, int32_t code, uint32_t samples)
+{
+    *to = ((code - (row){ 0 }) & row_masks[samples]) | (*to & ~row_masks[samples]);
+}
+#endif
 
 /* Of `pitch` words a pixel; a lane without samples leaves all as it is. */
 LOM_INLINE void store_rows(struct lom_tile *tile, const int32_t *pixel, const int32_t *covered, const int32_t *code,
@@ -211,9 +223,9 @@ LOM_INLINE void store_rows(struct lom_tile *tile, const int32_t *pixel, const in
                 continue;
             divide_block(tile, 0, (int32_t)(at >> 2));
         }
-        row *to = (row *)(void *)(divided + at * pitch), word = code[i] - (row){ 0 };
+        row *to = (row *)(void *)(divided + at * pitch);
         for (size_t k = 0; k < pitch; k += 4, left >>= 4, to++)
-            *to = (word & row_masks[left & 15]) | (*to & ~row_masks[left & 15]);
+            store_row(to, code[i], left & 15);
     }
 }
 

@@ -113,6 +113,7 @@ static void packed_triangles_of_several_samples_end_likewise(void)
     heaps_in((lom_device_desc){ .tile = 64, .threads = 2 }, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_DEPTH32F, 4);
     heaps_in((lom_device_desc){ .tile = 16, .threads = 1, .chunk = 100 }, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH16, 2);
     heaps_in((lom_device_desc){ .tile = 32, .threads = 1, .batch = 1 }, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH24, 8);
+    heaps_in((lom_device_desc){ .tile = 32, .threads = 1 }, LOM_FORMAT_RGBA8, LOM_FORMAT_DEPTH24, 4);
 }
 
 int main(int argc, char **argv)
