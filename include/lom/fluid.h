@@ -42,17 +42,19 @@ typedef struct lom_fluid_body {
 
 /* Its zero value, with a basin, a spacing and a block, is water. */
 typedef struct lom_fluid_desc {
-    double low[3], high[3];       /* the basin, closed on all sides; high is moved to whole cells */
-    double spacing;               /* metres between particles, 1e-4..1e3; a cell has twice that and eight of them */
-    double step;                  /* seconds, 1e-5..0.1; 0: 1/120. Nothing may go farther in it than some cells */
-    double gravity[3];            /* m/s^2, |g| <= 1000 */
-    double density;               /* kg/m^3, 1e-3..1e6; 0: 1000. Pressures alone depend on it */
-    double viscosity;             /* m^2/s, kinematic, 0..1e4: water 1e-6, oil 1e-4, honey 1e-2; 0: none, and walls do
+    double low[3], high[3]; /* the basin, closed on all sides; high is moved to whole cells */
+    double spacing;         /* metres between particles, 1e-4..1e3; a cell has twice that and eight of them */
+    double step;            /* seconds, 1e-5..0.1; 0: 1/120. Nothing may go farther in it than some cells */
+    double gravity[3];      /* m/s^2, |g| <= 1000 */
+    double density;         /* kg/m^3, 1e-3..1e6; 0: 1000. Pressures alone depend on it */
+    double viscosity;       /* m^2/s, kinematic, 0..1e4: water 1e-6, oil 1e-4, honey 1e-2; 0: none, and walls do
                                      not hold it */
-    double solid_viscosity;       /* m^2/s, 0..1e4: below `melting`; 0: the same everywhere */
-    double melting[2];            /* temperatures, rising: between them one viscosity goes over into the other */
-    double conductivity;          /* m^2/s, of temperature, 0..10; 0: heat stays where it is */
-    bool slides[3];               /* walls across x, y, z do not hold it, although it has viscosity */
+    double solid_viscosity; /* m^2/s, 0..1e4: below `melting`; 0: the same everywhere */
+    double melting[2];      /* temperatures, rising: between them one viscosity goes over into the other */
+    double latent_heat;  /* degrees that the heat of melting would warm the liquid by, 0..1e6: water 80, iron 550. What
+                                     melts stays within `melting`, of at least a thousandth of this, until it has it */
+    double conductivity; /* m^2/s, of temperature, 0..10; 0: heat stays where it is */
+    bool slides[3];      /* walls across x, y, z do not hold it, although it has viscosity */
     const lom_fluid_body *blocks; /* of liquid at the beginning; where two overlap the first one counts */
     size_t block_count;           /* 1..LOM_FLUID_BODIES */
     const lom_fluid_body *solids; /* obstacles: cells whose middles lie in them */
@@ -68,7 +70,7 @@ typedef struct lom_fluid_params {
     const char *name; /* NULL when it has none; unique in the scene */
     bool visible;
     double start; /* seconds: until then it stands still */
-    double low[3], high[3], spacing, step, gravity[3], viscosity, solid_viscosity, melting[2],
+    double low[3], high[3], spacing, step, gravity[3], viscosity, solid_viscosity, melting[2], latent_heat,
         conductivity; /* as of lom_fluid_desc */
     lom_fluid_body *blocks, *solids;
     size_t block_count, solid_count;
@@ -105,7 +107,7 @@ lom_fluid_view lom_view_fluid(const lom_fluid *fluid);
 /* Particles are in an order that is always the same, and which a step may change. */
 typedef struct lom_fluid_particle {
     double position[3], velocity[3];
-    double temperature;
+    double temperature, melted; /* melted: 0 solid .. 1 liquid, by `melting` and `latent_heat` */
 } lom_fluid_particle;
 /* Number i, below the count of the view. */
 lom_fluid_particle lom_fluid_particle_at(const lom_fluid *fluid, size_t i);

@@ -57,6 +57,7 @@ static bool resolve_desc(lom_fluid_desc *d, int cells[3], lom_error *error)
         !resolve(&d->viscosity, 0, 0, 1e4, "viscosity in m^2/s", error) ||
         !resolve(&d->solid_viscosity, d->viscosity, 0, 1e4, "solid viscosity in m^2/s", error) ||
         !resolve(&d->conductivity, 0, 0, 10, "conductivity in m^2/s", error) ||
+        !resolve(&d->latent_heat, 0, 0, 1e6, "latent heat in degrees", error) ||
         !lom_check_range(d->melting[0], -1e6, 1e6, error, "The low end of a fluid's melting") ||
         !lom_check_range(d->melting[1], d->melting[0], 1e6, error, "The high end of a fluid's melting"))
         return false;
@@ -118,7 +119,7 @@ static size_t fill_cell(const struct lom_fluid *f, const int cell[3], struct lom
             continue;
         if (out != NULL) {
             struct lom_fluid_point *point = &out[count];
-            point->temperature = block->temperature;
+            point->heat = lom_fluid_heat(&f->desc, block->temperature);
             for (int i = 0; i < 3; i++) {
                 point->at[i] = cell[i] + (corner >> i & 1 ? 0.75 : 0.25);
                 point->velocity[i] = block->velocity[i] / f->cell;
@@ -172,7 +173,7 @@ static bool allocate_grid(struct lom_fluid *f, lom_error *error)
     for (int i = 0; i < 3; i++)
         f->face[i] = lom_allocate(f->count, sizeof *f->face[i], error);
     f->density = lom_allocate(f->count, sizeof *f->density, error);
-    f->temperature = lom_allocate(f->count, sizeof *f->temperature, error);
+    f->cell_heat = lom_allocate(f->count, sizeof *f->cell_heat, error);
     f->kind = lom_allocate(f->count, 1, error);
     f->open = lom_allocate(f->count, 1, error);
     f->unknown = lom_allocate(f->count, sizeof *f->unknown, error);
@@ -181,7 +182,7 @@ static bool allocate_grid(struct lom_fluid *f, lom_error *error)
     if (heats)
         f->solid_temperature = lom_allocate(f->count, sizeof *f->solid_temperature, error);
     return f->first != NULL && f->face[0] != NULL && f->face[1] != NULL && f->face[2] != NULL && f->density != NULL &&
-           f->temperature != NULL && f->kind != NULL && f->open != NULL && f->unknown != NULL && f->pressure != NULL &&
+           f->cell_heat != NULL && f->kind != NULL && f->open != NULL && f->unknown != NULL && f->pressure != NULL &&
            f->push != NULL && (f->solid_temperature != NULL || !heats);
 }
 
@@ -253,10 +254,10 @@ void lom_free_fluid(lom_fluid *f)
     if (f == NULL)
         return;
     struct lom_fluid_system *s = &f->system;
-    void *const arrays[] = { f->points,   f->sorted,  f->solids,    f->first,    f->face[0],     f->face[1],
-                             f->face[2],  f->density, f->kind,      f->open,     f->unknown,     f->pressure,
-                             f->push,     f->cell_of, s->neighbour, s->diagonal, s->right,       s->x,
-                             s->residual, s->way,     s->product,   s->partial,  f->temperature, f->solid_temperature };
+    void *const arrays[] = { f->points,   f->sorted,  f->solids,    f->first,    f->face[0],   f->face[1],
+                             f->face[2],  f->density, f->kind,      f->open,     f->unknown,   f->pressure,
+                             f->push,     f->cell_of, s->neighbour, s->diagonal, s->right,     s->x,
+                             s->residual, s->way,     s->product,   s->partial,  f->cell_heat, f->solid_temperature };
     lom_close_strain(f);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         lom_release(arrays[i]);
@@ -326,7 +327,8 @@ lom_fluid_particle lom_fluid_particle_at(const lom_fluid *f, size_t i)
 {
     LOM_OWN_FLOAT_STATE;
     const struct lom_fluid_point *point = &f->points[i];
-    lom_fluid_particle particle = { .temperature = point->temperature };
+    lom_fluid_particle particle = { .temperature = lom_fluid_temperature(&f->desc, point->heat),
+                                    .melted = lom_fluid_melted(&f->desc, point->heat) };
     for (int axis = 0; axis < 3; axis++) {
         particle.position[axis] = f->desc.low[axis] + point->at[axis] * f->cell;
         particle.velocity[axis] = point->velocity[axis] * f->cell;

@@ -12,7 +12,7 @@ struct lom_fluid_point {
     double at[3];
     double velocity[3];  /* cells/s */
     double affine[3][3]; /* 1/s: derivative of velocity [component] along [axis] */
-    double temperature;
+    double heat;         /* degrees: the temperature, and what has been taken in to melt (fluid_heat.c) */
 };
 
 enum lom_fluid_kind { LOM_FLUID_AIR, LOM_FLUID_LIQUID, LOM_FLUID_SOLID };
@@ -50,7 +50,7 @@ struct lom_fluid {
     uint32_t *first; /* of the points of a cell, count + 1 */
     struct lom_fluid_face *face[3];
     double *density;           /* particles a cell, weighted by their distance */
-    double *temperature;       /* of a cell's particles, their mean */
+    double *cell_heat;         /* of a cell's particles, their mean */
     uint8_t *kind;             /* of cells */
     uint8_t *open;             /* of faces: bit of an axis where it is no wall */
     double *solid_temperature; /* of solids that heat, else NAN; NULL: none does */
@@ -87,6 +87,10 @@ bool lom_open_strain(struct lom_fluid *f, lom_error *error);
 void lom_close_strain(struct lom_fluid *f);
 bool lom_shear_fluid(struct lom_fluid *f, lom_error *error);
 void lom_heat_fluid(struct lom_fluid *f);
+/* Of a particle's heat: the share of it that has melted, 0..1, and its temperature; and the heat at a temperature. */
+double lom_fluid_melted(const lom_fluid_desc *d, double heat);
+double lom_fluid_temperature(const lom_fluid_desc *d, double heat);
+double lom_fluid_heat(const lom_fluid_desc *d, double temperature);
 
 /* fluid_solve.c: conjugate gradients from the system's x on, until the residual is `tolerance` of the right side or
  * `most` rounds are done, which it returns. */

@@ -89,6 +89,10 @@ static const lom_key keys[] = {
       .text = "Below `melting`, where it is stiff (100 stands for seconds); 0: `viscosity` everywhere." },
     { "melting", LOM_KEY_NUMBER, AT(melting), 2, .flags = LOM_KEY_SPREAD, .minimum = -1e6, .maximum = 1e6,
       .unit = "degrees of heat", .text = "Temperatures between which one viscosity goes over into the other." },
+    { "latent_heat", LOM_KEY_NUMBER, AT(latent_heat), .maximum = 1e6, .unit = "degrees of heat",
+      .text =
+          "Heat that melting takes, in degrees by which it would warm the liquid: water 80, wax 70, iron 550. Until "
+          "it has been taken in the temperature stays within `melting`." },
     { "conductivity", LOM_KEY_NUMBER, AT(conductivity), .maximum = 10, .unit = "m^2/s",
       .text = "How fast temperatures even out: water 0.00000014, copper 0.0001; more melts sooner. 0: they stay." },
     { "block", LOM_KEY_TABLES, AT(blocks), .table = &block_table, .length_offset = AT(block_count),

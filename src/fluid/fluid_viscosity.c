@@ -55,13 +55,12 @@ void lom_close_strain(struct lom_fluid *f)
 
 /* ---- what there is ---- */
 
-/* From the solid's to the liquid's through a smooth step between the temperatures of melting, in logarithms: so that
+/* From the solid's to the liquid's through a smooth step of the share that has melted, in logarithms: so that
  * every tenth of the way divides it by the same. */
-static double viscosity_at(const lom_fluid_desc *d, double temperature)
+static double viscosity_at(const lom_fluid_desc *d, double heat)
 {
-    const double width = d->melting[1] - d->melting[0];
-    double t = width > 0 ? (temperature - d->melting[0]) / width : temperature >= d->melting[0] ? 1 : 0;
-    t = t < 0 ? 0 : t > 1 ? 1 : t * t * (3 - 2 * t);
+    double t = lom_fluid_melted(d, heat);
+    t = t * t * (3 - 2 * t);
     if (d->viscosity == 0 || d->solid_viscosity == 0)
         return d->solid_viscosity + t * (d->viscosity - d->solid_viscosity);
     return lom_double_exp(lom_double_log(d->solid_viscosity) * (1 - t) + lom_double_log(d->viscosity) * t);
@@ -75,7 +74,7 @@ static void find_viscosities(void *context, size_t first, size_t end)
         const size_t n = f->cell_of[i];
         double sum = 0;
         for (uint32_t p = f->first[n]; p < f->first[n + 1]; p++)
-            sum += f->points[p].temperature;
+            sum += f->points[p].heat;
         f->strain->viscosity[n] = scale * viscosity_at(&f->desc, sum / (f->first[n + 1] - f->first[n]));
     }
 }

@@ -86,9 +86,10 @@ const struct lom_key_row lom_key_rows[] = {
                   "spray.stretch spray.color spray.opacity spray.soft spray.forward" },
 
     { LOM_PART_FLUIDS | LOM_PART_TARGETS, "fluid fluid.visible quality.fluid" },
-    { LOM_PART_FLUIDS, "fluid.low fluid.high fluid.spacing fluid.step fluid.gravity fluid.viscosity "
-                       "fluid.solid_viscosity fluid.melting fluid.conductivity fluid.block fluid.block.* fluid.solid "
-                       "fluid.solid.*" },
+    { LOM_PART_FLUIDS,
+      "fluid.low fluid.high fluid.spacing fluid.step fluid.gravity fluid.viscosity "
+      "fluid.solid_viscosity fluid.melting fluid.latent_heat fluid.conductivity fluid.block fluid.block.* fluid.solid "
+      "fluid.solid.*" },
     { each_frame, "fluid.name fluid.start fluid.index fluid.absorption fluid.color fluid.highlight "
                   "fluid.shininess" },
 

@@ -236,9 +236,9 @@ static void numbers_out_of_range_are_refused(void)
     const lom_fluid_body block = { .high = { 1, 1, 1 } }, flat = { .high = { 1, 0, 1 } },
                          nowhere = { .low = { 5, 5, 5 }, .high = { 6, 6, 6 } };
     const lom_fluid_desc good = { .high = { 1, 1, 1 }, .spacing = 0.05, .blocks = &block, .block_count = 1 };
-    lom_fluid_desc bad[16];
+    lom_fluid_desc bad[17];
     size_t count = 0;
-    for (size_t i = 0; i < 16; i++)
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         bad[i] = good;
     bad[count++].spacing = 0;
     bad[count++].spacing = __builtin_nan("");
@@ -248,6 +248,7 @@ static void numbers_out_of_range_are_refused(void)
     bad[count++].step = 1;
     bad[count++].viscosity = -1;
     bad[count++].melting[0] = 1;
+    bad[count++].latent_heat = -1;
     bad[count++].gravity[2] = 2000;
     bad[count++].block_count = 0;
     bad[count++].block_count = LOM_FLUID_BODIES + 1;

@@ -19,6 +19,7 @@ static lom_fluid *begin(const lom_fluid_params *p, lom_error *error)
                             .step = p->step,
                             .viscosity = p->viscosity,
                             .solid_viscosity = p->solid_viscosity,
+                            .latent_heat = p->latent_heat,
                             .conductivity = p->conductivity,
                             .blocks = p->blocks,
                             .block_count = p->block_count,
