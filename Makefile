@@ -164,7 +164,7 @@ fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.
 
 .PHONY: all demo docs pages check check-long coverage wasm matrix fuzz lint format install uninstall clean help
 .PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
-	bench-impostors bench-mathematics bench-sampling
+	bench-octaves bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
 
 # $(call short,CC) before a command: a short line with the target's name, nothing with make -s, the command with V=1.
@@ -448,6 +448,14 @@ bench-light-grid: $(BUILD)/bench/light_grid
 	$<
 
 $(BUILD)/bench/light_grid: bench/light_grid.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
+# What models of clouds scatter, against random paths (bench/results/cloud-octaves.md).
+bench-octaves: $(BUILD)/bench/octaves
+	$(BUILD)/bench/octaves
+
+$(BUILD)/bench/octaves: bench/octaves.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
