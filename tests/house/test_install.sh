@@ -39,7 +39,7 @@ lom-cc -c triangle.c -o triangle.o || fail lom_cc_builds_all_widths "lom-cc fail
 $CC triangle.o $archive -o triangle || fail lom_cc_builds_all_widths "linking fails"
 all=$(./triangle) || fail lom_cc_builds_all_widths "the program fails"
 [ -s triangle.png ] || fail lom_cc_builds_all_widths "no picture is written"
-for example in mirror viewports blocks affine; do
+for example in mirror viewports blocks affine panes; do
     lom-cc -c $example.c -o $example.o && $CC $example.o $archive -o $example || fail lom_cc_builds_all_widths "$example.c"
     ./$example >$example.all && [ -s $example.png ] || fail lom_cc_builds_all_widths "$example.c draws nothing"
 done
@@ -56,7 +56,7 @@ $CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi triangle.c $
     fail one_width_is_enough "cc fails"
 one=$(./single)
 [ "$one" = "$all" ] || fail one_width_is_enough "$one is not $all"
-for example in mirror viewports blocks affine; do
+for example in mirror viewports blocks affine panes; do
     $CC -std=gnu11 -O2 -I"$prefix/include" -ffp-contract=off -Wno-psabi $example.c $archive -o single ||
         fail one_width_is_enough "cc fails on $example.c"
     [ "$(./single)" = "$(cat $example.all)" ] || fail one_width_is_enough "$(./single) is not $(cat $example.all)"
