@@ -189,6 +189,7 @@ static bool fill(void *memory, struct lom_waves_uniform *out, double time, lom_e
     struct state *state = memory;
     const lom_sea_desc *desc = lom_describe_sea(state->sea);
     out->cascade_count = desc->cascade_count;
+    out->period = (float)desc->cascade[0].length;
     for (int i = 0; i < desc->cascade_count; i++)
         if (!fill_cascade(state, out, i, time, error))
             return false;

@@ -127,7 +127,7 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
 {
     lom_trochoid trochoids[LOM_MAX_WAVES];
     lom_trochoid_report unread;
-    double high = 0, reach = 0;
+    double high = 0, reach = 0, longest = 0;
     out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER ? make_trochoids(waves, trochoids, &unread) : 0;
     for (int i = 0; i < out->trochoid_count; i++) {
         const lom_trochoid *t = &trochoids[i];
@@ -146,7 +146,9 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
         }
         high += t->amplitude;
         reach += t->across;
+        longest = t->number * longest < lom_two_pi ? lom_two_pi / t->number : longest;
     }
+    out->period = (float)(LOM_WAVES_A_PERIOD * longest);
     bool breaks = out->trochoid_count > 0 && foam->amount > 0;
     out->foam_threshold = breaks ? (float)foam->threshold : 0;
     out->foam_window = (float)foam->window;

@@ -16,7 +16,8 @@
 #include <lom/waves.h>
 
 enum { LOM_SURFACE_CASCADES = 4 };
-enum { LOM_FOAM_MOMENTS = 4 }; /* of the window, at which trochoids are looked at */
+enum { LOM_WAVES_A_PERIOD = 6 }; /* of the longest trochoids, as of the peak's waves in the patch of a sea */
+enum { LOM_FOAM_MOMENTS = 4 };   /* of the window, at which trochoids are looked at */
 
 struct lom_trochoid_uniform {
     float kx, kz;                        /* rad/m */
@@ -79,6 +80,7 @@ struct lom_waves_uniform {
     int trochoid_count, cascade_count;
     struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
     struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];
+    float period;          /* metres after which the pattern of trochoids and cascades seems to repeat; 0: never */
     float level;           /* y at rest, less the origin's */
     float lowest, highest; /* bounds of h, metres from the level */
     float reach;           /* bound of |(dx, dz)| */

@@ -55,6 +55,18 @@ static void add_trochoid_shift(const struct lom_trochoid_uniform *t, const struc
     p->dz = p->dz - t->across_z * found->sine;
 }
 
+/* A pattern that repeats shows its period where a period is a few samples wide, though each of its waves is seen whole:
+ * samples of it are wider, from all waves that they leave at 64 samples a period to none at 16, and what they take is
+ * roughness. It is the period across what is seen that counts: along a flat view it is short. */
+LOM_INLINE struct lom_footprint hide_period(const struct lom_waves_uniform *waves, const struct lom_footprint *f)
+{
+    if (!(waves->period > 0))
+        return *f;
+    lom_float across = lom_min(f->ax * f->ax + f->az * f->az, f->bx * f->bx + f->bz * f->bz);
+    lom_float wider = lom_clamp(across * (4096 / (waves->period * waves->period)), lom_splat(1.0f), lom_splat(0x1p40f));
+    return (struct lom_footprint){ f->ax * wider, f->az * wider, f->bx * wider, f->bz * wider };
+}
+
 /* What all others add to the shift of the trochoids. */
 static void add_other_shifts(const struct lom_waves_uniform *waves, lom_float x, lom_float z,
                              const struct lom_footprint *f, struct lom_wave_shift *p)
@@ -67,11 +79,12 @@ static void add_other_shifts(const struct lom_waves_uniform *waves, lom_float x,
     if (waves->surf.waves != NULL) {
         add_surf_shift(&waves->surf, x, z, f, p);
     }
+    const struct lom_footprint wide = hide_period(waves, f);
     for (int i = 0; i < waves->cascade_count; i++) {
         const struct lom_cascade_uniform *c = &waves->cascade[i];
         lom_float4 d =
             lom_sample(c->displacement, x * c->inverse_length + c->shift[0], z * c->inverse_length + c->shift[1],
-                       lom_wave_lod(c->displacement, f, c->inverse_length));
+                       lom_wave_lod(c->displacement, &wide, c->inverse_length));
         p->dx = p->dx + d.x;
         p->h = p->h + d.y;
         p->dz = p->dz + d.z;
@@ -227,8 +240,9 @@ static void add_other_slopes(const struct lom_waves_uniform *waves, lom_float x,
 {
     if (waves->surf.waves != NULL)
         add_surf_slopes(waves, x, z, f, w);
+    const struct lom_footprint wide = hide_period(waves, f);
     for (int i = 0; i < waves->cascade_count; i++)
-        add_cascade_slopes(&waves->cascade[i], x, z, f, w);
+        add_cascade_slopes(&waves->cascade[i], x, z, &wide, w);
     if (waves->shallow.surface != NULL)
         add_shallow_slopes(&waves->shallow, x, z, f, w);
     if (waves->river.field != NULL)
@@ -241,6 +255,7 @@ static void add_other_slopes(const struct lom_waves_uniform *waves, lom_float x,
 LOM_INLINE void find(const struct lom_waves_uniform *waves, lom_float x, lom_float z, const struct lom_footprint *f,
                      struct lom_wave_shift *shift, struct lom_wave_slopes *slopes)
 {
+    const struct lom_footprint wide = hide_period(waves, f);
     struct lom_wave_shift p = { { 0 }, { 0 }, { 0 } };
     struct lom_wave_slopes w;
     struct moments past;
@@ -249,7 +264,7 @@ LOM_INLINE void find(const struct lom_waves_uniform *waves, lom_float x, lom_flo
     memset(&past, 0, sizeof past);
     for (int i = 0; i < waves->trochoid_count; i++) {
         const struct lom_trochoid_uniform *t = &waves->trochoid[i];
-        struct trochoid found = find_trochoid(t, x, z, f);
+        struct trochoid found = find_trochoid(t, x, z, &wide);
         if (shift != NULL)
             add_trochoid_shift(t, &found, &p);
         if (slopes != NULL)
