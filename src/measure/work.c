@@ -19,7 +19,7 @@ static const struct {
     [LOM_WORK_SAMPLES] = { "samples beyond the first of a pixel", 1000 },
     [LOM_WORK_TRANSFORMED] = { "N^2 log2 N of Fourier transforms", 8 },
     [LOM_WORK_SHALLOW] = { "cells of shallow water in each step", 300 },
-    [LOM_WORK_PARTICLES] = { "particles of liquids in each step", 10000 },
+    [LOM_WORK_PARTICLES] = { "particles of liquids in each step", 5000 },
 };
 
 const char *lom_describe_work(size_t kind, uint64_t *weight)
