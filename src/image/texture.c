@@ -120,12 +120,15 @@ static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
 
 /* ---- layout ---- */
 
-/* Texels from a row to the next, `line` texels being a cache line, or 1 where rows need no line of their own. Not a
- * multiple of a kilobyte, whose rows would share few sets of a cache. */
-static uint64_t pitch_of(int width, uint64_t line)
+/* Texels from a row to the next. Rows whose pitch is near a multiple of half a kilobyte lie in few sets of a cache and
+ * throw one another out: theirs is an odd number of cache lines. `begins_line`: rows begin with a line anyway. */
+static uint64_t pitch_of(int width, uint64_t texel, bool begins_line)
 {
-    uint64_t lines = ((uint64_t)width + 1 + line) / line;
-    return (lines + (line > 1 && lines % 16 == 0)) * line;
+    const uint64_t line = CACHE_LINE / texel;
+    uint64_t pitch = (uint64_t)width + 2, lines = (pitch + line - 1) / line;
+    if (lines % 8 <= 1 && lines >= 16)
+        return (lines | 1) * line;
+    return begins_line ? lines * line : pitch;
 }
 
 /* Beyond the last level lie the texels that a sample at the far border reads with weight 0. */
@@ -140,7 +143,8 @@ static bool lay_out(lom_texture *texture, const lom_texture_desc *desc, lom_erro
         l->width = desc->width >> i > 1 ? desc->width >> i : 1;
         l->height = desc->height >> i > 1 ? desc->height >> i : 1;
         l->depth = depth >> i > 1 ? depth >> i : 1;
-        uint64_t pitch = pitch_of(l->width, line), slice = pitch * ((uint64_t)l->height + 2); /* < 2^31 */
+        uint64_t pitch = pitch_of(l->width, lom_texel_size(texture), target);
+        uint64_t slice = pitch * ((uint64_t)l->height + 2); /* < 2^31 */
         bool deep = texture->kind == LOM_TEXTURE_3D;
         uint64_t slices = deep ? (uint64_t)l->depth + 2 : (uint64_t)lom_level_layers(texture, i);
         l->pitch = (size_t)pitch;

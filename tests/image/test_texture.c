@@ -333,6 +333,32 @@ static void bad_descriptors_are_refused(void)
     lom_free_texture(NULL);
 }
 
+/* How many of the 64 sets of a cache with 4096 bytes a way hold the beginnings of 64 rows. */
+static int sets_of_rows(const lom_texture *texture)
+{
+    uint64_t sets = 0;
+    int count = 0;
+    for (size_t row = 0; row < 64; row++)
+        sets |= UINT64_C(1) << (row * texture->level[0].pitch * lom_texel_size(texture) / 64 % 64);
+    for (; sets != 0; sets &= sets - 1)
+        count++;
+    return count;
+}
+
+static void rows_lie_in_many_sets_of_a_cache(void)
+{
+    const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA32F };
+    const uint32_t pixels[2200 * 4] = { 0 };
+    for (int i = 0; i < 2; i++)
+        for (int width = 250; width <= 2200; width++) {
+            lom_texture *texture = lom_create_texture(
+                &(lom_texture_desc){ .width = width, .height = 1, .format = formats[i], .pixels = pixels }, NULL);
+            CHECK(texture->level[0].pitch >= (size_t)width + 2, "width %d", width);
+            CHECK(sets_of_rows(texture) >= 16, "width %d: %d sets", width, sets_of_rows(texture));
+            lom_free_texture(texture);
+        }
+}
+
 int main(int argc, char **argv)
 {
     RUN(every_format_comes_back);
@@ -341,6 +367,7 @@ int main(int argc, char **argv)
     RUN(supplied_levels_are_kept);
     RUN(finishing_follows_level_zero);
     RUN(rows_of_targets_begin_with_a_cache_line);
+    RUN(rows_lie_in_many_sets_of_a_cache);
     RUN(updated_textures_are_new_ones);
     RUN(updates_of_another_size_are_refused);
     RUN(floats_are_kept_finite);
