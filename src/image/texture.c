@@ -120,13 +120,14 @@ static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
 
 /* ---- layout ---- */
 
-/* Texels from a row to the next. Rows whose pitch is near a multiple of half a kilobyte lie in few sets of a cache and
- * throw one another out: theirs is an odd number of cache lines. `begins_line`: rows begin with a line anyway. */
+/* Texels from a row to the next. Rows whose pitch is near a simple part or multiple of 4096 bytes lie in few sets of a
+ * cache and throw one another out: those of a kilobyte and more have an odd number of cache lines. `begins_line`: rows
+ * begin with a line anyway. */
 static uint64_t pitch_of(int width, uint64_t texel, bool begins_line)
 {
     const uint64_t line = CACHE_LINE / texel;
     uint64_t pitch = (uint64_t)width + 2, lines = (pitch + line - 1) / line;
-    if (lines % 8 <= 1 && lines >= 16)
+    if (lines >= 16)
         return (lines | 1) * line;
     return begins_line ? lines * line : pitch;
 }
