@@ -102,8 +102,7 @@ static const struct base bases[] = {
       "camera.position",
       VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n" },
     { "sampled_lake", "quality.refraction_samples",
-      "samples = 4\n" VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n[quality]\n"
-      "refraction_samples = 4\n" },
+      "samples = 4\n" VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n" },
     { "clouds",
       "cloud clouds camera.near camera.position camera.field_of_view light.elevation quality.march quality.cloud_error "
       "quality.cloud_stop quality.cloud_octaves quality.cloud_jitter quality.cloud_light_scale quality.clouds",
