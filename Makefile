@@ -12,6 +12,7 @@
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
 #   make check-long             every float through every conversion and lane function; runs shared out among workers;
+#                               the pictures of the pages drawn again (docs/pictures.sh);
 #                               Mesa, FFTW, MPFR and OpenVDB as witnesses, where they are installed
 #   make docs                   all pages, lessons and the headers' comments as HTML, in build/docs
 #   make clean, make help
@@ -377,6 +378,7 @@ $(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
 LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/lanes/test_every_float.w4 $(BUILD)/tests/render/test_key_ranges $(BUILD)/tests/render/test_change $(BUILD)/tests/inspect/test_explain
 check-long: all $(LONG_TESTS)
 	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
+	BUILD='$(BUILD)' docs/pictures.sh --check
 	BUILD='$(BUILD)' tests/house/many_machines.sh
 	MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' VARIANTS='$(VARIANTS)' tests/witness/witnesses.sh
 
