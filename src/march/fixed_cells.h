@@ -51,12 +51,10 @@ LOM_INLINE lom_pairs fixed_cell(const lom_pairs c[8], const struct fixed_place *
     return lom_mix_pairs(lom_mix_pairs(row[0], row[1], at->x), lom_mix_pairs(row[2], row[3], at->x), at->y);
 }
 
-/* Colour, and the density by the operations of fixed_density. */
-LOM_INLINE lom_float3 fixed_volume_all(const lom_volume *volume, const struct fixed_place *at, lom_float *density)
+/* Colour of the eight corners, and the density by the operations of fixed_density. */
+LOM_INLINE lom_float3 fixed_mix_all(const lom_int corner[8], const struct fixed_place *at, lom_float *density)
 {
-    lom_int corner[8];
     lom_pairs even[8], odd[8];
-    lom_load_volume_corners(volume, (lom_volume_place){ .index = at->index }, corner);
     for (int i = 0; i < 8; i++) {
         even[i] = lom_even_bytes(corner[i]);
         odd[i] = lom_odd_bytes(corner[i]);
@@ -65,6 +63,13 @@ LOM_INLINE lom_float3 fixed_volume_all(const lom_volume *volume, const struct fi
     const float byte = 1 / LOM_FIXED_BYTE;
     *density = lom_upper_of_pairs(ga) * byte;
     return (lom_float3){ lom_lower_of_pairs(rb) * byte, lom_lower_of_pairs(ga) * byte, lom_upper_of_pairs(rb) * byte };
+}
+
+LOM_INLINE lom_float3 fixed_volume_all(const lom_volume *volume, const struct fixed_place *at, lom_float *density)
+{
+    lom_int corner[8];
+    lom_load_volume_corners(volume, (lom_volume_place){ .index = at->index }, corner);
+    return fixed_mix_all(corner, at, density);
 }
 
 /* The upper 15 bits of two numbers of 16. */

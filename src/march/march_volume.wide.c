@@ -2,6 +2,7 @@
  * Invariant: skipping leaves out only steps at which every ray's density is exactly 0; such a step adds 0 to both. */
 #include "fixed_cells.h"
 #include "lanes/notes.h"
+#include "near_cells.h"
 
 /* The bundle as one ray with a width, in cells: every ray stays within `spread` of the centre, which moves by at most
  * `speed` a step (both as the largest of the three axes). */
@@ -104,29 +105,25 @@ typedef struct sampler {
     bool fixed;
 } sampler;
 
-LOM_INLINE lom_float sample_density(sampler s, lom_volume_place place)
+LOM_INLINE lom_float sample_density(sampler s, const struct spot *spot)
 {
+    lom_int low, high;
+    load_densities(s.volume, spot, &low, &high);
     if (!s.fixed)
-        return lom_sample_density(s.volume, place);
-    struct fixed_place at = fix_place(place);
-    return fixed_density(s.volume, &at);
+        return lom_mix_corners(low, high, spot->place);
+    struct fixed_place at = fix_place(spot->place);
+    return fixed_corners(low, high, &at);
 }
 
-LOM_INLINE lom_float3 sample_color(sampler s, lom_volume_place place)
+/* Colour, and the density of sample_density. */
+LOM_INLINE lom_float3 sample_all(sampler s, const struct spot *spot, lom_float *density)
 {
+    lom_int corner[8];
+    load_corners(s.volume, spot, corner);
     if (!s.fixed)
-        return lom_sample_volume_color(s.volume, place);
-    lom_float density;
-    struct fixed_place at = fix_place(place);
-    return fixed_volume_all(s.volume, &at, &density);
-}
-
-LOM_INLINE lom_float3 sample_all(sampler s, lom_volume_place place, lom_float *density)
-{
-    if (!s.fixed)
-        return lom_sample_volume_all(s.volume, place, density);
-    struct fixed_place at = fix_place(place);
-    return fixed_volume_all(s.volume, &at, density);
+        return mix_corners(corner, spot->place, density);
+    struct fixed_place at = fix_place(spot->place);
+    return fixed_mix_all(corner, &at, density);
 }
 
 /* The steps that can matter: all, or with skips those before every ray has left an empty border. */
@@ -163,20 +160,19 @@ LOM_INLINE void march(bool fixed, lom_float4 *out, const lom_march_rays *rays, c
         }
         sampled++;
         lom_float3 p = lom_add3(rays->start, lom_scale3(rays->step, lom_splat((float)i)));
-        lom_volume_place at = lom_find_in_volume(desc->volume, p);
+        struct spot at = find_spot(desc->volume, p);
         lom_float density;
         lom_float3 color;
         if (skips && was_empty) { /* what follows what is not empty seldom is: then both at once */
-            density = sample_density(from, at);
+            density = sample_density(from, &at);
             was_empty = !lom_any((density > 0.0f) & alive);
             if (was_empty)
                 continue;
-            color = sample_color(from, at);
-        } else {
-            color = sample_all(from, at, &density);
-            was_empty = !lom_any((density > 0.0f) & alive);
         }
-        lom_float above = sample_density(from, lom_find_in_volume(desc->volume, lom_add3(p, offset)));
+        color = sample_all(from, &at, &density);
+        was_empty = !lom_any((density > 0.0f) & alive);
+        struct spot over = find_spot(desc->volume, lom_add3(p, offset));
+        lom_float above = sample_density(from, &over);
         lom_float seen = (1.0f - sum.w) * (density * desc->absorption);
         seen = lom_as_float(lom_as_int(seen) & alive);
         LOM_NOTE(LOM_NOTE_STEP, desc->volume, lom_splat((float)i), lom_splat(1.0f), density, lom_as_float(alive));

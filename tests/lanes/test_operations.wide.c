@@ -1,5 +1,6 @@
 /* Proves that every override of a lane operation gives, bit for bit, what its definition gives: on special values in
  * every pairing, and on random bit patterns. NaNs are compared as NaN: payloads are not defined. */
+#include "lanes/fours.h"
 #include "lanes/pair_products.h"
 
 #include "check.h"
@@ -95,6 +96,25 @@ static void gathers_read_what_their_indices_name(void)
         CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs %d", index[0]);
         lom_float4 a = lom_load_rows(rows, 1), b = lom_defined_load_rows(rows, 1);
         CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "load_rows %d", index[0]);
+    }
+}
+
+static void fours_are_loaded_and_picked(void)
+{
+    int32_t table[256];
+    for (int i = 0; i < 256; i++)
+        table[i] = i * 3 - 100;
+    for (uint64_t n = 0; n < 1000; n++) {
+        lom_int index = pattern(14, n) & 127, which = pattern(15, n) & (2 * LOM_LANES - 1);
+        const int32_t *from[LOM_LANES / 4];
+        for (int i = 0; i < LOM_LANES / 4; i++)
+            from[i] = table + index[i];
+        lom_int low = lom_load_fours(from), high = lom_defined_load_fours(from);
+        CHECK(same_int(low, high), "load_fours %d", index[0]);
+        CHECK(low[LOM_LANES - 1] == from[LOM_LANES / 4 - 1][3], "the last is the fourth of the last place");
+        high = pattern(16, n);
+        CHECK(same_int(lom_permute_two(low, high, which), lom_defined_permute_two(low, high, which)), "permute_two %d",
+              which[0]);
     }
 }
 
@@ -275,6 +295,7 @@ int main(int argc, char **argv)
     RUN(compress_keeps_set_lanes_in_order);
     RUN(lanes_are_permuted_by_their_numbers);
     RUN(gathers_read_what_their_indices_name);
+    RUN(fours_are_loaded_and_picked);
     RUN(rows_are_gathered_and_scattered_in_lane_order);
     RUN(matrices_multiply_each_lane);
     RUN(halves_come_from_and_go_to_two_places);

@@ -1,8 +1,9 @@
 /* Proves: distances of a volume are the Chebyshev distances that brute force finds; samples agree with trilinear
- * interpolation in double; skipping empty space changes no byte of any ray. */
+ * interpolation in double; skipping empty space changes no byte of any ray; what lanes read by shared rows is what they
+ * gather. */
 #include "check.h"
 
-#include <lom/march.h>
+#include "march/near_cells.h"
 
 static uint32_t random_below(uint32_t *state, uint32_t limit)
 {
@@ -224,6 +225,77 @@ static void test_gray_is_the_density_of_white(void)
     lom_free_image(image);
 }
 
+static bool same_words(lom_int a, lom_int b)
+{
+    return lom_all(a == b);
+}
+
+/* Lanes around a place of the volume or of its surroundings, `spread` cells apart at most. */
+static struct spot random_spot(uint32_t *state, const lom_volume *volume, float spread)
+{
+    float at[3][LOM_LANES], middle[3];
+    const int size[3] = { volume->width, volume->height, volume->depth };
+    for (int axis = 0; axis < 3; axis++) {
+        middle[axis] = random_between(state, -0.1f, 1.1f);
+        for (int i = 0; i < LOM_LANES; i++)
+            at[axis][i] = middle[axis] + random_between(state, -0.5f, 0.5f) * spread / (float)size[axis];
+    }
+    return find_spot(volume, (lom_float3){ lom_load(at[0]), lom_load(at[1]), lom_load(at[2]) });
+}
+
+/* At 16 lanes rows are shared, and by nearly all packets of half a cell; memory ends behind the last voxel. */
+static void test_shared_rows_hold_what_is_gathered(void)
+{
+    static const int sizes[][3] = { { 1, 1, 1 }, { 2, 1, 3 }, { 3, 2, 2 }, { 4, 3, 2 }, { 9, 7, 5 }, { 17, 12, 20 } };
+    static const float spreads[] = { 0.0f, 0.5f, 1.0f, 1.9f, 4.0f };
+    uint32_t state = 12;
+    for (size_t n = 0; n < sizeof sizes / sizeof *sizes; n++) {
+        lom_image *image = lom_create_image(sizes[n][0], sizes[n][1], sizes[n][2], LOM_FORMAT_RGBA8, NULL);
+        for (int i = 0; i < sizes[n][0] * sizes[n][1] * sizes[n][2] * 4; i++)
+            image->pixels[i] = (uint8_t)random_below(&state, 256);
+        lom_volume *volume = lom_create_volume(image, NULL);
+        int shared = 0;
+        for (int round = 0; round < 2000; round++) {
+            struct spot spot = random_spot(&state, volume, spreads[round % 5]);
+            lom_int low[2], high[2], got[8], want[8];
+            load_densities(volume, &spot, &low[0], &high[0]);
+            lom_gather_pairs(volume->density, spot.place.index + spot.place.index, &low[1], &high[1]);
+            CHECK(same_words(low[0], low[1]) && same_words(high[0], high[1]), "densities, round %d", round);
+            load_corners(volume, &spot, got);
+            lom_load_volume_corners(volume, spot.place, want);
+            for (int i = 0; i < 8; i++)
+                CHECK(same_words(got[i], want[i]), "size %zu, corner %d, round %d", n, i, round);
+            struct share share = find_share(&spot, first_of_two(spot.x), first_of_two(spot.y), first_of_two(spot.z), 2);
+            shared += share.holds && round % 5 == 1;
+        }
+        CHECK(shared >= 390, "%d of 400 packets of half a cell are shared", shared);
+        lom_free_volume(volume);
+        lom_free_image(image);
+    }
+}
+
+static void test_spots_are_places(void)
+{
+    uint32_t state = 4;
+    lom_image *image = random_image(&state, 9, 5, 7);
+    lom_volume *volume = lom_create_volume(image, NULL);
+    for (int round = 0; round < 200; round++) {
+        float at[3][LOM_LANES];
+        for (int i = 0; i < 3 * LOM_LANES; i++)
+            at[i / LOM_LANES][i % LOM_LANES] = random_between(&state, -0.25f, 1.25f);
+        lom_float3 p = { lom_load(at[0]), lom_load(at[1]), lom_load(at[2]) };
+        struct spot spot = find_spot(volume, p);
+        lom_volume_place place = lom_find_in_volume(volume, p);
+        CHECK(same_words(spot.place.index, place.index), "round %d", round);
+        CHECK(same_words(lom_as_int(spot.place.x), lom_as_int(place.x)) &&
+                  same_words(lom_as_int(spot.place.y), lom_as_int(place.y)) &&
+                  same_words(lom_as_int(spot.place.z), lom_as_int(place.z)),
+              "round %d", round);
+    }
+    lom_free_volume(volume);
+    lom_free_image(image);
+}
+
 static void test_bad_images_are_refused(void)
 {
     lom_error error = { 0 };
@@ -242,6 +314,8 @@ int main(int argc, char **argv)
     RUN(test_skipping_changes_no_byte);
     RUN(test_extreme_rays_are_safe);
     RUN(test_gray_is_the_density_of_white);
+    RUN(test_spots_are_places);
+    RUN(test_shared_rows_hold_what_is_gathered);
     RUN(test_bad_images_are_refused);
     return check_result();
 }
