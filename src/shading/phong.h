@@ -11,10 +11,6 @@ struct lom_lit {
     lom_float3 textured, highlight;
 };
 
-/* The share of the sunlight that entities let through to a place with this normal (shadow_map.wide.c). */
-void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
-                                lom_float *share);
-
 /* sky: the share of the sky that the place sees. exponent: of the highlight; NULL: the material's shininess. One function a
  * width, so that no shader has a copy. */
 void LOM_WIDE(lom_phong_light_lanes)(const struct lom_view_uniform *view, const struct lom_material_uniform *m,

@@ -84,7 +84,7 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
     lom_float facing = f->model->diffuse(f->reflection, lom_dot3(normal, lom_uniform3(light->to_light)));
     if (view->entity_shadow.count != 0 && lom_any(facing * share > 0.0f)) {
         lom_float open;
-        LOM_WIDE(lom_entity_light)(view, &f->offset, &normal, &open);
+        LOM_WIDE(lom_entity_light)(&view->entity_shadow, &f->offset, &normal, &open);
         share = share * open;
     }
     lom_float lambert = facing * share * caustic_light(view, f->offset);

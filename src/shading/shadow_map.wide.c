@@ -1,7 +1,7 @@
 /* Shadows of entities and of what stands before lamps. In: maps of the depth that a light sees, places of surfaces. Out:
  * the share of the light that comes to a place. */
 #include "shading/lamp.h"
-#include "shading/phong.h"
+#include "shading/sun_shadow.h"
 
 /* What share of a map's texels around a place has something nearer to the light than it, and what share has not. */
 struct kernel {
@@ -74,10 +74,9 @@ static lom_float cascade_light(const struct lom_sun_shadow_uniform *sun, lom_flo
     return lom_select(sum.dark > 0.0f, sum.open, lom_splat(1.0f));
 }
 
-void LOM_WIDE(lom_entity_light)(const struct lom_view_uniform *view, const lom_float3 *offset, const lom_float3 *normal,
-                                lom_float *share)
+void LOM_WIDE(lom_entity_light)(const struct lom_sun_shadow_uniform *sun, const lom_float3 *offset,
+                                const lom_float3 *normal, lom_float *share)
 {
-    const struct lom_sun_shadow_uniform *sun = &view->entity_shadow;
     if (sun->cascaded) {
         *share = cascade_light(sun, *offset, *normal);
         return;

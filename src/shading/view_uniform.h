@@ -3,6 +3,7 @@
 #define LOM_SHADING_VIEW_UNIFORM_H
 
 #include "shading/haze.h"
+#include "shading/sun_shadow.h"
 
 struct lom_material_uniform {
     float ambient[3], diffuse[3], specular[3], shininess;
@@ -30,23 +31,6 @@ struct lom_caustics_uniform {
     float level, strength;
     float fade;      /* 1 / metres below the level over which they appear */
     float lod_scale; /* texels of the map a pixel covers, per metre of distance; of parallel rays at any */
-};
-
-/* How near to the sun entities reach, seen from it. */
-struct lom_shadow_map_uniform {
-    const lom_texture *map;     /* depth, 0 where there is none */
-    float s[4], t[4], depth[4]; /* rows: texture coordinates and depth of an offset (x, y, z, 1) */
-    float size, texel;          /* texels a side, and 1 / size */
-    float offset;               /* metres that a place is moved along its normal, so that it does not shade itself */
-};
-
-/* Those of a frame that show something: each a part of the entities; or cascades of the view, of which a place takes the
- * first that holds it, and at its border some of the next. */
-enum { LOM_ENTITY_SHADOWS = 4 };
-struct lom_sun_shadow_uniform {
-    int count;
-    bool cascaded;
-    struct lom_shadow_map_uniform map[LOM_ENTITY_SHADOWS];
 };
 
 /* What every draw of opaque things in a pass shares. Offsets are places less the eye. */

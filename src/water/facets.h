@@ -81,7 +81,7 @@ LOM_INLINE bool lom_facets_mirror(const struct lom_surface_uniforms *u, const st
     return true;
 }
 
-/* The sun in the facets. */
+/* The sun in the facets, where neither clouds nor terrain nor entities hide it. */
 LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
     lom_float3 none = { { 0 }, { 0 }, { 0 } };
@@ -89,7 +89,8 @@ LOM_INLINE lom_float3 lom_glitter(const struct lom_surface_uniforms *u, const st
     if (!(u->light.to_light[1] > 0) || u->side < 0 || !(u->glitter > 0) ||
         !lom_facets_mirror(u, p, lom_uniform3(u->light.to_light), &radiance))
         return none;
-    return lom_scale3(lom_uniform3(u->light.color), radiance * lom_light_share(&u->light, p->offset));
+    radiance = radiance * lom_light_share(&u->light, p->offset);
+    return lom_scale3(lom_uniform3(u->light.color), lom_open_water_share(&u->entity_shadow, p->offset, radiance));
 }
 
 /* Lamps above it in the facets, one after the other. */

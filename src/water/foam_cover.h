@@ -135,6 +135,7 @@ LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, co
 LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
     lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->offset);
+    lambert = lom_open_water_share(&u->entity_shadow, p->offset, lambert);
     lom_float3 light = lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert));
     if (u->light.lamps != NULL)
         light = lom_add3(light, lom_lamps_on_foam(u, p));

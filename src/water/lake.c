@@ -17,6 +17,7 @@ static struct lom_lake_uniforms find_uniforms(const lom_water_params *water, con
     double x = (view->eye.x - water->position[0]) / water->tile, z = (view->eye.z - water->position[1]) / water->tile;
 
     struct lom_lake_uniforms u = { .light = view->light,
+                                   .entity_shadow = view->entity_shadow,
                                    .clip_from_offset = view->clip_from_offset,
                                    .level = (float)(water->level - view->eye.y),
                                    .pixel = { 1.0f / (float)view->frame_width, 1.0f / (float)view->frame_height },

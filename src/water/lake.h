@@ -4,6 +4,7 @@
 
 #include "shading/eye.h"
 #include "shading/light.h"
+#include "shading/sun_shadow.h"
 
 #include <lom/geometry.h>
 #include <lom/water.h>
@@ -11,6 +12,7 @@
 struct lom_lake_uniforms {
     struct lom_matrix_uniform clip_from_offset;
     struct lom_light_uniform light;
+    struct lom_sun_shadow_uniform entity_shadow;
     float level;    /* metres over the eye */
     float pixel[2]; /* 1 / size of the whole frame */
     float tile;     /* 1 / metres of one repetition of the maps */
@@ -39,6 +41,7 @@ typedef struct lom_lake_view {
     double time;
     int frame_width, frame_height;
     struct lom_light_uniform light;
+    struct lom_sun_shadow_uniform entity_shadow;
     const lom_texture *reflection, *refraction, *refraction_depth, *normal_map, *flow_map;
 } lom_lake_view;
 

@@ -149,6 +149,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     if (lake->has_specular) {
         lom_float highlight =
             lom_phong_specular(&lake->light, w.normal, to_eye, lake->shininess) * lom_light_share(&lake->light, offset);
+        highlight = lom_open_water_share(&lake->entity_shadow, offset, highlight);
         highlight = highlight * lake->specular_strength * lom_saturate(w.depth * lake->inverse_clear);
         LOM_NAME_VALUE(highlight);
         color = lom_add3(color, lom_scale3(lom_uniform3(lake->light.color), highlight));

@@ -5,6 +5,7 @@
 
 #include "shading/eye.h"
 #include "shading/gradient.h"
+#include "shading/sun_shadow.h"
 #include "waves/wave_lanes.h"
 
 #include <lom/water.h>
@@ -56,6 +57,7 @@ struct lom_surface_uniforms {
     struct lom_matrix_uniform clip_from_offset;
     struct lom_waves_uniform waves;
     struct lom_light_uniform light;
+    struct lom_sun_shadow_uniform entity_shadow;
     struct lom_picture_uniform mirrored; /* what the surface reflects: the side of the eye, mirrored in the plane */
     struct lom_picture_uniform behind;   /* the other side, as the eye sees it */
     struct lom_medium_uniform medium;

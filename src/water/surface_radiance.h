@@ -320,7 +320,10 @@ LOM_INLINE lom_float3 lom_surface_radiance(const struct lom_surface_uniforms *u,
     LOM_NAME_VALUE(glitter);
     if (u->foam.pattern == NULL)
         return color;
-    return lom_mix3(color, lom_foam_radiance(u, p), lom_foam_cover(u, p, f));
+    lom_float cover = lom_foam_cover(u, p, f);
+    if (!lom_any(cover > 0.0f))
+        return color;
+    return lom_mix3(color, lom_foam_radiance(u, p), cover);
 }
 
 #endif

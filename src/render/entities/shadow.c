@@ -33,13 +33,18 @@ static lom_box join(lom_box a, lom_box b)
 }
 
 /* All that a shadow could fall on. */
-static lom_box find_receivers(const lom_renderer *r)
+static lom_box find_receivers(const struct frame *f)
 {
+    const lom_renderer *r = f->renderer;
     lom_box all = r->entities.items[0].at->bounds;
     for (size_t i = 1; i < r->entities.count; i++)
         all = join(all, r->entities.items[i].at->bounds);
     for (int i = 0; i < r->ground.across * r->ground.down; i++)
         all = join(all, r->ground.blocks[i].bounds);
+    lom_box surface;
+    for (size_t i = 0; i <= f->scene->other_water_count; i++)
+        if (lom_water_shows_sun(f, i, &surface))
+            all = join(all, surface);
     return all;
 }
 
@@ -90,7 +95,7 @@ static size_t mark_casters(struct frame *f, lom_vec3 to_light)
 {
     lom_renderer *r = f->renderer;
     const struct lom_seen seen = lom_find_seen(f);
-    const lom_box all = find_receivers(r);
+    const lom_box all = find_receivers(f);
     size_t count = 0;
     for (size_t i = 0; i < r->entities.count; i++) {
         struct lom_drawn_entity *e = &r->entities.items[i];

@@ -18,6 +18,7 @@ static lom_lake_view lake_view(const struct frame *f)
                             .frame_width = f->width,
                             .frame_height = f->height,
                             .light = lom_renderer_light(r, f->view.eye),
+                            .entity_shadow = lom_entity_shadow_uniform(&r->entities, f->view.eye),
                             .normal_map = r->water->normal_map,
                             .flow_map = r->water->flow_map };
 }

@@ -58,6 +58,9 @@ bool lom_prepare_waters(struct frame *f, lom_error *error);
 bool lom_draw_lakes(struct frame *f, lom_error *error);
 bool lom_find_surfaces(struct frame *f, lom_error *error);
 bool lom_draw_surfaces(struct frame *f, lom_error *error);
+/* Whether a water of the scene shows the sun's light, as glints or on foam, so that a shadow can be seen on it; and where
+ * its surface may be. */
+bool lom_water_shows_sun(const struct frame *f, size_t number, lom_box *where);
 /* All that waters beside the first load and free. */
 bool lom_load_other_waters(lom_renderer *renderer, lom_error *error);
 void lom_free_other_waters(lom_renderer *renderer);

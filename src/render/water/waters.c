@@ -48,6 +48,28 @@ void lom_free_other_waters(lom_renderer *renderer)
 
 /* ---- a frame ---- */
 
+bool lom_water_shows_sun(const struct frame *f, size_t number, lom_box *where)
+{
+    const lom_water_params *water = lom_water_of(f->scene, number);
+    const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
+    const struct lom_drawn_water *drawn = &f->renderer->waters[number];
+    const bool shines =
+        model->has_waves ? water->optics.glitter > 0 || drawn->foam != NULL : model->is_looked_up && water->specular;
+    double low = water->level, high = water->level;
+    if (!water->present || !water->enabled || !shines)
+        return false;
+    if (model->has_waves && drawn->waves != NULL) {
+        struct lom_waves_uniform waves;
+        lom_bound_waves(drawn->waves, &waves, f->view.eye, f->time);
+        low += (double)waves.lowest;
+        high += (double)waves.highest;
+    }
+    const double *middle = water->position, *size = water->size;
+    *where = (lom_box){ { middle[0] - size[0] / 2, low, middle[1] - size[1] / 2 },
+                        { middle[0] + size[0] / 2, high, middle[1] + size[1] / 2 } };
+    return true;
+}
+
 void lom_turn_to_water(struct frame *f, size_t number)
 {
     if (number == f->turned)

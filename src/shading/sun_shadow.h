@@ -1,0 +1,41 @@
+/* The shadow that entities throw in the sunlight (L. Williams, Casting Curved Shadows on Curved Surfaces, SIGGRAPH 1978): maps
+ * of how near to the sun they reach. */
+#ifndef LOM_SHADING_SUN_SHADOW_H
+#define LOM_SHADING_SUN_SHADOW_H
+
+#include <lom/texture.h>
+
+/* How near to the sun entities reach, seen from it. */
+struct lom_shadow_map_uniform {
+    const lom_texture *map;     /* depth, 0 where there is none */
+    float s[4], t[4], depth[4]; /* rows: texture coordinates and depth of an offset (x, y, z, 1) */
+    float size, texel;          /* texels a side, and 1 / size */
+    float offset;               /* metres that a place is moved along its normal, so that it does not shade itself */
+};
+
+/* Those of a frame that show something: each a part of the entities; or cascades of the view, of which a place takes the
+ * first that holds it, and at its border some of the next. */
+enum { LOM_ENTITY_SHADOWS = 4 };
+struct lom_sun_shadow_uniform {
+    int count;
+    bool cascaded;
+    struct lom_shadow_map_uniform map[LOM_ENTITY_SHADOWS];
+};
+
+/* The share of the sunlight that entities let through to places less the eye, in [0, 1] (shadow_map.wide.c). normal: unit,
+ * towards the side that is lit; 0 where the place is of nothing that casts. */
+void LOM_WIDE(lom_entity_light)(const struct lom_sun_shadow_uniform *sun, const lom_float3 *offset,
+                                const lom_float3 *normal, lom_float *share);
+
+/* The share of the sunlight that comes to the places of water, where `open` of it would without entities. */
+LOM_INLINE lom_float lom_open_water_share(const struct lom_sun_shadow_uniform *sun, lom_float3 offset, lom_float open)
+{
+    if (sun->count == 0 || !lom_any(open > 0.0f))
+        return open;
+    const lom_float3 none = { { 0 }, { 0 }, { 0 } };
+    lom_float share;
+    LOM_WIDE(lom_entity_light)(sun, &offset, &none, &share);
+    return open * share;
+}
+
+#endif
