@@ -261,6 +261,11 @@ typedef struct lom_light_desc {
  * steepest to; rays are sheared so that each passes every slice at the same fraction of a voxel, and optical depth is
  * carried along them from slice to slice. False when memory runs out. */
 bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error);
+/* Takes the sun's share, once it is swept, from what lies below a height over each place of the box, which stands upright: the
+ * height of the shadow of something else that stands there, in parts of the box. At the height half of the light is left, half
+ * of `edge` below it none, half of it above it all, linearly; the shares that a voxel keeps are those of its middle. */
+void lom_shade_light_grid(lom_light_grid *grid, double (*height)(const void *context, double x, double z),
+                          const void *context, double edge);
 /* Fills the shares of sky and ground: with t the optical depth straight up or down, what diffuse light a layer of
  * droplets lets through that absorb nothing, 1 / (1 + 3/4 (1 - g) t) with g = 0.85 (two-stream, Bohren 1987). */
 void lom_sweep_sky(lom_light_grid *grid, const float size[3], float extinction);

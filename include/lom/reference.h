@@ -145,6 +145,9 @@ typedef struct lom_reference_light {
     lom_vec3 to_sun; /* unit length */
     double sun[3]; /* irradiance across the sun's beam, in units of radiance x sr: pi for a directional light that makes
                       a white diffuse surface facing it 1 */
+    double (*sun_share)(const void *context,
+                        lom_vec3 place); /* of the sun that comes to a place, 0..1, for all but what the
+                                                                 volume keeps off; NULL: 1. Pure */
     const void *context;
     lom_vec3 (*surroundings)(const void *context, lom_vec3 direction); /* radiance from afar; NULL: black. Pure */
 } lom_reference_light;

@@ -40,8 +40,17 @@ struct lom_placed_cloud {
     double axes[3][3];                 /* axes[i] is the box's axis i in the world, of unit length */
 };
 
+/* What keeps the sun off clouds beside clouds: a height over each place of the world up to which it is dark. */
+struct lom_cloud_shade {
+    double (*height)(const void *context, double x, double z);
+    const void *context;
+    double highest; /* none of them is higher */
+};
+
 /* All clouds of a scene, and what they share. */
 struct lom_cloud_set {
+    const struct lom_cloud_shade *shade; /* NULL: nothing does; of a frame */
+    size_t shaded;                       /* clouds on which it fell when they were lit for the frame */
     const lom_clouds *params;
     struct lom_cloud_quality quality;
     struct lom_cloud_density *densities;

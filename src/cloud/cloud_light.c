@@ -142,6 +142,54 @@ static bool sweep_sun(const struct lom_cloud_set *set, struct lom_placed_cloud *
     return lom_sweep_sun(cloud->light, &desc, error);
 }
 
+/* ---- the shadow of something else ---- */
+
+struct shaded_box {
+    const struct lom_cloud_shade *shade;
+    const struct lom_placed_cloud *cloud;
+};
+
+/* In parts of the cloud's box. */
+static double shadow_height(const void *context, double x, double z)
+{
+    const struct shaded_box *box = context;
+    const struct lom_placed_cloud *cloud = box->cloud;
+    const double *size = cloud->cloud->size, across = (x - 0.5) * size[0], back = (z - 0.5) * size[2];
+    const double at_x = cloud->middle.x + across * cloud->axes[0][0] + back * cloud->axes[2][0];
+    const double at_z = cloud->middle.z + across * cloud->axes[0][2] + back * cloud->axes[2][2];
+    return (box->shade->height(box->shade->context, at_x, at_z) - cloud->middle.y) / size[1] + 0.5;
+}
+
+/* Of a voxel, across the shadow's slope: how high it is, and how much that rises along it towards the sun; in parts of the
+ * box. */
+static double edge_of(const struct lom_placed_cloud *cloud, const double to_light[3])
+{
+    const lom_light_grid *g = cloud->light;
+    const double *size = cloud->cloud->size;
+    double along = 0;
+    for (int i = 0; i < 3; i += 2) {
+        const double way = cloud->axes[i][0] * to_light[0] + cloud->axes[i][2] * to_light[2];
+        along += lom_magnitude(way) * size[i] / (i == 0 ? g->width : g->depth);
+    }
+    const double flat = to_light[0] * to_light[0] + to_light[2] * to_light[2];
+    return (size[1] / g->height + (flat > 0 ? along * to_light[1] / flat : 0)) / size[1];
+}
+
+/* Whether it reaches up to a voxel of the grid. */
+static bool is_shaded(const struct shaded_box *box, double edge)
+{
+    const lom_light_grid *g = box->cloud->light;
+    if (box->shade == NULL || g == NULL || lom_cloud_bounds(box->cloud).low.y >= box->shade->highest)
+        return false;
+    for (int z = 0; z < g->depth; z++)
+        for (int x = 0; x < g->width; x++)
+            if (shadow_height(box, (x + 0.5) / g->width, (z + 0.5) / g->depth) + edge / 2 > 0.5 / g->height)
+                return true;
+    return false;
+}
+
+/* ---- all of it ---- */
+
 bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error)
 {
     struct lom_placed_cloud *cloud = &set->clouds[index];
@@ -158,13 +206,20 @@ bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_li
         set->others[s.other_count++] = i;
         hash = hash_numbers(hash, apart, 3);
     }
+    const struct shaded_box box = { set->shade, cloud };
+    const bool swept_sun = set->quality.model != LOM_CLOUDS_ORIGINAL;
+    const double edge = swept_sun && set->shade != NULL ? edge_of(cloud, to_light) : 0;
+    const bool shaded = swept_sun && is_shaded(&box, edge);
+    if (shaded)
+        hash = lom_hash_bytes(hash, &cloud->middle, sizeof cloud->middle);
+    set->shaded += shaded;
     hash |= 1;
     if (cloud->lit_for == hash)
         return true;
-    bool done = set->quality.model == LOM_CLOUDS_ORIGINAL ? light_in_advance(set, cloud, to_light, error)
-                                                          : sweep_sun(set, cloud, &s, error);
-    if (!done)
+    if (!(swept_sun ? sweep_sun(set, cloud, &s, error) : light_in_advance(set, cloud, to_light, error)))
         return false;
+    if (shaded)
+        lom_shade_light_grid(cloud->light, shadow_height, &box, edge);
     cloud->lit_for = hash;
     ++*swept;
     return true;

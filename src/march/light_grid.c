@@ -306,6 +306,36 @@ bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *
     return lom_sweep_sun_by(sweeps[lom_widest_variant(false)], grid, desc, error);
 }
 
+/* ---- what else keeps the sun off ---- */
+
+/* The grid holds exp(-depth / 16), so a share of the light counts as its sixteenth root. */
+static double sixteenth_root(double x)
+{
+    return lom_double_sqrt(lom_double_sqrt(lom_double_sqrt(lom_double_sqrt(x))));
+}
+
+static void shade_column(lom_light_grid *g, int x, int z, double height, double edge)
+{
+    for (int y = 0; y < g->height; y++) {
+        const double over = (y + 0.5) / g->height - height, share = over / edge + 0.5;
+        if (share >= 1)
+            return;
+        int32_t *light = &g->light[cell_index(g->width, g->height, x, y, z)];
+        const double kept = share > 0 ? (*light & 0xffff) * sixteenth_root(share) : 0;
+        *light = (*light & ~0xffff) | (int32_t)lom_count_of(kept + 0.5, 65535);
+    }
+}
+
+void lom_shade_light_grid(lom_light_grid *g, double (*height)(const void *context, double x, double z),
+                          const void *context, double edge)
+{
+    LOM_OWN_FLOAT_STATE;
+    for (int z = 0; z < g->depth; z++)
+        for (int x = 0; x < g->width; x++)
+            shade_column(g, x, z, height(context, (x + 0.5) / g->width, (z + 0.5) / g->depth), edge);
+    repeat_borders(g);
+}
+
 /* ---- sky and ground ---- */
 
 /* 3/4 (1 - 0.85) */

@@ -104,30 +104,53 @@ static lom_vec3 turned(const struct lom_ray_cloud *cloud, lom_vec3 v)
     return (lom_vec3){ cloud->cosine * v.x - cloud->sine * v.z, v.y, cloud->sine * v.x + cloud->cosine * v.z };
 }
 
+static lom_vec3 middle_at(const lom_reference *reference, const struct lom_ray_cloud *cloud, double time)
+{
+    return sum(cloud->middle, lom_cloud_way(&reference->scene->clouds, cloud->cloud, time));
+}
+
 static struct lom_ray into_cloud(const lom_reference *reference, const struct lom_ray_cloud *cloud,
                                  const struct lom_ray *ray, double time)
 {
-    lom_vec3 middle = sum(cloud->middle, lom_cloud_way(&reference->scene->clouds, cloud->cloud, time));
-    return (struct lom_ray){ turned(cloud, difference(ray->origin, middle)), turned(cloud, ray->direction) };
+    return (struct lom_ray){ turned(cloud, difference(ray->origin, middle_at(reference, cloud, time))),
+                             turned(cloud, ray->direction) };
 }
+
+/* Where a cloud is, for what shines on it. */
+struct lit_cloud {
+    const lom_reference *reference;
+    const struct lom_ray_cloud *cloud;
+    lom_vec3 middle;
+};
 
 static lom_vec3 surroundings(const void *context, lom_vec3 direction)
 {
-    const lom_clouds *all = context;
+    const lom_clouds *all = &((const struct lit_cloud *)context)->reference->scene->clouds;
     const double *c = direction.y > 0 ? all->sky : all->ground;
     return (lom_vec3){ c[0], c[1], c[2] };
+}
+
+/* What terrain leaves of the sun at a place in the cloud's own axes. */
+static double sun_share(const void *context, lom_vec3 place)
+{
+    const struct lit_cloud *lit = context;
+    const struct lom_ray_cloud *c = lit->cloud;
+    const lom_vec3 off = { c->cosine * place.x + c->sine * place.z, place.y, c->cosine * place.z - c->sine * place.x };
+    return lom_ground_leaves_sun(lit->reference, sum(lit->middle, off));
 }
 
 /* What one cloud sends along a ray in its own axes from its entry on, in front of `light`; air in between turns it to
  * the haze. */
 static lom_vec3 before(const lom_reference *reference, const struct lom_ray_cloud *cloud, const struct lom_ray *inner,
-                       double enter, double far, lom_vec3 light)
+                       double enter, double far, double time, lom_vec3 light)
 {
     const lom_clouds *all = &reference->scene->clouds;
     lom_vec3 sun = scaled(reference->light, lom_pi * all->brightness);
+    const struct lit_cloud lit = { reference, cloud, middle_at(reference, cloud, time) };
     lom_reference_light around = { .to_sun = turned(cloud, reference->to_light),
                                    .sun = { sun.x, sun.y, sun.z },
-                                   .context = all,
+                                   .sun_share = reference->scene->terrain.present ? sun_share : NULL,
+                                   .context = &lit,
                                    .surroundings = surroundings };
     lom_volume_rays rays = { inner->origin, inner->direction, far, 1, 1024, LOM_HASH_START };
     rays.key = lom_hash_bytes(rays.key, inner, sizeof *inner);
@@ -164,7 +187,7 @@ lom_vec3 lom_light_through_clouds(const lom_reference *reference, const struct l
         }
         if (next == reference->cloud_count)
             return light;
-        light = before(reference, &reference->clouds[next], &inner, farthest, far, light);
+        light = before(reference, &reference->clouds[next], &inner, farthest, far, time, light);
         last = farthest;
         last_index = next;
     }

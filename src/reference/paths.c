@@ -46,14 +46,21 @@ static lom_vec3 turn(lom_vec3 d, double cosine, double uniform)
     return unit(along(across, d, cosine));
 }
 
+/* The share of the sun that comes to a place. */
+static double sun_left(const lom_reference_volume *v, const lom_reference_light *light, lom_vec3 place)
+{
+    const double share = light->sun_share != NULL ? light->sun_share(light->context, place) : 1;
+    return share > 0 ? share * lom_double_exp(-lom_volume_optical_depth(v, place, light->to_sun, 0, __builtin_inf()))
+                     : 0;
+}
+
 /* The sun's light that is scattered at a place back along d. */
 static lom_vec3 sunlight(const lom_reference_volume *v, const lom_reference_light *light, lom_vec3 place, lom_vec3 d)
 {
     lom_vec3 sun = { light->sun[0], light->sun[1], light->sun[2] };
     if (sun.x == 0 && sun.y == 0 && sun.z == 0)
         return sun;
-    double depth = lom_volume_optical_depth(v, place, light->to_sun, 0, __builtin_inf());
-    return scaled(sun, lom_phase_density(&v->phase, dot(d, light->to_sun)) * lom_double_exp(-depth));
+    return scaled(sun, lom_phase_density(&v->phase, dot(d, light->to_sun)) * sun_left(v, light, place));
 }
 
 /* What a surface at a place makes of the sun, and where it sends the path on: by Lambert, who sends irradiance / pi in
@@ -65,8 +72,7 @@ static lom_vec3 surface_light(const lom_reference_volume *v, const lom_reference
     lom_vec3 sun = { light->sun[0], light->sun[1], light->sun[2] };
     if (!(cosine > 0))
         return (lom_vec3){ 0, 0, 0 };
-    double depth = lom_volume_optical_depth(v, place, light->to_sun, 0, __builtin_inf());
-    return scaled(sun, cosine / lom_pi * lom_double_exp(-depth));
+    return scaled(sun, cosine / lom_pi * sun_left(v, light, place));
 }
 
 /* The light that a path finds where it met something, and its new direction. */

@@ -140,6 +140,8 @@ bool lom_lamp_is_open(const lom_reference *reference, const struct lom_placed_la
                       lom_vec3 to_lamp, double distance);
 /* Whether the sun's beam comes to a place under `depth` metres of water: along its bent way to the surface, then straight. */
 bool lom_sun_is_open(const lom_reference *reference, lom_vec3 place, double depth, lom_vec3 to_light);
+/* The share of the sun that terrain leaves to a place: 0 or 1; 1 where the sun is not above the horizon. */
+double lom_ground_leaves_sun(const lom_reference *reference, lom_vec3 place);
 /* What lies behind everything. */
 lom_vec3 lom_sky_light(const lom_reference *reference, lom_vec3 direction);
 

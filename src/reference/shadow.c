@@ -49,6 +49,14 @@ bool lom_sun_is_open(const lom_reference *reference, lom_vec3 place, double dept
     return is_open(reference, &ray, casters, 1e300);
 }
 
+double lom_ground_leaves_sun(const lom_reference *reference, lom_vec3 place)
+{
+    static const struct casters ground = { true, false };
+    if (!reference->scene->quality.terrain_shadows || !(reference->to_light.y > 0))
+        return 1;
+    return is_open(reference, &(struct lom_ray){ place, reference->to_light }, ground, 1e300) ? 1 : 0;
+}
+
 bool lom_lamp_is_open(const lom_reference *reference, const struct lom_placed_lamp *lamp, lom_vec3 place,
                       lom_vec3 to_lamp, double distance)
 {

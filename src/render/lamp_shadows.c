@@ -16,7 +16,7 @@ static const int least_size = 16; /* texels a side */
 
 /* What a face of a lamp sees. */
 struct face_view {
-    lom_vec3 place;
+    struct lom_scene_view from; /* the lamp's place is its eye */
     double reach;
     lom_mat4 clip_from_world;
     struct lom_culler culler;
@@ -46,14 +46,17 @@ static struct face_view view_of(const struct lom_placed_lamp *lamp, lom_vec3 axi
     const lom_mat4 project = {
         { { k, 0, 0, 0 }, { 0, k, 0, 0 }, { 0, 0, 0, lamp->lamp->shadow_from }, { 0, 0, -1, 0 } }
     };
-    struct face_view v = { p, lamp->reach, lom_multiply(&project, &look), { .plane = everything } };
+    struct face_view v = { { .projection = project, .view = look, .eye = p, .plane = { 0, 0, 0, 1 } },
+                           lamp->reach,
+                           lom_multiply(&project, &look),
+                           { .plane = everything } };
     v.culler.frustum = lom_view_frustum(&v.clip_from_world, false);
     return v;
 }
 
 static bool is_in_range(const struct face_view *v, lom_box box)
 {
-    return lom_distance_to_box(v->place, box) < v->reach && lom_is_visible(&v->culler, &box);
+    return lom_distance_to_box(v->from.eye, box) < v->reach && lom_is_visible(&v->culler, &box);
 }
 
 static bool is_caster(const struct face_view *v, const struct lom_drawn_entity *entity)
@@ -83,6 +86,10 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
                                    sizeof(lom_mat4));
             count++;
         }
+    if (r->ground.knot != NULL) {
+        *hash = lom_hash_bytes(*hash, &r->ground.eye, sizeof r->ground.eye);
+        *hash = lom_hash_bytes(*hash, &r->ground.errors_allowed, sizeof r->ground.errors_allowed);
+    }
     for (int i = 0; i < r->ground.across * r->ground.down; i++) {
         lom_draw_desc draw;
         if (find_block(&r->ground, v, i, &draw) == NULL)
@@ -94,8 +101,12 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
     return count;
 }
 
-static void draw_ground_casters(const lom_renderer *r, const struct face_view *v)
+static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
 {
+    if (r->ground.knot != NULL) { /* cut as the frame cuts them: from its eye */
+        lom_draw_cut_wires(r, &v->from, &v->culler, &(lom_draw_desc){ .label = "terrain" }, NULL);
+        return;
+    }
     lom_mat4 raised = lom_identity();
     raised.m[1][3] = r->scene->terrain.base;
     const lom_mat4 clip_from_ground = lom_multiply(&v->clip_from_world, &raised);

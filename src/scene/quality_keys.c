@@ -189,7 +189,7 @@ static const lom_key quality[] = {
                                      .settings = "false true",
                                      .needs = "terrain" } },
     { "terrain_shadows", LOM_KEY_BOOL, AT(lom_quality, terrain_shadows),
-      .text = "Terrain keeps the sun off terrain, entities and water that lie behind it.",
+      .text = "Terrain keeps the sun off terrain, entities, water and clouds that lie behind it.",
       .dial = &(const lom_key_dial){ .none = "says what is shown: the shadows that ground throws, or none" } },
     { "entity_shadows", LOM_KEY_INTEGER, AT(lom_quality, entity_shadows), .minimum = 0, .maximum = 8192,
       .unit = "texels",

@@ -292,6 +292,29 @@ static void terrain_and_entities_cast_as_in_the_reference(void)
     lom_free_image(dark);
 }
 
+/* Terrain that tessellation cuts casts the triangles it is drawn as. The eye stands far away, so these are few, and another
+ * shape than the height map's: a map of the blocks would let it shade itself. */
+static void patches_cast_as_they_are_drawn(void)
+{
+    static const char text[] =
+        "[output]\nwidth = 160\nheight = 90\nformat = 'rgb32f'\n[camera]\nposition = [0, 60, 90]\n"
+        "target = [0, 0, 0]\nfield_of_view = 24\n[sky]\ncolor = [0, 0, 0]\n[light]\nintensity = 0\n"
+        "ambient = [0, 0, 0]\n[terrain]\nheight_map = 'rough.pgm'\nsize = 40\nheight = 3\n[terrain.material]\n"
+        "specular = 0\n[[lamp]]\nposition = [0, 30, 0]\nreach = 1000\n[quality]\ntessellation = true\n"
+        "terrain_error = 40\nshading = 'flat'\n";
+    lom_image *open = draw_with(text, "lamp.0.shadow=false"), *is = draw_with(text, "lamp.0.shadow=true");
+    int lit = 0, dark = 0;
+    for (int i = 0; open != NULL && is != NULL && i < open->width * open->height; i++) {
+        const double bare = red(open, i % open->width, i / open->width);
+        lit += bare > 0;
+        dark += red(is, i % is->width, i / is->width) < 0.99 * bare;
+    }
+    CHECK(lit > 3000, "%d pixels are lit", lit);
+    CHECK(dark < lit / 100, "%d of %d pixels are in a shadow that the triangles do not throw", dark, lit);
+    lom_free_image(open);
+    lom_free_image(is);
+}
+
 /* ---- what cannot be ---- */
 
 static void what_throws_no_shadow_is_refused(void)
@@ -317,10 +340,22 @@ static void what_throws_no_shadow_is_refused(void)
     }
 }
 
+/* 65 x 65 random heights. */
+static bool make_rough_map(lom_error *error)
+{
+    enum { VERTICES = 65 };
+    static char map[VERTICES * VERTICES * 4 + 40];
+    size_t length = (size_t)snprintf(map, sizeof map, "P2 %d %d 255\n", VERTICES, VERTICES);
+    for (int i = 0; i < VERTICES * VERTICES; i++)
+        length +=
+            (size_t)snprintf(map + length, sizeof map - length, "%d ", (int)(lom_random_bits(9, (uint64_t)i) & 255));
+    return small_text("rough.pgm", map, error);
+}
+
 int main(int argc, char **argv)
 {
     lom_error error = { 0 };
-    if (!make_small_scene() || !small_text("floor.obj", floor_obj, &error) ||
+    if (!make_small_scene() || !make_rough_map(&error) || !small_text("floor.obj", floor_obj, &error) ||
         !small_text("square.obj", square_obj, &error))
         return 1;
     RUN(an_umbra_ends_where_similar_triangles_say);
@@ -330,6 +365,7 @@ int main(int argc, char **argv)
     RUN(a_frame_alone_is_the_frame_of_a_run);
     RUN(a_crop_is_cut_from_the_whole);
     RUN(terrain_and_entities_cast_as_in_the_reference);
+    RUN(patches_cast_as_they_are_drawn);
     RUN(what_throws_no_shadow_is_refused);
     remove_small_scene();
     return check_result();

@@ -46,6 +46,7 @@ struct lom_impostors {
 
 struct lom_drawn_clouds {
     struct lom_cloud_set *set; /* NULL: none */
+    struct lom_cloud_shade shade;
     struct lom_ground_shadow ground_shadow;
     struct lom_impostors impostors;
 };
@@ -64,6 +65,11 @@ void lom_free_clouds(lom_renderer *renderer);
 void lom_drop_cloud_light(lom_renderer *renderer);
 /* The clouds of another scene, which differ from those of the scene before in what is looked up in each frame alone. */
 void lom_follow_clouds(lom_renderer *renderer, const lom_scene *before, const lom_scene *scene);
+
+/* terrain_shade.c: whether a cloud is so low that terrain may keep the sun off it; tells the set of that shadow, once the
+ * terrain's is made and the clouds are where they are in the frame. */
+bool lom_terrain_shades_clouds(const struct frame *f);
+void lom_shade_clouds(struct frame *f);
 
 /* shadow.c: the map of what they let through of the sun, a step of the plan; the same for places less the eye. */
 bool lom_draw_cloud_shadows(struct frame *f, const double to_light[3]);

@@ -27,6 +27,7 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     if (f->renderer->clouds.set == NULL)
         return true;
     lom_move_clouds(f->renderer->clouds.set, f->time);
+    lom_shade_clouds(f);
     if (!lom_evolve_clouds(f->renderer->clouds.set, f->time, error) || !lom_begin_impostors(f, error))
         return false;
     if (lom_has_plates(f))
@@ -34,8 +35,9 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
     if (!lom_light_clouds(f->renderer->clouds.set, to_light, &swept, error))
         return false;
     if (swept != 0)
-        lom_add_step(f, "cloud light", true, "%d grids of light swept from the sun through %zu clouds", swept,
-                     f->renderer->clouds.set->count);
+        lom_add_step(f, "cloud light", true,
+                     "%d grids of light swept from the sun through %zu clouds, %zu of them in the shadow of terrain",
+                     swept, f->renderer->clouds.set->count, f->renderer->clouds.set->shaded);
     else
         lom_add_step(f, "cloud light", false, "neither the sun nor a cloud has moved");
     return lom_draw_cloud_shadows(f, to_light);

@@ -238,5 +238,5 @@ void lom_free_ground_blocks(struct lom_ground *ground)
     lom_release(ground->position);
     lom_release(ground->knot);
     lom_release(ground->patch_corner);
-    lom_free_texture(ground->shadow);
+    lom_free_ground_shadow(ground);
 }

@@ -59,6 +59,7 @@ struct lom_ground {
     /* A texel a vertex: the unit normal and, as alpha, the visible share of the sky. */
     lom_texture *vertex_texture;
     lom_texture *shadow;    /* a texel a vertex: the height over the base up to which it keeps the sun off; or NULL */
+    float *shadow_heights;  /* the same numbers, x first */
     lom_vec3 shadowed_from; /* the direction to the sun for which it was made */
     lom_texture *composed;  /* of the device: all layers from above; or NULL */
     struct lom_ground_pattern *patterns;
@@ -93,6 +94,7 @@ bool lom_load_ground_maps(lom_renderer *renderer, lom_error *error);
 void lom_free_ground_maps(lom_renderer *renderer);
 /* The shadow is cast, the layers are composed anew by the next frame. */
 void lom_drop_ground_shadow(lom_renderer *renderer);
+void lom_free_ground_shadow(struct lom_ground *ground);
 void lom_drop_composed_ground(lom_renderer *renderer);
 /* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels come after. */
 bool lom_compose_ground(struct frame *f, lom_error *error);

@@ -80,6 +80,13 @@ void lom_free_ground(lom_renderer *renderer)
 
 void lom_drop_ground_shadow(lom_renderer *renderer)
 {
-    lom_free_texture(renderer->ground.shadow);
-    renderer->ground.shadow = NULL;
+    lom_free_ground_shadow(&renderer->ground);
+}
+
+void lom_free_ground_shadow(struct lom_ground *ground)
+{
+    lom_free_texture(ground->shadow);
+    lom_release(ground->shadow_heights);
+    ground->shadow = NULL;
+    ground->shadow_heights = NULL;
 }

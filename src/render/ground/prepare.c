@@ -9,9 +9,8 @@ static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec
 {
     int width = ground->columns + 1, height = ground->rows + 1;
     const double direction[3] = { to_light.x, to_light.y, to_light.z };
+    lom_free_ground_shadow(ground);
     float *shadow = lom_allocate((size_t)width * (size_t)height, sizeof *shadow, error);
-    lom_free_texture(ground->shadow);
-    ground->shadow = NULL;
     if (shadow != NULL && lom_find_ground_shadow(ground->heights, width, height, size, direction, shadow, error))
         ground->shadow = lom_create_texture(
             &(lom_texture_desc){
@@ -22,7 +21,7 @@ static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec
                 .label = "terrain shadow",
                 .sampler = { .wrap_s = LOM_WRAP_BORDER, .wrap_t = LOM_WRAP_BORDER, .border = { -1e30f } } },
             error);
-    lom_release(shadow);
+    ground->shadow_heights = shadow;
     ground->shadowed_from = to_light;
     return ground->shadow != NULL;
 }
@@ -32,7 +31,8 @@ static bool shows_receiver(const struct frame *f)
 {
     const lom_renderer *r = f->renderer;
     const struct lom_seen seen = lom_find_seen(f);
-    bool shows = f->scene->spray_count != 0 || f->scene->other_water_count != 0 || lom_may_show_water(f);
+    bool shows = f->scene->spray_count != 0 || lom_terrain_shades_clouds(f) || f->scene->other_water_count != 0 ||
+                 lom_may_show_water(f);
     for (int i = 0; !shows && i < r->ground.across * r->ground.down; i++)
         shows = lom_may_show(&seen, r->ground.blocks[i].bounds);
     for (size_t i = 0; !shows && i < r->entities.count; i++)

@@ -55,15 +55,12 @@ bool lom_water_shows_sun(const struct frame *f, size_t number, lom_box *where)
     const struct lom_drawn_water *drawn = &f->renderer->waters[number];
     const bool shines =
         model->has_waves ? water->optics.glitter > 0 || drawn->foam != NULL : model->is_looked_up && water->specular;
-    double low = water->level, high = water->level;
+    struct lom_waves_uniform waves = { .lowest = 0 };
     if (!water->present || !water->enabled || !shines)
         return false;
-    if (model->has_waves && drawn->waves != NULL) {
-        struct lom_waves_uniform waves;
+    if (model->has_waves && drawn->waves != NULL)
         lom_bound_waves(drawn->waves, &waves, f->view.eye, f->time);
-        low += (double)waves.lowest;
-        high += (double)waves.highest;
-    }
+    const double low = water->level + (double)waves.lowest, high = water->level + (double)waves.highest;
     const double *middle = water->position, *size = water->size;
     *where = (lom_box){ { middle[0] - size[0] / 2, low, middle[1] - size[1] / 2 },
                         { middle[0] + size[0] / 2, high, middle[1] + size[1] / 2 } };
