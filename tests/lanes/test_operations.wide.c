@@ -118,6 +118,24 @@ static void fours_are_loaded_and_picked(void)
     }
 }
 
+/* Indices of either sign, counted from the middle. */
+static void what_lies_before_is_gathered(void)
+{
+    int32_t table[256];
+    float numbers[256];
+    for (int i = 0; i < 256; i++)
+        numbers[i] = (float)(table[i] = i * 5 - 7);
+    for (uint64_t n = 0; n < 1000; n++) {
+        lom_int index = (pattern(17, n) & 127) - 64, first[2], second[2];
+        CHECK(same(lom_gather(numbers + 128, index), lom_defined_gather(numbers + 128, index)), "gather %d", index[0]);
+        CHECK(same_int(lom_gather_int(table + 128, index), lom_defined_gather_int(table + 128, index)), "gather_int %d",
+              index[0]);
+        lom_gather_pairs(table + 128, index, &first[0], &second[0]);
+        lom_defined_gather_pairs(table + 128, index, &first[1], &second[1]);
+        CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs %d", index[0]);
+    }
+}
+
 /* Rows that overlap are written in the order of the lanes: the last one stays. */
 static void rows_are_gathered_and_scattered_in_lane_order(void)
 {
@@ -295,6 +313,7 @@ int main(int argc, char **argv)
     RUN(compress_keeps_set_lanes_in_order);
     RUN(lanes_are_permuted_by_their_numbers);
     RUN(gathers_read_what_their_indices_name);
+    RUN(what_lies_before_is_gathered);
     RUN(fours_are_loaded_and_picked);
     RUN(rows_are_gathered_and_scattered_in_lane_order);
     RUN(matrices_multiply_each_lane);
