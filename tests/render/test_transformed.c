@@ -22,7 +22,7 @@ static const struct exception {
     { "foam", 1e-3, 100, 0 },        { "plunging", 1, 1000, 0 }, /* a curl smaller than it was is drawn otherwise */
     { "carried", 1e-3, 10, 0 },                                  /* the strongest spring gives 10^6 m^3/s */
     { "shallow", 1e-3, 1000, 4 }, /* films are in powers of two, so that a cell at the shore may dry elsewhere */
-    { "follower", 1e-3, 1000, 4 },
+    { "follower", 1e-3, 1000, 4 },   { "entity_hits", 1e-3, 100, 0 }, /* waves are at most 100 m high */
 };
 
 /* What bases are drawn with: a wind whose way is whole 64ths of a metre, as clouds go (src/cloud/cloud_wind.c). */
