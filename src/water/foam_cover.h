@@ -132,9 +132,12 @@ LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, co
     return light;
 }
 
+/* Foam is a heap that scatters light through: where a lip has fallen on the water ahead and the sheet is folded, the side
+ * that looks down is lit as the one above it, so the fold is no dark flap with a hard edge. */
 LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
-    lom_float lambert = lom_lambert(&u->light, p->normal) * lom_light_share(&u->light, p->offset);
+    lom_float up = lom_select(p->normal.y < 0.0f, lom_splat(-1.0f), lom_splat(1.0f));
+    lom_float lambert = lom_lambert(&u->light, lom_scale3(p->normal, up)) * lom_light_share(&u->light, p->offset);
     lambert = lom_open_water_share(&u->entity_shadow, p->offset, lambert);
     lom_float3 light = lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert));
     if (u->light.lamps != NULL)
