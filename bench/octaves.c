@@ -30,7 +30,7 @@ static const struct subject {
 enum { SUBJECTS = sizeof subjects / sizeof subjects[0] };
 
 /* Octave k weighs weight[k], is attenuated by attenuation^k, its phase function's mean cosines are narrowed by narrowing^k.
- * The sky's share: of both sides together, or of each alone. The first is the program's, the second was fitted. */
+ * The sky's share: of both sides together, or of each alone. */
 static const struct model {
     double weight[OCTAVES], attenuation, narrowing;
     bool shared;
@@ -154,7 +154,7 @@ static void compare(const struct cloud *c, uint64_t key)
 
 int main(void)
 {
-    printf("| cloud | extinction, 1/m | sun, degrees | sun by paths | now | fitted | sky by paths | now | fitted |\n"
+    printf("| cloud | extinction, 1/m | sun, degrees | sun by paths | before | now | sky by paths | before | now |\n"
            "|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < SUBJECTS; i++) {
         const struct subject *s = &subjects[i];

@@ -232,7 +232,7 @@ LOM_INLINE lom_float lom_sample_detail(const lom_detail *detail, lom_float3 at)
 /* ---- light: how much of the sun, the sky and the ground each place sees ---- */
 
 /* A grid over the same box as a medium, of its own resolution. A word a voxel (the last of each axis repeated): in the
- * low 16 bits exp(-optical depth towards the sun / 16), then 8 bits of the sky and 8 of the ground. */
+ * low 16 bits exp(-optical depth towards the sun / LOM_LIGHT_DEPTH), then 8 bits of the sky and 8 of the ground. */
 typedef struct lom_light_grid {
     int width, height, depth;
     uint16_t *density; /* plain, x first: what the light is swept through */
@@ -270,8 +270,12 @@ void lom_shade_light_grid(lom_light_grid *grid, double (*height)(const void *con
  * droplets lets through that absorb nothing, 1 / (1 + 3/4 (1 - g) t) with g = 0.85 (two-stream, Bohren 1987). */
 void lom_sweep_sky(lom_light_grid *grid, const float size[3], float extinction);
 
+/* What the sun's share is the exponential of a part of: light is told from none to an optical depth of 700, and the first
+ * four octaves of a march are powers of it. */
+enum { LOM_LIGHT_DEPTH = 64 };
+
 typedef struct lom_light_sample {
-    lom_float sun; /* exp(-optical depth / 16) */
+    lom_float sun; /* exp(-optical depth / LOM_LIGHT_DEPTH) */
     lom_float sky, ground;
 } lom_light_sample;
 
@@ -314,10 +318,10 @@ typedef struct lom_medium_desc {
 } lom_medium_desc;
 
 typedef struct lom_medium_rays {
-    lom_float3 start, along;          /* in parts of the box, at distance 0 and a metre */
-    lom_float enter, leave;           /* metres, enter >= 0 */
-    lom_float shift;                  /* of the first step's end, in steps, ]0, 1] */
-    lom_float phase[LOM_MAX_OCTAVES]; /* of each octave */
+    lom_float3 start, along; /* in parts of the box, at distance 0 and a metre */
+    lom_float enter, leave;  /* metres, enter >= 0 */
+    lom_float shift;         /* of the first step's end, in steps, ]0, 1] */
+    lom_float phase;         /* of light that is scattered once */
     lom_mask active;
 } lom_medium_rays;
 
@@ -330,8 +334,10 @@ typedef struct lom_medium_result {
 /* Radiance along rays through a medium, front to back. Step i covers [enter + (i - 1 + shift) step, enter + (i + shift)
  * step], cut to [enter, leave]; its middle is sampled, and within it the medium counts as uniform: with t its optical
  * depth, 1 - exp(-t) of what lies there is seen and exp(-t) of what lies behind (the exponential integrator; exact
- * where the medium is uniform). The sun's share is sum over octaves k of weight_k phase_k exp(-T / 2^k), T the optical
- * depth towards it (Wrenninge, Kulla, Lundqvist: Oz, 2013). What an ended ray leaves out is at most `stop` times the
+ * where the medium is uniform). The sun's share is sum over octaves k of weight_k exp(-T / 4^k), T the optical depth
+ * towards it, the first of them times the phase (after Wrenninge, Kulla, Lundqvist: Oz, 2013). Sky and ground have
+ * shares of 1 together: with A and B the grid's, A / (A + B) and B / (A + B), which is what a layer of droplets that
+ * absorb nothing has from its two sides (two-stream: linear in the optical depth). What an ended ray leaves out is at most `stop` times the
  * largest radiance of a place, since the shares of all that is behind sum up to the transmittance. count may be NULL.
  */
 void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *rays, const lom_medium_desc *desc,

@@ -21,7 +21,7 @@ static lom_medium_rays aim(const struct lom_cloud_uniforms *cloud, const lom_var
     lom_float3 direction;
     lom_medium_rays rays = lom_cloud_rays(cloud, in, &direction);
     rays.shift = jitter_of(cloud, in);
-    lom_set_cloud_phases(cloud, &rays, direction);
+    lom_set_cloud_phase(cloud, &rays, direction);
     return rays;
 }
 

@@ -122,6 +122,9 @@ struct lom_cloud_view {
  * axis. */
 double lom_cloud_nearness(lom_vec3 place, const struct lom_cloud_view *view);
 /* The box of a cloud in the world. */
+/* What octave k of scattering weighs in parts of the sun's colour; the first goes by the phase function, times 4 pi. */
+double lom_octave_weight(double albedo, int octave);
+
 lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud);
 /* Indices of the clouds that are seen (all of them unless cull is set), the farthest first (by the middle's distance;
  * of equals the later one in the file first); order has room for set->count. */

@@ -20,8 +20,8 @@ static lom_float3 sprite_light(const struct lom_cloud_uniforms *cloud, lom_int s
     lom_float3 p = { part_of(cloud, sprite, LOM_SPRITE_IN_BOX), part_of(cloud, sprite, LOM_SPRITE_IN_BOX + 1),
                      part_of(cloud, sprite, LOM_SPRITE_IN_BOX + 2) };
     lom_medium_rays rays = { .active = lom_splat_int(-1) };
-    lom_set_cloud_phases(cloud, &rays, lom_scale3(lom_to_eye(&cloud->eye, offset), lom_splat(-1.0f)));
-    lom_light_sample light = lom_sample_light(cloud->march.light, p);
+    lom_set_cloud_phase(cloud, &rays, lom_scale3(lom_to_eye(&cloud->eye, offset), lom_splat(-1.0f)));
+    lom_light_sample light = share_surroundings(lom_sample_light(cloud->march.light, p));
     lom_float3 color = lom_scale3(lom_uniform3(cloud->sun), sun_share(&cloud->march, &rays, light.sun));
     color = lom_add3(color, lom_scale3(lom_uniform3(cloud->sky), light.sky));
     return lom_add3(color, lom_scale3(lom_uniform3(cloud->ground), light.ground));

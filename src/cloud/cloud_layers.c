@@ -77,21 +77,18 @@ static double henyey_greenstein(double mu, double g)
     return (1 - g * g) / (base * lom_double_sqrt(base));
 }
 
-/* As the shaders' phase functions (phase.h), times 4 pi. */
-static double phase_of(const lom_clouds *p, double mu, int octave)
+/* As the shaders' phase function (phase.h), times 4 pi. */
+static double phase_of(const lom_clouds *p, double mu)
 {
-    double narrow = 1, rayleigh = 0.75 * (1 + mu * mu);
-    for (int i = 0; i < octave; i++)
-        narrow /= 2;
     switch (p->phase) {
     case LOM_PHASE_DUAL: {
-        double ahead = henyey_greenstein(mu, p->forward * narrow), back = henyey_greenstein(mu, p->backward * narrow);
+        double ahead = henyey_greenstein(mu, p->forward), back = henyey_greenstein(mu, p->backward);
         return ahead + (back - ahead) * p->blend;
     }
     case LOM_PHASE_HENYEY_GREENSTEIN:
-        return henyey_greenstein(mu, p->forward * narrow);
+        return henyey_greenstein(mu, p->forward);
     case LOM_PHASE_RAYLEIGH:
-        return 1 + (rayleigh - 1) * narrow * narrow;
+        return 0.75 * (1 + mu * mu);
     default:
         return 1;
     }
@@ -99,14 +96,12 @@ static double phase_of(const lom_clouds *p, double mu, int octave)
 
 static double sun_of(const lom_clouds *p, int octaves, double mu, double depth)
 {
-    double sum = 0, weight = p->albedo, part = depth;
+    double phase = phase_of(p, mu), sum = 0, part = depth;
+    if (p->silver > 0)
+        phase = lom_larger(phase, p->silver * henyey_greenstein(mu, 1 - p->silver_spread));
     for (int k = 0; k < octaves; k++) {
-        double phase = phase_of(p, mu, k);
-        if (k == 0 && p->silver > 0)
-            phase = lom_larger(phase, p->silver * henyey_greenstein(mu, 1 - p->silver_spread));
-        sum += weight * phase * lom_double_exp(-part);
-        weight *= 0.5 * p->albedo;
-        part /= 2;
+        sum += lom_octave_weight(p->albedo, k) * (k == 0 ? phase : 1) * lom_double_exp(-part);
+        part /= 4;
     }
     return sum;
 }
@@ -117,8 +112,9 @@ lom_image *lom_make_cloud_gradient(const lom_clouds *p, int octaves, lom_error *
     for (int y = 0; image != NULL && y < image->height; y++)
         for (int x = 0; x < image->width; x++) {
             double s = (x + 0.5) / image->width, t = (y + 0.5) / image->height;
-            double depth = gentle_depth * t / (1 - t), diffuse = 1 / (1 + 0.1125 * depth); /* 3/4 (1 - 0.85) */
-            const float texel[3] = { (float)sun_of(p, octaves, 1 - 2 * s * s, depth), (float)diffuse, (float)diffuse };
+            /* seen from below, as march/medium_steps.h has it: 1 / (2 + c 2 depth), c = 3/4 (1 - 0.85) */
+            double depth = gentle_depth * t / (1 - t), sky = 0.5 / (1 + 0.1125 * depth);
+            const float texel[3] = { (float)sun_of(p, octaves, 1 - 2 * s * s, depth), (float)sky, (float)(1 - sky) };
             memcpy(lom_image_pixel(image, x, y, 0), texel, sizeof texel);
         }
     return image;

@@ -18,20 +18,17 @@ LOM_INLINE lom_float lom_phase_rayleigh(lom_float mu)
     return 0.75f * (1.0f + mu * mu);
 }
 
-/* The function of [clouds] for octave k: its mean cosines are halved k times, and what is 0 there is isotropic. */
-LOM_INLINE lom_float lom_phase_octave(int phase, float forward, float backward, float blend, lom_float mu, int k)
+/* The function of [clouds]. */
+LOM_INLINE lom_float lom_phase(int phase, float forward, float backward, float blend, lom_float mu)
 {
-    float narrow = 1;
-    for (int i = 0; i < k; i++)
-        narrow *= 0.5f;
     switch (phase) {
     case LOM_PHASE_DUAL:
-        return lom_mix(lom_phase_henyey_greenstein(mu, forward * narrow),
-                       lom_phase_henyey_greenstein(mu, backward * narrow), lom_splat(blend));
+        return lom_mix(lom_phase_henyey_greenstein(mu, forward), lom_phase_henyey_greenstein(mu, backward),
+                       lom_splat(blend));
     case LOM_PHASE_HENYEY_GREENSTEIN:
-        return lom_phase_henyey_greenstein(mu, forward * narrow);
+        return lom_phase_henyey_greenstein(mu, forward);
     case LOM_PHASE_RAYLEIGH:
-        return lom_mix(lom_splat(1.0f), lom_phase_rayleigh(mu), lom_splat(narrow * narrow));
+        return lom_phase_rayleigh(mu);
     default:
         return lom_splat(1.0f);
     }

@@ -207,7 +207,7 @@ static const struct row {
       show_lamp_shadows },
     { { "cloud-shadow", "the share of the sun that clouds let through", false }, show_cloud_shadow },
     { { "caustics", "the sunlight that waves focus on the bed, in parts of the sun's", false }, show_caustics },
-    { { "light-grid", "of the first cloud, exp(-optical depth towards the sun / 16), its middle slice", false },
+    { { "light-grid", "of the first cloud, exp(-optical depth towards the sun / 64), its middle slice", false },
       show_light },
     { { "heights", "the terrain's heights over its base, metres, one a vertex", false }, show_heights },
 };

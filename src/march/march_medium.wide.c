@@ -67,6 +67,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
         if (desc->light != NULL)
             light =
                 desc->filtering == LOM_FILTERING_FIXED ? fixed_light(desc->light, p) : lom_sample_light(desc->light, p);
+        light = share_surroundings(light);
         sum.sun += share * sun_share(desc, rays, light.sun);
         sum.sky += share * light.sky;
         sum.ground += share * light.ground;

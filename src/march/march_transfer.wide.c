@@ -76,7 +76,7 @@ static lom_float3 surface_light(const lom_medium_desc *desc, const lom_transfer_
     lom_float cosine =
         lom_max(lom_dot3(n, lom_splat3(look->to_light[0], look->to_light[1], look->to_light[2])), (lom_float){ 0 });
     lom_float through = light->sun;
-    for (int k = 0; k < 4; k++)
+    for (int part = LOM_LIGHT_DEPTH; part > 1; part /= 2)
         through = through * through;
     lom_float above = n.y * 0.5f + 0.5f;
     return mix_lights(look, cosine * through, above * light->sky, (1.0f - above) * light->ground);
@@ -92,7 +92,7 @@ static lom_float3 light_at(const lom_medium_desc *desc, const lom_transfer_desc 
     lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, at));
     if (look->look == LOM_LOOK_SURFACE)
         return surface_light(desc, look, rays, p, at, light);
-    *light = grid_light(desc, p);
+    *light = share_surroundings(grid_light(desc, p));
     return mix_lights(look, sun_share(desc, rays, light->sun), light->sky, light->ground);
 }
 

@@ -34,19 +34,32 @@ static inline lom_float find_density(const lom_medium_desc *desc, lom_float3 p, 
     return lom_saturate((density - eaten) / (1.0f - eaten));
 }
 
-/* sum over k of weight_k phase_k exp(-T / 2^k), from s = exp(-T / 16): the powers 16, 8, 4, 2, 1, then roots. */
+/* sum over k of weight_k exp(-T / 4^k), the first times the phase, from s = exp(-T / 64): the powers 64, 16, 4, 1, then
+ * roots. */
 static inline lom_float sun_share(const lom_medium_desc *desc, const lom_medium_rays *rays, lom_float s)
 {
     lom_float power[LOM_MAX_OCTAVES];
-    power[4] = s;
-    for (int k = 3; k >= 0; k--)
-        power[k] = power[k + 1] * power[k + 1];
-    for (int k = 5; k < desc->octaves; k++)
-        power[k] = lom_sqrt(power[k - 1]);
-    lom_float sum = power[0] * (rays->phase[0] * desc->weight[0]);
+    power[3] = s;
+    for (int k = 2; k >= 0; k--) {
+        lom_float square = power[k + 1] * power[k + 1];
+        power[k] = square * square;
+    }
+    for (int k = 4; k < desc->octaves; k++)
+        power[k] = lom_sqrt(lom_sqrt(power[k - 1]));
+    lom_float sum = power[0] * (rays->phase * desc->weight[0]);
     for (int k = 1; k < desc->octaves; k++)
-        sum += power[k] * (rays->phase[k] * desc->weight[k]);
+        sum += power[k] * desc->weight[k];
     return sum;
+}
+
+/* What reaches a place of the sky's light and of the ground's, from what either would send through what lies before it
+ * alone, A = 1 / (1 + c t) of the depths t above and below. Droplets that absorb nothing let a flux through a layer that
+ * is the same everywhere, so between its sides the radiance is linear in the depth: the sky's share is (1 + c t_below) /
+ * (2 + c t_below + c t_above) = A_above / (A_above + A_below), the ground's the rest. */
+LOM_INLINE lom_light_sample share_surroundings(lom_light_sample light)
+{
+    lom_float above = light.sky / lom_max(light.sky + light.ground, lom_splat(0x1p-16f));
+    return (lom_light_sample){ light.sun, above, 1.0f - above };
 }
 
 /* Whole steps that are empty for every ray from the places on: cells nearer than the distance are, and a ray is in a cell

@@ -45,7 +45,7 @@ static lom_cloud cloud_at(double x, double y, double z)
                         .visible = true };
 }
 
-/* exp(-depth / 16) in the middle voxel of a cloud. */
+/* exp(-depth / 64) in the middle voxel of a cloud. */
 static double share(const struct lom_cloud_set *set, size_t cloud)
 {
     const lom_light_grid *g = set->clouds[cloud].light;
@@ -71,7 +71,7 @@ static void clouds_shadow_what_lies_behind_them(void)
               error.text);
         CHECK(lom_light_clouds(set, light, &swept, &error) && swept == 3, "%d were swept: %s", swept, error.text);
         double shadowed = share(set, 0) / share(set, 1), depth = 0.05 * 100;
-        CHECK(fabs(shadowed - exp(-depth / 16)) < 1e-4, "axis %d: %g, not %g", axis, shadowed, exp(-depth / 16));
+        CHECK(fabs(shadowed - exp(-depth / 64)) < 1e-4, "axis %d: %g, not %g", axis, shadowed, exp(-depth / 64));
         CHECK(share(set, 2) == share(set, 1), "axis %d: %g beside, %g alone", axis, share(set, 2), share(set, 1));
         CHECK(lom_light_clouds(set, light, &swept, &error) && swept == 0, "%d were swept again", swept);
         set->clouds[1].middle.x += 1000;

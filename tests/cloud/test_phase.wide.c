@@ -1,5 +1,5 @@
-/* Proves: over the sphere phase functions are 1 on average and have the mean cosine they are named for, in every
- * octave; lanes follow the reference's functions in double; the sharpest ones are finite. */
+/* Proves: over the sphere phase functions are 1 on average and have the mean cosine they are named for; lanes
+ * follow the reference's functions in double; the sharpest ones are finite. */
 #include "check.h"
 #include "cloud/phase.h"
 
@@ -10,14 +10,14 @@ static double magnitude(double x)
     return x < 0 ? -x : x;
 }
 
-static lom_float octave(const lom_reference_phase *p, lom_float mu, int k)
+static lom_float phase_of(const lom_reference_phase *p, lom_float mu)
 {
-    return lom_phase_octave((int)p->kind, (float)p->forward, (float)p->backward, (float)p->blend, mu, k);
+    return lom_phase((int)p->kind, (float)p->forward, (float)p->backward, (float)p->blend, mu);
 }
 
 /* Means over the sphere of the function and of the function times the cosine: over c = 1 - 2 s^3 from either end,
  * midpoints, which are dense where lobes are narrow. */
-static void find_means(const lom_reference_phase *p, int k, double *whole, double *mean)
+static void find_means(const lom_reference_phase *p, double *whole, double *mean)
 {
     enum { STEPS = 4096 };
     *whole = *mean = 0;
@@ -30,7 +30,7 @@ static void find_means(const lom_reference_phase *p, int k, double *whole, doubl
                 cosine[lane] = (float)(side * (1 - s * s * s));
                 width[lane] = 3 * s * s / STEPS / 2;
             }
-            lom_store(value, octave(p, lom_load(cosine), k));
+            lom_store(value, phase_of(p, lom_load(cosine)));
             for (int lane = 0; lane < LOM_LANES; lane++) {
                 *whole += (double)value[lane] * width[lane];
                 *mean += (double)value[lane] * (double)cosine[lane] * width[lane];
@@ -44,32 +44,20 @@ static void v16_phases_average_to_one_with_their_mean_cosine(void)
     double whole, mean;
     for (int i = 0; i < 7; i++) {
         const lom_reference_phase p = { .kind = LOM_PHASE_HENYEY_GREENSTEIN, .forward = g[i] };
-        find_means(&p, 0, &whole, &mean);
+        find_means(&p, &whole, &mean);
         double bound =
             i < 5 ? 1e-4 : 1.5e-4; /* at 0.99 the peak's 1 + g^2 - 2 g mu is 1e-4, a difference of floats near 1 */
         CHECK(magnitude(whole - 1) < bound && magnitude(mean - g[i]) < bound, "g = %g: %.6f, %.6f", g[i], whole, mean);
     }
     const lom_reference_phase isotropic = { .kind = LOM_PHASE_ISOTROPIC }, rayleigh = { .kind = LOM_PHASE_RAYLEIGH };
-    find_means(&isotropic, 0, &whole, &mean);
+    find_means(&isotropic, &whole, &mean);
     CHECK(magnitude(whole - 1) < 1e-6 && magnitude(mean) < 1e-6, "isotropic: %.7f, %.7f", whole, mean);
-    find_means(&rayleigh, 0, &whole, &mean);
+    find_means(&rayleigh, &whole, &mean);
     CHECK(magnitude(whole - 1) < 1e-6 && magnitude(mean) < 1e-6, "Rayleigh: %.7f, %.7f", whole, mean);
-}
-
-/* Octave k halves the mean cosine k times; Rayleigh's share is quartered. */
-static void v16_octaves_widen_the_phase(void)
-{
     const lom_reference_phase dual = { .kind = LOM_PHASE_DUAL, .forward = 0.8, .backward = -0.3, .blend = 0.35 };
-    const lom_reference_phase rayleigh = { .kind = LOM_PHASE_RAYLEIGH };
-    double narrow = 1;
-    for (int k = 0; k < LOM_MAX_OCTAVES; k++, narrow /= 2) {
-        double whole, mean;
-        find_means(&dual, k, &whole, &mean);
-        CHECK(magnitude(whole - 1) < 1e-4 && magnitude(mean - narrow * (0.65 * 0.8 - 0.35 * 0.3)) < 1e-4,
-              "octave %d: %.6f, %.6f", k, whole, mean);
-        double ahead = (double)octave(&rayleigh, lom_splat(1.0f), k)[0];
-        CHECK(magnitude(ahead - (1 + 0.5 * narrow * narrow)) < 1e-6, "octave %d of Rayleigh: %g", k, ahead);
-    }
+    find_means(&dual, &whole, &mean);
+    CHECK(magnitude(whole - 1) < 1e-4 && magnitude(mean - (0.65 * 0.8 - 0.35 * 0.3)) < 1e-4, "dual: %.6f, %.6f", whole,
+          mean);
 }
 
 /* Against the density per solid angle in double, times 4 pi. Near the peak of the sharpest lobe 1 + g^2 - 2 g mu is
@@ -85,12 +73,12 @@ static void v16_lanes_follow_the_reference(void)
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         for (int step = 0; step <= 2000; step++) {
             double mu = step / 1000.0 - 1, want = 12.566370614359172 * lom_phase_density(&phases[i], (float)mu);
-            double got = (double)octave(&phases[i], lom_splat((float)mu), 0)[0];
+            double got = (double)phase_of(&phases[i], lom_splat((float)mu))[0];
             CHECK(magnitude(got / want - 1) < (i == 4 ? 3e-3 : 1e-5), "phase %zu, cosine %g: %.7g for %.7g", i, mu, got,
                   want);
         }
     /* forward means that light goes on in its way */
-    CHECK(octave(&phases[2], lom_splat(1.0f), 0)[0] > 40 && octave(&phases[2], lom_splat(-1.0f), 0)[0] < 0.1f, "sign");
+    CHECK(phase_of(&phases[2], lom_splat(1.0f))[0] > 40 && phase_of(&phases[2], lom_splat(-1.0f))[0] < 0.1f, "sign");
 }
 
 static void v16_needles_are_finite(void)
@@ -106,7 +94,6 @@ static void v16_needles_are_finite(void)
 int main(int argc, char **argv)
 {
     RUN(v16_phases_average_to_one_with_their_mean_cosine);
-    RUN(v16_octaves_widen_the_phase);
     RUN(v16_lanes_follow_the_reference);
     RUN(v16_needles_are_finite);
     return check_result();

@@ -52,8 +52,7 @@ static inline lom_medium_rays rays_along_x(double enter, double leave)
                              .leave = lom_splat((float)leave),
                              .shift = lom_splat(1.0f),
                              .active = ALL };
-    for (int k = 0; k < LOM_MAX_OCTAVES; k++)
-        rays.phase[k] = lom_splat(1.0f);
+    rays.phase = lom_splat(1.0f);
     return rays;
 }
 

@@ -65,7 +65,7 @@ static size_t words_of(const lom_light_grid *g)
     return (size_t)(g->width + 1) * (size_t)(g->height + 1) * (size_t)(g->depth + 1);
 }
 
-/* exp(-depth / 16) of the light's way to a voxel. */
+/* exp(-depth / 64) of the light's way to a voxel. */
 static double share_at(const lom_light_grid *g, int x, int y, int z)
 {
     size_t at = ((size_t)z * (size_t)(g->height + 1) + (size_t)y) * (size_t)(g->width + 1) + (size_t)x;
@@ -181,16 +181,16 @@ static void check_sun(lom_light_grid *g, const double to_sun[3])
                 int slices = 1 + (way[axis] > 0 ? size[axis] - 1 - voxel[axis] : voxel[axis]);
                 double depth = scale * integrate(g, voxel, way, slices), got = share_at(g, x, y, z);
                 double bound = scale * bound_of(slices, straight, mixed);
-                double want = lom_double_exp(-depth / 16);
-                CHECK(magnitude(got - want) <= want * lom_double_expm1(bound / 16) + 1.0 / 65535,
+                double want = lom_double_exp(-depth / LOM_LIGHT_DEPTH);
+                CHECK(magnitude(got - want) <= want * lom_double_expm1(bound / LOM_LIGHT_DEPTH) + 1.0 / 65535,
                       "sun at %g %g %g, voxel %d %d %d: %.6f for %.6f", to_sun[0], to_sun[1], to_sun[2], x, y, z, got,
                       want);
                 darkest = larger(darkest, 1 - want);
                 bias += got - want;
                 count++;
             }
-    CHECK(darkest > 0.05, "no shade to compare, %g", darkest);
-    CHECK(magnitude(bias) < 2e-4 * count, "sun at %g %g %g: %g too bright on average", to_sun[0], to_sun[1], to_sun[2],
+    CHECK(darkest > 0.0125, "no shade to compare, %g", darkest);
+    CHECK(magnitude(bias) < 5e-5 * count, "sun at %g %g %g: %g too bright on average", to_sun[0], to_sun[1], to_sun[2],
           bias / count);
 }
 
@@ -238,7 +238,7 @@ static void test_uniform_density_is_exact(void)
             int voxel[3] = { 3, 2, 4 };
             voxel[axis] = at;
             double depth = (up ? size[axis] - 1 - at : at) * whole + half;
-            double got = share_at(g, voxel[0], voxel[1], voxel[2]), want = lom_double_exp(-depth / 16);
+            double got = share_at(g, voxel[0], voxel[1], voxel[2]), want = lom_double_exp(-depth / LOM_LIGHT_DEPTH);
             CHECK(magnitude(got - want) < 1.0 / 65535, "axis %d, voxel %d: %.7f for %.7f", axis, at, got, want);
         }
     }
@@ -267,7 +267,8 @@ static void test_depth_beyond_the_box_is_added(void)
         lom_sweep_sun_by(LOM_WIDE(lom_sweep_slice), g, &desc, NULL);
         CHECK(outside == 0, "%d places outside", outside);
         for (int i = 0; i < 7 * 9 * 8; i++)
-            CHECK(magnitude(share_at(g, i % 7, i / 7 % 9, i / 63) - lom_double_exp(-2.0 / 16)) < 1.0 / 65535,
+            CHECK(magnitude(share_at(g, i % 7, i / 7 % 9, i / 63) - lom_double_exp(-2.0 / LOM_LIGHT_DEPTH)) <
+                      1.0 / 65535,
                   "voxel %d", i);
     }
     lom_free_light_grid(g);

@@ -41,7 +41,8 @@ static void v14_split_changes_nothing(void)
     lom_free_medium(medium);
 }
 
-/* Octave k alone, of a sun that is exp(-T / 16) everywhere, is lit by exp(-T / 2^k), of all eight. */
+/* Octave k alone, of a sun that is exp(-T / 64) everywhere, is lit by exp(-T / 4^k), of all eight; the phase weighs the
+ * first one alone. */
 static void octaves_are_powers_of_the_sun(void)
 {
     lom_medium *medium = medium_along_x(4, one);
@@ -58,12 +59,45 @@ static void octaves_are_powers_of_the_sun(void)
         desc.octaves = k + 1;
         desc.weight[0] = k == 0;
         desc.weight[k] = 1;
+        rays.phase = lom_splat(3.0f);
         lom_medium_result seen = march(&rays, &desc);
-        double s = 52429 / 65535.0, lit = k < 5 ? s : lom_double_pow(s, 1.0 / (1 << (k - 4)));
-        for (int doubled = k; doubled < 4; doubled++)
+        double s = 52429 / 65535.0, lit = k < 4 ? s : lom_double_pow(s, 1.0 / (1 << 2 * (k - 3)));
+        for (int doubled = 2 * k; doubled < 6; doubled++)
             lit *= lit;
-        double want = -lom_double_expm1(-1) * lit;
+        double want = -lom_double_expm1(-1) * lit * (k == 0 ? 3 : 1);
         CHECK(magnitude((double)seen.sun[0] - want) < 1e-5, "octave %d: %g, not %g", k, (double)seen.sun[0], want);
+    }
+    lom_free_light_grid(grid);
+    lom_free_image(density);
+    lom_free_medium(medium);
+}
+
+/* The furnace: under a sky and over a ground of one radiance a medium that absorbs nothing sends as much as it hides, at
+ * any depth; and what comes from the sky alone is linear in the optical depth between the two, where the grid tells it. */
+static void surroundings_have_shares_of_one(void)
+{
+    lom_medium *medium = medium_along_x(4, one);
+    lom_image *density = lom_create_image(2, 2, 2, LOM_FORMAT_R8, NULL);
+    const float same[256] = { 0 };
+    lom_light_grid *grid = lom_create_light_grid(density, 1, same, NULL);
+    for (int depth = 0; depth <= 40; depth += 8) {
+        const double above = 255 / (1 + 0.1125 * depth), below = 255 / (1 + 0.1125 * (40 - depth));
+        const uint32_t word = (uint32_t)lom_count_of(above + 0.5, 255) << 16 | (uint32_t)lom_count_of(below + 0.5, 255)
+                                                                                   << 24;
+        for (int i = 0; i < 27; i++)
+            memcpy(&grid->light[i], &word, sizeof word);
+        for (int fixed = 0; fixed < 2; fixed++) {
+            lom_medium_desc desc = plain(medium, 1, 0.1);
+            lom_medium_rays rays = rays_along_x(0, 1);
+            desc.light = grid;
+            desc.filtering = fixed ? LOM_FILTERING_FIXED : LOM_FILTERING_FLOAT;
+            lom_medium_result seen = march(&rays, &desc);
+            double hidden = -lom_double_expm1(-1), sky = (1 + 0.1125 * (40 - depth)) / (2 + 0.1125 * 40);
+            CHECK(magnitude((double)(seen.sky[0] + seen.ground[0]) - hidden) < 1e-5, "depth %d: %g of %g", depth,
+                  (double)(seen.sky[0] + seen.ground[0]), hidden);
+            CHECK(magnitude((double)seen.sky[0] - hidden * sky) < 0.004, "depth %d: %g, not %g", depth,
+                  (double)seen.sky[0], hidden * sky);
+        }
     }
     lom_free_light_grid(grid);
     lom_free_image(density);
@@ -336,6 +370,7 @@ int main(int argc, char **argv)
     RUN(v2_v3_v13_slab_is_exact);
     RUN(v14_split_changes_nothing);
     RUN(octaves_are_powers_of_the_sun);
+    RUN(surroundings_have_shares_of_one);
     RUN(images_that_are_no_media_are_refused);
     RUN(v15_order_reversed);
     RUN(v13_order_of_convergence);

@@ -95,7 +95,7 @@ static void check_scale(double scale)
     lom_medium_desc desc = plain(medium, 2 / scale, scale / 32);
     lom_medium_rays rays = { .start = lom_splat3(-1, 0.5f, 0.5f), .along = lom_splat3((float)(1 / scale), 0, 0) };
     rays.active = ALL;
-    rays.shift = rays.phase[0] = lom_splat(1.0f);
+    rays.shift = rays.phase = lom_splat(1.0f);
     LOM_WIDE(lom_cross_box)(&rays);
     lom_medium_result seen = march(&rays, &desc);
     CHECK(lom_any(rays.active) && magnitude((double)rays.enter[0] / scale - 1) < 1e-6 &&
@@ -140,7 +140,7 @@ static void v9_boxes_of_any_scale(void)
     lom_medium_desc desc = plain(medium, 2, 0.01);
     lom_medium_rays rays = { .start = lom_splat3(-1e7f, 0.5f, 0.5f), .along = lom_splat3(1, 0, 0) };
     rays.active = ALL;
-    rays.shift = rays.phase[0] = lom_splat(1.0f);
+    rays.shift = rays.phase = lom_splat(1.0f);
     LOM_WIDE(lom_cross_box)(&rays);
     lom_medium_result seen = march(&rays, &desc);
     CHECK(rays.enter[0] == 1e7f && rays.leave[0] == 1e7f + 1, "%.9g to %.9g", rays.enter[0], rays.leave[0]);
@@ -184,8 +184,8 @@ static void v11_opacity_and_colour_are_bounded(void)
     lom_free_image(image);
 }
 
-/* In surroundings of radiance 1 that all places see, what a medium takes it sends: it is not there to be seen. With a
- * grid of light, scattering once loses what would be scattered again. */
+/* Under a sky and over a ground of radiance 1, what a medium takes it sends: it is not there to be seen, whatever its grid
+ * of light says of the two. */
 static void v12_furnace(void)
 {
     uint32_t state = 5;
@@ -197,7 +197,7 @@ static void v12_furnace(void)
     lom_light_grid *grid = lom_create_light_grid(image, 1, same, NULL);
     const float size[3] = { 1, 1, 1 };
     lom_sweep_sky(grid, size, 30);
-    double lost = 0;
+    double moved = 0;
     for (int i = 0; i < 60; i++) {
         lom_medium_rays rays = random_rays(&state, 0.2);
         lom_medium_desc desc = plain(medium, 30, 0.01);
@@ -205,14 +205,15 @@ static void v12_furnace(void)
         desc.light = grid;
         once = march(&rays, &desc);
         for (int k = 0; k < LOM_LANES; k++) {
-            double whole = (double)all.sky[k] + (double)all.transmittance[k];
-            double part = (double)once.sky[k] + (double)once.transmittance[k];
+            double whole = (double)all.sky[k] + (double)all.ground[k] + (double)all.transmittance[k];
+            double part = (double)once.sky[k] + (double)once.ground[k] + (double)once.transmittance[k];
             CHECK(magnitude(whole - 1) < 300 * 0x1p-24, "%.9g", whole);
-            CHECK(part <= 1 + 300 * 0x1p-24, "%.9g", part);
-            lost = 1 - part > lost ? 1 - part : lost;
+            CHECK(magnitude(part - 1) < 300 * 0x1p-24, "%.9g with a grid", part);
+            double apart = (double)once.sky[k] - (double)all.sky[k];
+            moved = magnitude(apart) > moved ? magnitude(apart) : moved;
         }
     }
-    CHECK(lost > 0.1, "%g", lost);
+    CHECK(moved > 0.05, "the grid tells the sky from the ground: %g", moved);
     lom_free_light_grid(grid);
     lom_free_medium(medium);
     lom_free_image(image);

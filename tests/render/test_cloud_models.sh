@@ -55,7 +55,7 @@ rayleigh() {
         picture one --set 'quality.clouds="single"' --set "light.azimuth=$azimuth" --set 'clouds.phase="isotropic"' &&
             picture other --set 'quality.clouds="single"' --set "light.azimuth=$azimuth" --set 'clouds.phase="rayleigh"' || return 1
         paste "$folder/one" "$folder/other" | awk -v factor="$factor" '
-            $1 > 1e-4 { count++; error = $2 / $1 / factor - 1; if (error < 0) error = -error; if (error > worst) worst = error }
+            $1 > 4e-5 { count++; error = $2 / $1 / factor - 1; if (error < 0) error = -error; if (error > worst) worst = error }
             END { print factor, count + 0, "samples, worst", worst; exit !(count > 200 && worst < 0.004) }' || return 1
     done
 }

@@ -92,13 +92,14 @@ static void check_place(const struct place *at)
               x, y, above);
     }
     CHECK(dark > 900 && open > 900, "%g degrees: %d dark and %d lit pixels", at->elevation, dark, open);
-    /* down a column half of the light is left within half a voxel of the plane */
+    /* Down a column half of the light is left within a voxel of the plane: of a lit and a dark voxel the grid mixes 64th
+     * roots, of which half of the light is 0.989, almost at the lit one's middle. */
     for (int x = 45; is != NULL && lit != NULL && x < WIDTH - 45; x += 10) {
         int y = HEIGHT / 2 - 28;
         while (y < HEIGHT / 2 + 28 && red(is, x, y) > 0.5 * red(lit, x, y))
             y++;
         if (y > HEIGHT / 2 - 28 && y < HEIGHT / 2 + 28)
-            CHECK(fabs(above_plane(at, x, y)) < 3.5, "%g degrees: half is %g m above the plane", at->elevation,
+            CHECK(fabs(above_plane(at, x, y)) < 4, "%g degrees: half is %g m above the plane", at->elevation,
                   above_plane(at, x, y));
     }
     lom_free_image(is);
