@@ -37,6 +37,21 @@ static void move_entity(lom_entity *entity, const double middle[2])
         move(&entity->keys[i].position, middle);
 }
 
+static void move_box(double low[3], double high[3], const double middle[2])
+{
+    low[0] -= middle[0], low[2] -= middle[1];
+    high[0] -= middle[0], high[2] -= middle[1];
+}
+
+static void move_fluid(lom_fluid_params *fluid, const double middle[2])
+{
+    move_box(fluid->low, fluid->high, middle);
+    for (size_t i = 0; i < fluid->block_count; i++)
+        move_box(fluid->blocks[i].low, fluid->blocks[i].high, middle);
+    for (size_t i = 0; i < fluid->solid_count; i++)
+        move_box(fluid->solids[i].low, fluid->solids[i].high, middle);
+}
+
 static void move_pair(double pair[2], const double middle[2])
 {
     pair[0] -= middle[0];
@@ -79,11 +94,10 @@ void lom_measure_from_terrain(lom_scene *scene, const lom_key_check *root)
         move_entity(&scene->entities[i], middle);
     for (size_t i = 0; i < scene->cloud_count; i++)
         move(&scene->cloud[i].position, middle);
-    for (size_t i = 0; i < scene->spray_count; i++) {
-        lom_spray *spray = &scene->sprays[i];
-        spray->from[0] -= middle[0], spray->from[2] -= middle[1];
-        spray->to[0] -= middle[0], spray->to[2] -= middle[1];
-    }
+    for (size_t i = 0; i < scene->spray_count; i++)
+        move_box(scene->sprays[i].from, scene->sprays[i].to, middle);
+    for (size_t i = 0; i < scene->fluid_count; i++)
+        move_fluid(&scene->fluids[i], middle);
     move_waters(scene, root, middle);
 }
 

@@ -112,7 +112,7 @@ static void clipping_leaves_vertices_inside_as_they_are(void)
     struct lom_assembly assembly = { .clip = NULL };
     struct lom_chunk chunk = { .draw = &draw, .assembly = &assembly, .vertex_count = 3 };
     int inside = 0, outside = 0;
-    draw.uniforms = plus;
+    chunk.uniforms = plus;
     for (int round = 0; round < 20000; round++) {
         const struct lom_pass pass = { .samples = 1 };
         draw.desc.viewport = (lom_rect){ 0, 0, (int)random_whole(1, 4000), (int)random_whole(1, 4000) };

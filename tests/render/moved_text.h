@@ -57,7 +57,8 @@ static inline int move_line(char *out, size_t room, const char *line, double x, 
 
 static inline void move_text(char *out, size_t room, const char *text, double x, double z)
 {
-    static const char *const keys[] = { "position = ", "target = ", "from = [", "to = [", "middle = " };
+    static const char *const keys[] = { "position = ", "target = ", "from = [", "to = [",
+                                        "middle = ",   "low = [",   "high = [" };
     bool follows = false;
     size_t used = 0;
     for (const char *line = text, *end; *line != 0; line = end + 1) {

@@ -43,6 +43,12 @@ static const char *const height_keys[] = {
     "clouds.wind.height",
     "spray.from",
     "spray.to",
+    "fluid.low",
+    "fluid.high",
+    "fluid.block.low",
+    "fluid.block.high",
+    "fluid.solid.low",
+    "fluid.solid.high",
 };
 
 /* Powers of the length by which what has no unit of its own scales, a component each. */
@@ -59,7 +65,7 @@ static const struct unit_power {
     const char *unit;
     double power;
 } unit_powers[] = {
-    { "m", 1 }, { "1/m", -1 }, { "m/s", 0.5 }, { "s", 0.5 }, { "1/s", -0.5 }, { "m^3/s", 2.5 },
+    { "m", 1 }, { "1/m", -1 }, { "m/s", 0.5 }, { "s", 0.5 }, { "1/s", -0.5 }, { "m^2/s", 1.5 }, { "m^3/s", 2.5 },
 };
 
 /* Where the walk through the tables is. */

@@ -15,14 +15,19 @@ static const struct exception {
     const char *base;
     double low, high; /* factors that are tried */
     int most;
+    double near; /* no shift farther than this is tried, in metres; 0: all are */
 } exceptions[] = {
-    { "reference_clouds", 1, 1, 0 }, /* random paths, whose numbers belong to the bits of their rays */
-    { "reference", 1, 1, 0 }, /* ripples are random numbers that belong to the bits of a place; `traced` has none */
-    { "sea", 1e-3, 100, 0 },  /* the wind stays within 0.1 .. 100 m/s */
-    { "foam", 1e-3, 100, 0 },        { "plunging", 1, 1000, 0 }, /* a curl smaller than it was is drawn otherwise */
-    { "carried", 1e-3, 10, 0 },                                  /* the strongest spring gives 10^6 m^3/s */
-    { "shallow", 1e-3, 1000, 4 }, /* films are in powers of two, so that a cell at the shore may dry elsewhere */
-    { "follower", 1e-3, 1000, 4 },   { "entity_hits", 1e-3, 100, 0 }, /* waves are at most 100 m high */
+    { "reference_clouds", 1, 1, 0, 0 }, /* random paths, whose numbers belong to the bits of their rays */
+    { "reference", 1, 1, 0, 0 }, /* ripples are random numbers that belong to the bits of a place; `traced` has none */
+    { "sea", 1e-3, 100, 0, 0 },  /* the wind stays within 0.1 .. 100 m/s */
+    { "foam", 1e-3, 100, 0, 0 },
+    { "plunging", 1, 1000, 0, 0 },   /* a curl smaller than it was is drawn otherwise */
+    { "carried", 1e-3, 10, 0, 0 },   /* the strongest spring gives 10^6 m^3/s */
+    { "shallow", 1e-3, 1000, 4, 0 }, /* films are in powers of two, so that a cell at the shore may dry elsewhere */
+    { "follower", 1e-3, 1000, 4, 0 },
+    { "entity_hits", 1e-3, 100, 0, 0 }, /* waves are at most 100 m high */
+    { "fluid", 1e-3, 10, 0, 0x1p10 },   /* basins lie within 1000 km, and conduct up to 10 m^2/s */
+    { "far_fluid", 1e-3, 1, 0, -1 },    /* it lies there */
 };
 
 /* What bases are drawn with: a wind whose way is whole 64ths of a metre, as clouds go (src/cloud/cloud_wind.c). */
@@ -89,11 +94,18 @@ struct change {
     struct scene_transform transform;
 };
 
-static int allowed(const char *name, double scale)
+/* How many pixels may differ by more; below 0 where the change is not tried. */
+static int allowed(const char *name, const struct change *change)
 {
-    for (size_t i = 0; i < sizeof exceptions / sizeof *exceptions; i++)
-        if (strcmp(exceptions[i].base, name) == 0 && scale != 1)
-            return scale < exceptions[i].low || scale > exceptions[i].high ? -1 : exceptions[i].most;
+    const double scale = change->transform.scale, shift = fmax(change->aside, change->transform.raise);
+    for (size_t i = 0; i < sizeof exceptions / sizeof *exceptions; i++) {
+        const struct exception *e = &exceptions[i];
+        if (strcmp(e->base, name) != 0)
+            continue;
+        if (scale != 1)
+            return scale < e->low || scale > e->high ? -1 : e->most;
+        return e->near != 0 && shift > e->near ? -1 : 0;
+    }
     return 0;
 }
 
@@ -102,8 +114,8 @@ static void try_base(const struct base *base, const struct change *change, struc
 {
     char text[4096], moved[8192];
     lom_error error = { .code = LOM_OK };
-    const int most = allowed(base->name, change->transform.scale);
-    if (most < 0 || strstr(base->text, "[[fluid]]") != NULL) /* its cells are not of this test yet */
+    const int most = allowed(base->name, change);
+    if (most < 0)
         return;
     snprintf(text, sizeof text, "%s%s", head, base->text);
     replace_wind(text);
