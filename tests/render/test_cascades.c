@@ -2,6 +2,7 @@
  * first cascade to the last, so that no seam is seen; that turning the eye moves no texel; that lanes and crops change no
  * byte; and that parallel rays and scenes without a caster have none. */
 #include "check.h"
+#include "drawn_scene.h"
 #include "small_scene.h"
 
 #include <math.h>
@@ -17,22 +18,6 @@ enum { WIDTH = 160, HEIGHT = 90 };
 #define WALL  "[[entity]]\nmesh = 'wall.obj'\n[entity.material]\nspecular = 0\n"
 static const char floor_obj[] = "v -90 0 40\nv 90 0 40\nv 90 0 -400\nv -90 0 -400\nvn 0 1 0\nf 1//1 2//1 3//1 4//1\n";
 static const char wall_obj[] = "v 0 0 20\nv 0 0 -300\nv 0 10 -300\nv 0 10 20\nvn 1 0 0\nf 1//1 2//1 3//1 4//1\n";
-
-static lom_image *draw(const char *text, const char *const *set, size_t sets, int lanes, lom_rect crop, lom_plan *plan)
-{
-    lom_error error = { 0 };
-    lom_frame drawn = { .image = NULL };
-    lom_scene *scene = lom_decode_scene(text, strlen(text), small_path("cascades.toml"), set, sets, &error);
-    lom_renderer *renderer =
-        scene == NULL ? NULL : lom_create_renderer(scene, &(lom_device_desc){ .threads = 1, .lanes = lanes }, &error);
-    bool done = renderer != NULL && lom_render_frame(renderer, &(lom_frame_desc){ .crop = crop }, &drawn, &error);
-    CHECK(done, "%s", error.text);
-    if (plan != NULL)
-        *plan = drawn.plan;
-    lom_free_renderer(renderer);
-    lom_free_scene(scene);
-    return done ? drawn.image : NULL;
-}
 
 static lom_image *draw_with(const char *text, const char *set)
 {

@@ -3,6 +3,7 @@
  * same shadow in the glitter; that lanes and crops change no byte; and that maps are drawn for a shadow that falls on
  * water alone, and for none where no water shows the sun. */
 #include "check.h"
+#include "drawn_scene.h"
 #include "small_scene.h"
 
 #include <math.h>
@@ -24,22 +25,6 @@ static const char *const waters[] = { PLANAR, FLAT, MARCHED, DISPLACED };
 enum { WATERS = sizeof waters / sizeof *waters };
 
 static const char shadows[] = "quality.entity_shadows=1024", none[] = "quality.entity_shadows=0";
-
-static lom_image *draw(const char *text, const char *const *set, size_t sets, int lanes, lom_rect crop, lom_plan *plan)
-{
-    lom_error error = { 0 };
-    lom_frame drawn = { .image = NULL };
-    lom_scene *scene = lom_decode_scene(text, strlen(text), small_path("water.toml"), set, sets, &error);
-    lom_renderer *renderer =
-        scene == NULL ? NULL : lom_create_renderer(scene, &(lom_device_desc){ .threads = 1, .lanes = lanes }, &error);
-    bool done = renderer != NULL && lom_render_frame(renderer, &(lom_frame_desc){ .crop = crop }, &drawn, &error);
-    CHECK(done, "%s", error.text);
-    if (plan != NULL)
-        *plan = drawn.plan;
-    lom_free_renderer(renderer);
-    lom_free_scene(scene);
-    return done ? drawn.image : NULL;
-}
 
 static lom_image *draw_with(const char *text, const char *a, const char *b)
 {
