@@ -61,7 +61,7 @@ lom_device *lom_open_device(const lom_device_desc *desc)
 
 bool lom_lay_chunks(lom_device *device, size_t count)
 {
-    const size_t most = count < device->most_chunks ? count : device->most_chunks;
+    const size_t batch = (size_t)device->desc.batch, most = count > batch ? device->most_chunks : batch;
     lom_error *error = &device->error;
     if (!lom_reserve(&device->chunks, &device->chunk_capacity, most, sizeof *device->chunks, error))
         return false;

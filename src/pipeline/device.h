@@ -60,7 +60,8 @@ struct lom_device {
 
 /* Checks a descriptor and records it; false with an error on the device. */
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc);
-/* Chunks for the batches of a pass that has so many. */
+/* Chunks for the batches of a pass that has so many: those of a batch, or all that a device may have, since a pass that
+ * once has more than a batch has some more in another frame. */
 bool lom_lay_chunks(lom_device *device, size_t count);
 /* Whether a draw that the pass has already is what a descriptor asks for but for its triangles and its uniforms: which, and
  * which triangles of it (call.c). */
