@@ -121,10 +121,9 @@ struct lom_cloud_view {
 /* What tells the nearer one of two places: the square of the distance; of parallel rays the distance along the view
  * axis. */
 double lom_cloud_nearness(lom_vec3 place, const struct lom_cloud_view *view);
-/* The box of a cloud in the world. */
 /* What octave k of scattering weighs in parts of the sun's colour; the first goes by the phase function, times 4 pi. */
 double lom_octave_weight(double albedo, int octave);
-
+/* The box of a cloud in the world. */
 lom_box lom_cloud_bounds(const struct lom_placed_cloud *cloud);
 /* Indices of the clouds that are seen (all of them unless cull is set), the farthest first (by the middle's distance;
  * of equals the later one in the file first); order has room for set->count. */
