@@ -1,6 +1,7 @@
 /* Checked memory. Every allocation of the library goes through this file, so that one place checks the size and tests
  * can make any allocation fail. */
 #include "base/reserve.h"
+#include "base/system.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,10 @@ static size_t measure(size_t count, size_t size, lom_error *error)
 void *lom_allocate_bare(size_t count, size_t size, lom_error *error)
 {
     size_t bytes = measure(count, size, error);
-    void *memory = bytes == 0 ? NULL : aligned_alloc(ALIGNMENT, bytes);
+    bool large = bytes >= LOM_LARGE_PAGE;
+    void *memory = bytes == 0 ? NULL : aligned_alloc(large ? LOM_LARGE_PAGE : ALIGNMENT, bytes);
+    if (memory != NULL && large)
+        lom_expect_whole(memory, bytes / LOM_LARGE_PAGE * LOM_LARGE_PAGE);
     if (memory == NULL && bytes != 0)
         lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for %zu bytes.", count * size);
     return memory;

@@ -43,6 +43,11 @@ void lom_let_signals(const lom_held_signals *before);
 /* The number of this process: a forked child has another one. */
 int lom_process(void);
 
+/* That a block will be touched from end to end, so that the system may give it in pages as large as this. A hint: nothing
+ * but time follows from it. */
+enum { LOM_LARGE_PAGE = 2 << 20 };
+void lom_expect_whole(void *memory, size_t size);
+
 /* A temporary file's name, which lom_remove_temporaries knows. */
 typedef struct lom_temporary lom_temporary;
 

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 /* A limit of file sizes (RLIMIT_FSIZE) should be an error like a full disk, and so should a reader that went away; but
@@ -70,6 +71,18 @@ void lom_let_signals(const lom_held_signals *before)
     memcpy(&own, before->set, sizeof own);
     pthread_sigmask(SIG_SETMASK, &own, NULL);
     errno = reason;
+}
+
+/* A first touch of a page costs the system as much as writing it several times; a large one is a five hundredth of them. */
+void lom_expect_whole(void *memory, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    int reason = errno;
+    madvise(memory, size, MADV_HUGEPAGE);
+    errno = reason;
+#else
+    (void)memory, (void)size;
+#endif
 }
 
 int lom_process(void)

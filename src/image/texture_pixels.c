@@ -5,6 +5,8 @@
 #include "convert_rows.h"
 #include "texture.h"
 
+#include <string.h>
+
 enum { TOGETHER = 64 }; /* texels of the formats that are converted in double */
 
 /* ---- a row ---- */
@@ -19,8 +21,13 @@ static void pack_bytes(int channels, const uint8_t *from, int count, uint32_t *t
     }
 }
 
+/* Four channels are, where the machine puts the low byte first, the words as they lie. */
 static void unpack_bytes(int channels, const uint32_t *from, int count, uint8_t *to)
 {
+    if (channels == 4 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) {
+        memcpy(to, from, (size_t)count * 4);
+        return;
+    }
     for (int i = 0; i < count; i++, to += channels)
         for (int c = 0; c < channels; c++)
             to[c] = (uint8_t)(from[i] >> 8 * c);
@@ -79,6 +86,10 @@ static void read_row(const lom_texture *texture, const void *row, int width, uin
 {
     if (texture->storage == LOM_STORAGE_RGBA8) {
         unpack_bytes(lom_describe_format(texture->format)->channels, row, width, to);
+        return;
+    }
+    if (texture->format == LOM_FORMAT_RGBA32F || texture->format == LOM_FORMAT_R32F) {
+        memcpy(to, row, (size_t)width * (size_t)floats_of(texture) * sizeof(float));
         return;
     }
     double rgba[TOGETHER][4];

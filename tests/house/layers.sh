@@ -35,7 +35,7 @@ public() { # the public headers of each layer
     *) basename "$1" .h ;;
     esac
 }
-system=' assert dirent errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/stat sys/time sys/types sys/utsname sys/wait time unistd xmmintrin '
+system=' assert dirent errno fcntl fenv float inttypes limits math poll pthread sched signal stdarg stdatomic stdbool stddef stdint stdio stdlib string sys/resource sys/mman sys/stat sys/time sys/types sys/utsname sys/wait time unistd xmmintrin '
 status=0
 for folder in src/*/; do
     name=$(basename "$folder")
