@@ -78,23 +78,6 @@ static inline double mean_reflectance(const rough_water *w, const double v[3])
     return seen_mean(w, v, reflectance_of_facet, w);
 }
 
-/* The same with a second reflection: what a facet mirrors down meets water again, taken to be level there. */
-struct sky_mirror {
-    double v[3], index;
-};
-static inline double twice_mirrored(const double n[3], double cosine, const void *context)
-{
-    const struct sky_mirror *m = context;
-    const double once = smooth_reflectance(cosine, m->index), up = 2 * cosine * n[1] - m->v[1];
-    return up >= 0 ? once : once * smooth_reflectance(-up, m->index);
-}
-
-static inline double mirrored_sky(const rough_water *w, const double v[3])
-{
-    const struct sky_mirror m = { { v[0], v[1], v[2] }, w->index };
-    return seen_mean(w, v, twice_mirrored, &m);
-}
-
 /* Facets behind others, to those that are seen, for a direction of this cosine in which slopes have this variance (B.
  * Smith, IEEE Trans. Antennas Propag. 15 (1967)); those that are seen share 1 / (1 + it). */
 static inline double hidden_facets(double cosine, double variance)

@@ -162,18 +162,43 @@ lom_vec3 lom_light_through_clouds(const lom_reference *reference, const struct l
 /* The share of the sun's light that clouds let through to a place. */
 double lom_cloud_shadow(const lom_reference *reference, lom_vec3 place, double time);
 
+/* Variance of slopes along x and z, and their covariance. */
+struct lom_slope_spread {
+    double xx, xz, zz;
+};
 /* Water (surface.c). */
 struct lom_crossing {
     double t;
     lom_vec3 place;
-    double rest[2];  /* where the water of it is at rest, if the surface has waves */
-    lom_vec3 facet;  /* the geometry's unit normal, upwards */
-    lom_vec3 normal; /* the one that mirrors and bends, upwards; it faces the ray, as the facet does */
+    double rest[2];                 /* where the water of it is at rest, if the surface has waves */
+    lom_vec3 facet;                 /* the geometry's unit normal, upwards */
+    lom_vec3 normal;                /* the one that mirrors and bends, upwards; it faces the ray, as the facet does */
+    struct lom_slope_spread spread; /* of the normals that there are, about the facet */
+    uint64_t key;                   /* of the random numbers of the place */
 };
 /* Where a ray first crosses the surface of the water at low < t < high, from above or from below; false when it does
  * not. */
 bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
                      double low, double high, struct lom_crossing *crossing);
+/* The normal of water without waves, without ripples. */
+lom_vec3 lom_level_water_normal(const lom_reference *reference, const struct lom_crossing *crossing, double time);
+/* facets.c. Fills in which of the facets smaller than the geometry a ray meets first: the normal, spread and key. */
+void lom_meet_first_facet(const lom_reference *reference, lom_vec3 direction, double time, bool from_below,
+                          struct lom_crossing *crossing);
+/* The way of light among them, back from the first. */
+struct lom_facet_walk {
+    const lom_reference *reference;
+    const struct lom_crossing *crossing;
+    double time, side;
+    double height; /* the logarithm of the share of facets that lie lower than the last */
+    uint64_t key;
+    int met;
+};
+struct lom_facet_walk lom_enter_facets(const lom_reference *reference, const struct lom_crossing *crossing,
+                                       lom_vec3 direction, double time, bool from_below);
+/* Whether what the last facet mirrors to a unit direction meets another one, and its normal, upwards, which faces it. False:
+ * it leaves them. */
+bool lom_meet_facet(struct lom_facet_walk *walk, lom_vec3 direction, lom_vec3 *normal);
 /* Whether a place is over or under the rectangle of the water. */
 bool lom_is_over_water(const lom_reference *reference, lom_vec3 place);
 /* Metres of water above a place, waves of a frame left out; 0 where there is none. */

@@ -126,84 +126,7 @@ static lom_vec3 normal_of_slope(const double slope[2])
     return unit((lom_vec3){ -slope[0], 1, -slope[1] });
 }
 
-/* Ripples finer than any pixel have normal slopes of so much deviation about those of a normal. What a ray along -v sees of
- * a facet is in proportion to v.n / n.y (Ross, Dion, Potvin 2005), which is a + b x: x the slope along v in deviations. */
-struct ripples {
-    double a, b, flat; /* flat: the length of v without y */
-    double deviation;
-};
-
-static struct ripples find_ripples(lom_vec3 normal, lom_vec3 v, double roughness)
-{
-    const double deviation = lom_double_sqrt(roughness / 2), flat = lom_double_sqrt(v.x * v.x + v.z * v.z);
-    return (struct ripples){ dot(v, normal) / normal.y, deviation * flat, flat, deviation };
-}
-
-/* The area below the normal density up to x, and the density. */
-static double normal_area(double x)
-{
-    return 0.5 * (1 + lom_double_erf(x * 0.7071067811865476));
-}
-
-static double normal_density(double x)
-{
-    return 0.3989422804014327 * lom_double_exp(-0.5 * x * x);
-}
-
-static bool is_flat(const struct ripples *r)
-{
-    return !(r->b > 1e-9 * lom_magnitude(r->a));
-}
-
-/* The mean of max(a + b x, 0). */
-static double shown_area(const struct ripples *r)
-{
-    const double c = r->a / (is_flat(r) ? 1 : r->b);
-    return is_flat(r) ? lom_larger(r->a, 0) : r->a * normal_area(c) + r->b * normal_density(c);
-}
-
-/* The x whose share of the density n(x) (c + x), x > -c, is the share that `drawn` has of the normal density n. The
- * integral is c (N(x) - N(-c)) + n(c) - n(x); it is inverted by Newton's steps between two bounds that close in. */
-static double lean_towards(double drawn, double c)
-{
-    const double whole = c * normal_area(c) + normal_density(c), wanted = normal_area(drawn) * whole;
-    const double hidden = c * normal_area(-c) - normal_density(c);
-    double low = lom_larger(-c, -9), high = 9, x = lom_smaller(lom_larger(drawn, low), high);
-    for (int i = 0; i < 60; i++) {
-        const double density = normal_density(x), over = c * normal_area(x) - density - hidden - wanted;
-        if (over > 0)
-            high = x;
-        else
-            low = x;
-        double next = x - over / (density * (c + x));
-        if (!(next > low && next < high))
-            next = low + (high - low) / 2;
-        if (lom_magnitude(next - x) < 1e-12)
-            return next;
-        x = next;
-    }
-    return x;
-}
-
-/* One of those that are seen, by random numbers. */
-static lom_vec3 ripple(lom_vec3 normal, lom_vec3 v, uint64_t key, uint64_t number, double roughness)
-{
-    double slopes[2];
-    if (!(roughness > 0))
-        return normal;
-    lom_random_normal(key, number, slopes);
-    const struct ripples r = find_ripples(normal, v, roughness);
-    double x = slopes[0], z = slopes[1];
-    if (!is_flat(&r)) {
-        const double towards = lean_towards(slopes[0], lom_larger(r.a / r.b, -5));
-        x = (towards * v.x - slopes[1] * v.z) / r.flat;
-        z = (towards * v.z + slopes[1] * v.x) / r.flat;
-    }
-    const double up = normal.y * r.deviation;
-    return unit((lom_vec3){ normal.x + up * x, normal.y, normal.z + up * z });
-}
-
-static lom_vec3 level_normal(const lom_reference *reference, const struct lom_crossing *c, double time)
+lom_vec3 lom_level_water_normal(const lom_reference *reference, const struct lom_crossing *c, double time)
 {
     const lom_reference_water *w = &reference->water;
     if (w->slope != NULL) {
@@ -212,34 +135,6 @@ static lom_vec3 level_normal(const lom_reference *reference, const struct lom_cr
         return normal_of_slope(slope);
     }
     return reference->normal_map == LOM_NO_PICTURE ? (lom_vec3){ 0, 1, 0 } : mapped_normal(reference, c->place, time);
-}
-
-/* The geometry that rays meet is coarser than the water: waves that are shorter than its triangles, and ripples, are
- * normals n about the facet f. A ray along -v sees each by the area that it shows over its share of the facet's,
- * (n.v) / (n.f); those that are turned away hide behind others, and the facet shows no more than its own (Smith 1967;
- * Heitz 2014, section 3). One of so many waves of the place is taken with the probability of the share that its ripples
- * show in the mean (resampling: Talbot, Cline, Egbert 2005), and one of these by its own; the random numbers are those of
- * the place. */
-static lom_vec3 seen_normal(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
-                            const struct lom_crossing *c)
-{
-    enum { NORMALS = 16 };
-    const double roughness = reference->water.roughness;
-    const lom_vec3 v = scaled(ray->direction, from_below ? 1 : -1);
-    const uint64_t x = lom_hash_bytes(LOM_HASH_START, &c->place.x, sizeof c->place.x);
-    const uint64_t place = lom_hash_bytes(x, &c->place.z, sizeof c->place.z);
-    lom_vec3 seen = reference->waves == NULL ? level_normal(reference, c, time) : c->facet;
-    double whole = 0;
-    for (uint64_t i = 0; reference->waves != NULL && i < NORMALS; i++) {
-        const double part = ((double)i + lom_random_uniform(place, 2 * i)) / NORMALS - 0.5;
-        const lom_vec3 n = lom_wave_surface_normal(reference->waves, c->rest, part);
-        const struct ripples ripples = find_ripples(n, v, roughness);
-        const double area = shown_area(&ripples) * n.y / lom_larger(dot(n, c->facet), 0.02);
-        whole += area;
-        if (lom_random_uniform(place, 2 * i + 1) * whole < area)
-            seen = n;
-    }
-    return ripple(seen, v, place, 2 * NORMALS, roughness);
 }
 
 static bool meet_surface(const lom_reference *reference, const struct lom_ray *ray, double time, bool from_below,
@@ -253,7 +148,8 @@ static bool meet_surface(const lom_reference *reference, const struct lom_ray *r
         return false;
     c->place = along(ray->origin, ray->direction, c->t);
     c->place.y = height_at(w, c->place.x, c->place.z, time);
-    c->facet = w->height != NULL && w->slope != NULL ? level_normal(reference, c, time) : (lom_vec3){ 0, 1, 0 };
+    c->facet =
+        w->height != NULL && w->slope != NULL ? lom_level_water_normal(reference, c, time) : (lom_vec3){ 0, 1, 0 };
     return true;
 }
 
@@ -262,6 +158,6 @@ bool lom_cross_water(const lom_reference *reference, const struct lom_ray *ray, 
 {
     if (!meet_surface(reference, ray, time, from_below, low, high, c))
         return false;
-    c->normal = seen_normal(reference, ray, time, from_below, c);
+    lom_meet_first_facet(reference, ray->direction, time, from_below, c);
     return true;
 }

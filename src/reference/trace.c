@@ -95,27 +95,27 @@ static lom_vec3 leave(const struct tracer *tracer, const struct path *path, cons
     return share > 0 ? scaled(follow(tracer, &next), share) : (lom_vec3){ 0, 0, 0 };
 }
 
-/* The ways that a path goes on after the water's surface. What the normal mirrors to behind the facet meets the water
- * again, as the facet lies; what it would bend to before the facet is mirrored by it. */
+/* The ways that a path goes on after the water's surface. What a facet mirrors may meet others before it leaves them all;
+ * each lets its share through. What a facet would bend to before the geometry's is mirrored by that. */
 static lom_vec3 divide(const struct tracer *tracer, const struct path *path, const lom_reference *met,
                        const struct lom_crossing *c)
 {
-    const lom_reference_water *water = &met->water;
     const bool in_water = path->inside != NULL;
-    double side = in_water ? -1 : 1, index = in_water ? 1 / water->index : water->index;
-    lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side), bent;
-    lom_vec3 mirrored = lom_reference_mirror(d, normal), light = { 0, 0, 0 };
-    double share = lom_reference_fresnel(-dot(d, normal), index), again = share;
-    if (dot(mirrored, facet) < 0) {
-        again *= lom_reference_fresnel(-dot(mirrored, facet), index);
-        if (again < share && lom_reference_refract(mirrored, facet, index, &bent))
-            light = leave(tracer, path, met, c->place, bent, true, share - again);
-        mirrored = lom_reference_mirror(mirrored, facet);
-    }
-    light = sum(light, leave(tracer, path, met, c->place, mirrored, false, again));
-    if (share < 1 && lom_reference_refract(d, normal, index, &bent))
-        light = sum(light, leave(tracer, path, met, c->place, kept_in_front(bent, scaled(facet, -1)), true, 1 - share));
-    return light;
+    const double side = in_water ? -1 : 1, index = in_water ? 1 / met->water.index : met->water.index;
+    const lom_vec3 behind = scaled(c->facet, -side);
+    lom_vec3 d = path->ray.direction, normal = c->normal, light = { 0, 0, 0 }, bent;
+    struct lom_facet_walk walk = lom_enter_facets(met, c, d, tracer->time, in_water);
+    double left = 1;
+    do {
+        normal = scaled(normal, side);
+        const double share = lom_reference_fresnel(-dot(d, normal), index);
+        if (share < 1 && lom_reference_refract(d, normal, index, &bent))
+            light =
+                sum(light, leave(tracer, path, met, c->place, kept_in_front(bent, behind), true, left * (1 - share)));
+        left *= share;
+        d = lom_reference_mirror(d, normal);
+    } while (lom_meet_facet(&walk, d, &normal));
+    return sum(light, leave(tracer, path, met, c->place, kept_in_front(d, scaled(c->facet, side)), false, left));
 }
 
 /* Light that comes from t along the path, as it is at its origin. */
