@@ -1,5 +1,5 @@
 /* Waves of kind "gerstner": trochoids from the water's parameters. In: direction, lengths, height, steepness, a time;
- * out: wave vectors, phases and amplitudes. Invariant: no loops, and a phase that is exact to 1e-6 at any time. */
+ * out: wave vectors, phases and amplitudes. Invariant: no loops, and a phase that is exact to three roundings of its turns. */
 #include "base/numbers.h"
 #include "waves/wave_field.h"
 #include "waves/wave_trains.h"
@@ -86,7 +86,8 @@ int lom_make_trochoids(const lom_water_waves *waves, lom_trochoid out[LOM_MAX_WA
     return make_trochoids(waves, out, report != NULL ? report : &unread);
 }
 
-/* Without whole turns, so that what follows is a small angle: both products are rounded in turns, 2^-53 of them. */
+/* Without whole turns, so that what follows is a small angle: both products are rounded in turns, 2^-53 of them, which
+ * for waves of 8 m is below 1e-6 rad at 1e9 s. */
 double lom_trochoid_phase(const lom_trochoid *t, double x, double z, double time)
 {
     double turns = t->phase - t->rate * time / lom_two_pi;

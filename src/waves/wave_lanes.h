@@ -88,8 +88,8 @@ struct lom_waves_uniform {
     float foam_window;     /* seconds that the foam lasts */
 };
 
-/* The trochoids of the water at a time in seconds, for places less `origin` (x, z): exact phases for |time| and
- * |origin| up to 1e9; and the bounds of their sum. The horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves
+/* The trochoids of the water at a time in seconds, for places less `origin` (x, z): phases to 2^-51 of their
+ * turns for |time| and |origin| up to 1e9; and the bounds of their sum. The horizontal amplitudes b = steepness min(a, 1 / (n k)) of n waves
  * keep the sum of b k at most 1, which is where the first loop would close: the Jacobian of the displacement never
  * falls below 0. */
 void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *waves, const lom_water_foam *foam,

@@ -2,7 +2,8 @@
  * error is far below an ulp of float: the largest error in ulps and where it is, how many results are not the nearest
  * float, and one sum over arguments and results that is the same at every width. LOM_EXHAUSTIVE=1 visits every float on
  * all processors, but of sin, cos and tan from 131 072 on: there they are the double functions rounded once, which
- * tests/base/test_double.c bounds. docs/extremes.md has what it prints. */
+ * tests/base/test_double.c bounds. Of every float it prints the table of bench/results/lane-mathematics.md and
+ * docs/extremes.md. */
 #include "base/threads.h"
 
 #include "check.h"
@@ -193,6 +194,22 @@ static void walk_blocks(void *context, size_t first, size_t end)
     }
 }
 
+/* Of a run over all floats, a row of the table of bench/results/lane-mathematics.md, as far as a test knows it, and what
+ * docs/extremes.md has besides. */
+static void print_row(const struct unary *unary, const struct found *found)
+{
+    const char *dense = unary->dense_below == 0 ? "16 of every 496 floats" : "all floats";
+    char over[96];
+    if (unary->dense_below > 0 && isfinite(unary->dense_below))
+        snprintf(over, sizeof over, "all floats below %g, 16 of every 496 above", unary->dense_below);
+    else if (unary->is_nan_beyond && isfinite(unary->high))
+        snprintf(over, sizeof over, "%s in [%g, %g]", dense, unary->low, unary->high);
+    else
+        snprintf(over, sizeof over, "%s", dense);
+    printf("| %s | %.5f | %s | %a | %llu |\n", unary->name, found->worst, over, found->at,
+           (unsigned long long)found->not_nearest);
+}
+
 static void every_float_is_within_its_bound(void)
 {
     static struct walk walk;
@@ -201,6 +218,9 @@ static void every_float_is_within_its_bound(void)
     walk.stride = all ? 1 : 2039; /* a prime */
     walk.count = all ? 1 << 20 : 512;
     CHECK(pool != NULL);
+    if (all)
+        printf("%d lanes\n\n| function | largest error, ulp | over | at | not nearest |\n|---|---|---|---|---|\n",
+               LOM_LANES);
     for (int f = 0; pool != NULL && f < COUNT; f++) {
         walk.unary = &functions[f];
         lom_share_out(pool, BLOCKS, 1, walk_blocks, &walk);
@@ -216,8 +236,11 @@ static void every_float_is_within_its_bound(void)
               all_found.worst);
         CHECK(all_found.sum == functions[f].sum[all], "%s: the sum is %016llx", functions[f].name,
               (unsigned long long)all_found.sum);
-        printf("  %-18s %.5f ulp at %a, %llu not nearest, sum %016llx\n", functions[f].name, all_found.worst,
-               all_found.at, (unsigned long long)all_found.not_nearest, (unsigned long long)all_found.sum);
+        if (all)
+            print_row(&functions[f], &all_found);
+        else
+            printf("  %-18s %.5f ulp at %a, %llu not nearest, sum %016llx\n", functions[f].name, all_found.worst,
+                   all_found.at, (unsigned long long)all_found.not_nearest, (unsigned long long)all_found.sum);
         fflush(stdout);
     }
     lom_free_pool(pool);
