@@ -43,24 +43,36 @@ static void fill_run(const edge *e, uint8_t *to, const uint8_t *from, size_t siz
         memcpy(to + i, e->border, e->texel);
 }
 
-/* Elements -1 and n of an axis, from element 0 at first; elements are size bytes, step bytes apart. */
-static void fill_ends(const edge *e, uint8_t *first, int n, size_t step, size_t size)
+/* What is made of element 0 of an axis, or of its last one, n - 1: the element beyond it, or where the axis repeats beyond
+ * the other one. Element 0 is at first; elements are size bytes, step bytes apart. */
+static void fill_end(const edge *e, uint8_t *first, int n, size_t step, size_t size, bool of_last)
 {
     uint8_t *last = first + (size_t)(n - 1) * step;
-    bool repeat = e->wrap == LOM_WRAP_REPEAT;
-    fill_run(e, first - step, repeat ? last : first, size);
-    fill_run(e, last + step, repeat ? first : last, size);
+    bool above = of_last != (e->wrap == LOM_WRAP_REPEAT);
+    fill_run(e, above ? last + step : first - step, of_last ? last : first, size);
 }
 
-/* Columns first, then whole rows with them, then whole slices, so that corners combine the modes of their axes. */
-void lom_fill_columns(lom_texture *texture, int level, int layer, int first, int end)
+static void fill_ends(const edge *e, uint8_t *first, int n, size_t step, size_t size)
+{
+    fill_end(e, first, n, step, size, false);
+    fill_end(e, first, n, step, size, true);
+}
+
+void lom_fill_column(lom_texture *texture, int level, int layer, int first, int end, bool of_last)
 {
     uint8_t border[16];
     size_t texel = lom_texel_size(texture);
     edge e = { texture->sampler.wrap_s, border, texel };
     make_border(texture, border);
     for (int y = first; y < end; y++)
-        fill_ends(&e, lom_texel(texture, level, 0, y, layer), texture->level[level].width, texel, texel);
+        fill_end(&e, lom_texel(texture, level, 0, y, layer), texture->level[level].width, texel, texel, of_last);
+}
+
+/* Columns first, then whole rows with them, then whole slices, so that corners combine the modes of their axes. */
+void lom_fill_columns(lom_texture *texture, int level, int layer, int first, int end)
+{
+    lom_fill_column(texture, level, layer, first, end, false);
+    lom_fill_column(texture, level, layer, first, end, true);
 }
 
 void lom_fill_rows(lom_texture *texture, int level, int layer)

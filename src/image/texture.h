@@ -91,6 +91,8 @@ void *lom_texel(const lom_texture *texture, int level, int x, int y, int layer);
  * there, its first and last row (apron.c). In cubes and 3D textures the whole apron of a level. */
 void lom_shrink_rows(lom_texture *texture, int level, int layer, int first, int end);
 void lom_fill_columns(lom_texture *texture, int level, int layer, int first, int end);
+/* The part of that which is made of the rows' first texels, or of their last ones. */
+void lom_fill_column(lom_texture *texture, int level, int layer, int first, int end, bool of_last);
 void lom_fill_rows(lom_texture *texture, int level, int layer);
 void lom_fill_apron(lom_texture *texture, int level);
 

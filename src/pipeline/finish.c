@@ -1,5 +1,6 @@
-/* The end of a pass, and of an update: what lies around and above level 0 of a texture. In: its texels. Out: the
- * aprons, and the other levels where it has them. Bands of rows are handed out by a counter, with a barrier from level to level.
+/* The end of a pass, and of an update: what lies around and above level 0 of a texture. In: its texels, after a pass
+ * most often with the apron's columns, which tiles fill (resolve.c). Out: the aprons, and the other levels where it has
+ * them. Bands of rows are handed out by a counter, with a barrier from level to level.
  * Invariant: a texel is what lom_finish_texture makes it, whoever does. */
 #include "pipeline/device.h"
 
@@ -30,13 +31,10 @@ static void finish_bands(void *context, int worker)
     }
 }
 
-void lom_finish_attachment(lom_device *device, lom_texture *texture)
+/* Of a flat texture, from level `first` on. */
+static void finish_levels(lom_device *device, lom_texture *texture, int first)
 {
-    if (texture->kind != LOM_TEXTURE_2D || texture->decoded != NULL) { /* made from pixels: no usual target */
-        lom_finish_texture(texture);
-        return;
-    }
-    for (int i = 0; i < texture->level_count; i++) {
+    for (int i = first; i < texture->level_count; i++) {
         struct finish finish = { .texture = texture, .level = i };
         const lom_level *l = &texture->level[i];
         if (i > 0 && (size_t)l->width * (size_t)l->height >= SHARED)
@@ -47,11 +45,20 @@ void lom_finish_attachment(lom_device *device, lom_texture *texture)
     }
 }
 
+void lom_finish_attachment(lom_device *device, lom_texture *texture)
+{
+    if (texture->kind != LOM_TEXTURE_2D || texture->decoded != NULL) /* made from pixels: no usual target */
+        lom_finish_texture(texture);
+    else
+        finish_levels(device, texture, 0);
+}
+
 /* A level of a layer, and the levels that are made of it: in a cube their aprons are those of all faces. */
 void lom_finish_slice(lom_device *device, lom_texture *texture, lom_slice slice)
 {
-    if (texture->kind == LOM_TEXTURE_2D && slice.level == 0) {
-        lom_finish_attachment(device, texture);
+    if (lom_fills_columns(texture, slice)) {
+        lom_fill_rows(texture, 0, 0);
+        finish_levels(device, texture, 1);
         return;
     }
     if (texture->decoded != NULL) {

@@ -35,6 +35,30 @@ static size_t tile_pixels(const struct lom_pass *pass)
     return (size_t)pass->tile * (size_t)pass->tile;
 }
 
+bool lom_fills_columns(const lom_texture *texture, lom_slice slice)
+{
+    return texture->kind == LOM_TEXTURE_2D && slice.level == 0 && texture->decoded == NULL;
+}
+
+static void fill_columns(const struct lom_pass *pass, const struct part *p, lom_texture *texture, lom_slice slice)
+{
+    if (!lom_fills_columns(texture, slice))
+        return;
+    if (p->x <= 0)
+        lom_fill_column(texture, 0, 0, p->y + p->y0, p->y + p->y1, false);
+    if (p->x + pass->tile >= pass->width)
+        lom_fill_column(texture, 0, 0, p->y + p->y0, p->y + p->y1, true);
+}
+
+void lom_fill_tile_columns(const struct lom_pass *pass, int number)
+{
+    struct part p = part_of(pass, number);
+    for (int i = 0; i < pass->colors; i++)
+        fill_columns(pass, &p, pass->color[i].texture, pass->color[i].slice);
+    if (pass->depth != NULL)
+        fill_columns(pass, &p, pass->depth, pass->depth_slice);
+}
+
 size_t lom_image_bytes(const struct lom_pass *pass, int i)
 {
     return tile_pixels(pass) * (pass->color[i].kind == COLOR_FLOAT ? 16 : 4);

@@ -1,4 +1,4 @@
-/* Running a pass: batches of chunks, a barrier between the two halves of the pipeline. Work is handed out by a counter;
+/* Running a pass: batches of chunks, a barrier between the two halves of the pipeline. Work is handed out in portions;
  * which worker takes what changes nothing, because a chunk and a tile each belong to one worker until they are done. */
 #include "pipeline/expand.h"
 #include "pipeline/record.h"
@@ -12,18 +12,15 @@ static void run_chunks(void *context, int worker)
     enum { TURNS = 32 };
     struct lom_pass *pass = context;
     const size_t count = pass->chunk_count, some = count / TURNS > 1 ? count / TURNS : 1;
-    for (;;) {
-        size_t first = atomic_fetch_add_explicit(&pass->next, some, memory_order_relaxed);
-        for (size_t i = first; i < count && i < first + some; i++)
+    size_t first, taken;
+    while ((taken = lom_take_portion(pass->device->portions, pass->device->desc.threads, worker, some, &first)) > 0)
+        for (size_t i = first; i < first + taken; i++)
             lom_run_chunk(pass, &pass->chunks[i], &pass->device->assemblies[worker]);
-        if (first >= count)
-            return;
-    }
 }
 
-static void run_all(lom_device *device, lom_work *work)
+static void run_all(lom_device *device, lom_work *work, size_t count)
 {
-    atomic_store_explicit(&device->pass.next, 0, memory_order_relaxed);
+    lom_lay_portions(device->portions, device->desc.threads, count);
     lom_offer_work(device->pool, work, &device->pass);
 }
 
@@ -67,7 +64,7 @@ static bool run_batch(lom_device *device)
     pass->chunks_left -= pass->chunk_count;
     pass->last_batch = pass->chunks_left == 0;
     if (pass->chunk_count > 0)
-        run_all(device, run_chunks);
+        run_all(device, run_chunks, pass->chunk_count);
     for (size_t i = 0; i < pass->chunk_count; i++) {
         const struct lom_chunk *chunk = &pass->chunks[i];
         if (chunk->failed)
@@ -80,7 +77,7 @@ static bool run_batch(lom_device *device)
     if (pass->feeds_back)
         lom_share_out(device->pool, pass->chunk_count, 1, copy_feedback, pass);
     if (!pass->desc.feedback_only)
-        run_all(device, lom_run_tiles);
+        run_all(device, lom_run_tiles, (size_t)pass->tiles_x * (size_t)pass->tiles_y);
     if (pass->recorder != NULL)
         lom_record_batch(device);
     pass->chunk_count = 0;

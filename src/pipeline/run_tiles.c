@@ -125,17 +125,15 @@ static void finish_tile(struct lom_pass *pass, struct lom_tile *tile, int number
         lom_resolve_tile(pass, number, memory);
     else
         lom_clear_tile(pass, number, memory);
+    lom_fill_tile_columns(pass, number);
 }
 
 void lom_run_tiles(void *context, int worker)
 {
     struct lom_pass *pass = context;
     struct lom_tile *tile = &pass->device->worker_tiles[worker];
-    size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
-    for (;;) {
-        size_t i = atomic_fetch_add_explicit(&pass->next, 1, memory_order_relaxed);
-        if (i >= tiles)
-            return;
+    size_t i;
+    while (lom_take_portion(pass->device->portions, pass->device->desc.threads, worker, 1, &i) > 0) {
         uint8_t *memory = memory_of(pass, (int)i, worker);
         bool clocked = pass->tallier != NULL && pass->tallier->desc.clock;
         int64_t since = clocked ? lom_tally_clock() : 0;

@@ -258,7 +258,6 @@ struct lom_pass {
     size_t chunks_left;            /* of the pass, the batch's included until it runs */
     bool feeds_back;               /* a draw has feedback */
     bool single_batch, last_batch; /* the pass is one batch; this is its last one */
-    atomic_size_t next;
 
     struct lom_tallier *tallier; /* with a tallied attachment (tally.h) */
     bool is_recorded;            /* with a recorder or a tallier: drawn in the variant 4_recorded */
@@ -332,7 +331,7 @@ static inline void lom_widen_tiles(struct lom_chunk *chunk, int32_t low, int32_t
     chunk->tile_high = high > chunk->tile_high ? high : chunk->tile_high;
 }
 
-/* The second half for the batch's tiles, which workers take by a counter. */
+/* The second half for the batch's tiles, which workers take. */
 void lom_run_tiles(void *context, int worker);
 
 /* Stage 4: sorts the chunk's triangles into its bins, and says in pass->reached which tiles have one. */
@@ -364,5 +363,9 @@ void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t co
 void lom_load_whole_tile(struct lom_tile *tile);
 /* The clear values to the attachments that do not keep their texels; memory is scratch. */
 void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
+/* The apron's columns beside a tile at the left or right end of the attachments, made of its texels while they are in the
+ * worker's cache; and whether a slice's are filled so (else at the end of the pass, finish.c). */
+void lom_fill_tile_columns(const struct lom_pass *pass, int number);
+bool lom_fills_columns(const lom_texture *texture, lom_slice slice);
 
 #endif
