@@ -138,7 +138,7 @@ static size_t larger(size_t a, size_t b)
 /* Triangles of a chunk of a draw that has several: as many chunks as give two or four workers the same number, and none of
  * fewer than SHORT for that. Not how many workers there are: vertices at the ends of chunks are shaded for both, and
  * counters are the same on every machine. */
-static size_t even_share(size_t triangles, size_t chunk)
+size_t lom_even_share(size_t triangles, size_t chunk)
 {
     enum { WORKERS = 4, SHORT = 2048, GROUP = 16 };
     size_t chunks = triangles / chunk + (triangles % chunk != 0);
@@ -156,7 +156,7 @@ void lom_derive_stages(struct lom_pass *pass, struct lom_draw *draw)
     size_t chunk = (size_t)pass->device->desc.chunk, growth = 1;
     draw->expands = lom_has_stages(desc);
     draw->drawn = lom_drawn_topology(desc);
-    draw->unit = even_share(draw->triangles, chunk);
+    draw->unit = lom_even_share(draw->triangles, chunk);
     pass->feeds_back |= desc->feedback != NULL;
     if (!draw->expands)
         return;

@@ -300,14 +300,14 @@ static void assemble_recorded(const struct lom_pass *pass, struct lom_chunk *chu
 }
 
 /* Triangles without outcodes go to set-up as they stand, as many as follow one another; the others one by one, in order. */
-static void assemble_runs(const struct lom_pass *pass, struct lom_chunk *chunk)
+static void assemble_runs(const struct lom_pass *pass, struct lom_chunk *chunk, size_t first, size_t end)
 {
     const uint32_t *corners = chunk->assembly->corners;
     void (*set_up)(const struct lom_pass *, struct lom_chunk *, const uint32_t *, uint32_t, size_t) =
         lom_stages_of(chunk->draw->variant)->set_up;
     struct group group = { .count = 0 };
-    for (size_t first = 0, run = 0; first < chunk->count;) {
-        size_t left = chunk->count - first - run, count = left < GROUP ? left : GROUP;
+    for (size_t run = 0; first < end;) {
+        size_t left = end - first - run, count = left < GROUP ? left : GROUP;
         bool inside = count > 0 && !chunk->has_gaps && are_inside(chunk, corners + 3 * (first + run), count);
         if (inside) {
             run += count;
@@ -339,7 +339,21 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
     if (pass->recorder != NULL)
         assemble_recorded(pass, chunk);
     else
-        assemble_runs(pass, chunk);
+        assemble_runs(pass, chunk, 0, chunk->count);
+}
+
+/* The same of several calls, where nothing is clipped at once. */
+static void assemble_parts(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    if (chunk->any_code == 0) {
+        assemble(pass, chunk);
+        lom_end_parts(chunk);
+        return;
+    }
+    for (size_t i = 0, first = 0; i < chunk->part_count; first += chunk->calls[i++].triangles) {
+        assemble_runs(pass, chunk, first, first + chunk->calls[i].triangles);
+        chunk->parts[i].end = (uint32_t)chunk->triangle_count;
+    }
 }
 
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly)
@@ -349,6 +363,7 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     chunk->any_code = 0;
     chunk->all_listed = true;
     chunk->plain = NULL;
+    chunk->first_row = 0;
     chunk->tile_low = INT32_MAX;
     chunk->tile_high = -1;
     const struct lom_draw *draw = chunk->draw;
@@ -357,17 +372,23 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     if (draw->expands)
         chunk->failed = !lom_expand_chunk(pass, chunk);
     else
-        chunk->failed = !(draw->sprites ? lom_choose_sprites(room, chunk) : lom_choose_vertices(room, chunk)) ||
+        chunk->failed = !(draw->sprites          ? lom_choose_sprites(room, chunk)
+                          : chunk->parts != NULL ? lom_choose_parts(room, chunk)
+                                                 : lom_choose_vertices(room, chunk)) ||
                         !lom_make_room(room, chunk);
     if (chunk->failed || !draw->rasterizes)
         return;
     chunk->row_count = chunk->vertex_count;
-    if (!draw->expands)
+    if (chunk->parts != NULL)
+        lom_shade_parts(pass, chunk);
+    else if (!draw->expands)
         lom_stages_of(draw->variant)->shade_vertices(pass, chunk);
     if (draw->sprites)
         lom_set_up_sprites(pass, chunk);
     else if (draw->lines)
         lom_set_up_lines(pass, chunk);
+    else if (chunk->parts != NULL)
+        assemble_parts(pass, chunk);
     else
         assemble(pass, chunk);
     if (!chunk->failed)

@@ -113,6 +113,7 @@ void lom_close_device(lom_device *device)
     lom_release(device->tile_touched);
     lom_release(device->draws);
     lom_release(device->calls);
+    lom_release(device->parts);
     lom_release(device->uniforms);
     lom_release(device->runs);
     lom_free_queries(device);

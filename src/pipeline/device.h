@@ -48,6 +48,8 @@ struct lom_device {
     struct lom_draw *draws;
     struct lom_call *calls;
     size_t draw_capacity, call_capacity;
+    struct lom_part *parts; /* of the calls, where some share chunks */
+    size_t part_capacity;
     struct lom_known_draw known_draw[KNOWN_DRAWS];         /* the last of the pass, in turn */
     struct lom_known_uniforms known_uniforms[KNOWN_DRAWS]; /* likewise */
     struct lom_run *runs;                                  /* of the pass's draws that have clusters */
@@ -72,6 +74,13 @@ bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct l
 void lom_note_draw(lom_device *device, const lom_draw_desc *desc);
 /* Copies the descriptor's uniforms and adds the call to the pass. */
 bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call *call);
+/* Finds which calls of the pass share a chunk; false without memory (join.c). How many there are from call i on; the
+ * triangles of so many. */
+bool lom_join_calls(lom_device *device);
+size_t lom_joined_calls(const struct lom_pass *pass, size_t i);
+size_t lom_joined_triangles(const struct lom_call *calls, size_t count);
+/* Triangles of a chunk of a draw, or of several calls, that have so many (check_stages.c). */
+size_t lom_even_share(size_t triangles, size_t chunk);
 /* Whether a draw's stencil can be, or an error; the same with its defaults resolved (stencil.c). */
 bool lom_check_stencil(lom_device *device, const lom_draw_desc *desc);
 void lom_resolve_stencil_state(lom_stencil *stencil);

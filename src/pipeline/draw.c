@@ -224,6 +224,7 @@ static void derive(struct lom_pass *pass, struct lom_draw *draw)
                      shader->reads == 0 && !shader->reads_position && !draw->late_depth && !shader->quads &&
                      !draw->sprites && !shader->reads_depth && !draw->two_sources && !draw->full_tests &&
                      !draw->marks_edges;
+    draw->packs = !draw->constant && !draw->biased && !shader->quads && !desc->per_sample && !draw->full_tests;
     draw->queues_depth = shader->reads_position || draw->late_depth || draw->full_tests;
     lom_derive_viewport(pass, draw);
     draw->rasterizes = !pass->desc.feedback_only && draw->scissor.width > 0 && draw->scissor.height > 0;

@@ -98,6 +98,20 @@ static void shade(struct lom_tile *tile, const struct packed *p, int at)
 #endif
 }
 
+/* Turns to the call of the entry at `at`, and finds where its entries end, or the packet that begins there. */
+static int end_of_call(struct lom_tile *tile, int at)
+{
+    const struct lom_list *list = &tile->list;
+    int slot = slot_of(list->code[at]);
+    if (list->number[slot] >= tile->call_end)
+        LOM_WIDE(lom_turn_to_call)(tile, list->number[slot]);
+    while (slot < list->triangles && list->number[slot] < tile->call_end)
+        slot++;
+    lom_mask others = (lom_int)((lom_uint)lom_load_int(list->code + at) >> CODE_TRIANGLE) >= slot;
+    int end = lom_any(others) ? at + __builtin_ctz(lom_bits(others)) : at + LOM_LANES;
+    return end < list->count ? end : list->count;
+}
+
 /* Shades the entries, the last ones only where they fill a packet or `all` are asked for; those that are left come first
  * then. */
 static void shade_entries(struct lom_tile *tile, bool all)
@@ -105,7 +119,7 @@ static void shade_entries(struct lom_tile *tile, bool all)
     struct lom_list *list = &tile->list;
     int at = 0;
     while (list->count - at >= LOM_LANES || (all && at < list->count)) {
-        struct packed p = take(list, at, list->count);
+        struct packed p = take(list, at, tile->chunk->parts == NULL ? list->count : end_of_call(tile, at));
         shade(tile, &p, at);
         at += p.count;
     }

@@ -43,6 +43,8 @@ void LOM_WIDE(lom_enqueue)(struct lom_tile *tile, const struct lom_fragments *fr
 void LOM_WIDE(lom_deliver)(struct lom_tile *tile, struct lom_fragments *fragments, bool alone);
 /* Draws the triangles of the tile's list; unless `all` is asked for, the last fragments may stay in it (pack.wide.c). */
 void LOM_WIDE(lom_drain_list)(struct lom_tile *tile, bool all);
+/* The uniforms of primitive `number` of a chunk, which is none before those that were asked for (raster.wide.c). */
+void LOM_WIDE(lom_turn_to_call)(struct lom_tile *tile, uint32_t number);
 /* The fragment stage: shades a packet of tile->draw and tile->chunk, and writes it. */
 void LOM_WIDE(lom_shade_packet)(struct lom_tile *tile, const struct lom_packet *packet);
 /* The same for a packet of one triangle, whose values are found once for all of its packets that follow one another. */

@@ -83,12 +83,6 @@ static void raster_small(struct lom_tile *tile, const lom_triangle *t, int32_t n
     }
 }
 
-/* Whether the fragments of the draw's small triangles can be computed together, from their records alone. */
-static bool packs(const struct lom_draw *draw)
-{
-    return !draw->constant && !draw->biased && !draw->desc.shader->quads && !draw->desc.per_sample && !draw->full_tests;
-}
-
 /* Whether a fragment that fails the depth test now fails it after its shader, too: the shader leaves its depth as it is, and
  * what the draw's own fragments write until then does not let it pass. */
 static bool rejects_early(const struct lom_tile *tile, const struct lom_draw *draw)
@@ -159,13 +153,30 @@ static void list_all(struct lom_tile *tile, const uint32_t *from, size_t count)
     }
 }
 
+void LOM_WIDE(lom_turn_to_call)(struct lom_tile *tile, uint32_t number)
+{
+    const struct lom_chunk *chunk = tile->chunk;
+    size_t low = 0, high = chunk->part_count - 1; /* the first part that ends behind it is one of these */
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (chunk->parts[middle].end > number)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    tile->uniforms = lom_uniforms_of_part(tile->pass, chunk, low);
+    tile->call_end = chunk->parts[low].end;
+}
+
 void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count)
 {
     const struct lom_draw *draw = chunk->draw;
-    bool together = packs(draw) && !tile->pass->one_by_one;
+    bool together = draw->packs && !tile->pass->one_by_one;
     if (tile->chunk != chunk)
         LOM_WIDE(lom_flush)(tile);
     tile->chunk = chunk;
+    tile->uniforms = chunk->uniforms;
+    tile->call_end = chunk->parts == NULL ? UINT32_MAX : 0;
     tile->facet.primitive = NULL;
     tile->tests_early = tile->depth != NULL && !draw->late_depth && !draw->full_tests &&
                         (draw->compare != LOM_COMPARE_ALWAYS || draw->depth_write);
@@ -187,6 +198,10 @@ void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, 
             continue;
         }
         LOM_WIDE(lom_drain_list)(tile, true);
+        if (list[i] >= tile->call_end) {
+            LOM_WIDE(lom_flush)(tile); /* the queue's fragments are of one call */
+            LOM_WIDE(lom_turn_to_call)(tile, list[i]);
+        }
         raster_alone(tile, (int32_t)list[i]);
     }
     LOM_WIDE(lom_drain_list)(tile, true);

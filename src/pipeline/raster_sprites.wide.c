@@ -132,7 +132,7 @@ static void shade(struct lom_tile *tile, struct sprite *sprite, int x, int y, in
     out.depth = in->z;
     out.discard = (lom_mask){ 0 };
     LOM_RECORD_HOOK(lom_record_sprite, tile, place, &in->covered);
-    shader->fragment[draw->variant](&out, in, tile->chunk->uniforms);
+    shader->fragment[draw->variant](&out, in, tile->uniforms);
     LOM_RECORD_HOOK(lom_record_sprite_shaded, tile, &out);
     tile->packets++;
     if (draw->marks_edges)

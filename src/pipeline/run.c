@@ -89,6 +89,11 @@ static const void *uniforms_of(const lom_device *device, const struct lom_call *
     return device->uniforms + (size_t)call->uniforms * UNIFORMS_UNIT;
 }
 
+const void *lom_uniforms_of_part(const struct lom_pass *pass, const struct lom_chunk *chunk, size_t i)
+{
+    return uniforms_of(pass->device, &chunk->calls[i]);
+}
+
 /* Whether a chunk of the draw may follow `chunks` others in a batch. Batches of small draws are longer: what a tile and a
  * barrier cost does not depend on how much a chunk holds. Their memory is little, since large ones never come there. */
 static bool fits(const lom_device *device, size_t chunks, const struct lom_draw *draw, size_t triangles)
@@ -97,22 +102,23 @@ static bool fits(const lom_device *device, size_t chunks, const struct lom_draw 
     return chunks < (size_t)device->desc.batch || (small && chunks < device->most_chunks);
 }
 
-static bool add_chunk(lom_device *device, const struct lom_call *call, int instance, size_t first, size_t count,
-                      const struct lom_run *runs, size_t run_count)
+/* The next chunk, of a call that has so many triangles, or of several that have; NULL when a batch failed before it. */
+static struct lom_chunk *add_chunk(lom_device *device, const struct lom_call *call, size_t triangles)
 {
     struct lom_pass *pass = &device->pass;
     const struct lom_draw *draw = &device->draws[call->draw];
-    if (!fits(device, pass->chunk_count, draw, call->triangles) && !run_batch(device))
-        return false;
+    if (!fits(device, pass->chunk_count, draw, triangles) && !run_batch(device))
+        return NULL;
     struct lom_chunk *chunk = &device->chunks[pass->chunk_count++];
     chunk->draw = draw;
     chunk->uniforms = uniforms_of(device, call);
-    chunk->instance = instance;
-    chunk->first = call->first + first;
-    chunk->count = count;
-    chunk->runs = runs;
-    chunk->run_count = run_count;
-    return true;
+    chunk->instance = 0;
+    chunk->first = call->first;
+    chunk->count = triangles;
+    chunk->runs = NULL;
+    chunk->run_count = 0;
+    chunk->parts = NULL;
+    return chunk;
 }
 
 /* Clusters of a draw: the runs of each chunk. */
@@ -125,8 +131,12 @@ static bool run_clusters(lom_device *device, const struct lom_call *call)
         size_t count = 0;
         for (; run < end && run->chunk == first->chunk; run++)
             count += lom_triangles_of_run(draw->desc.culling.clusters, run);
-        if (!add_chunk(device, call, 0, 0, count, first, (size_t)(run - first)))
+        struct lom_chunk *chunk = add_chunk(device, call, call->triangles);
+        if (chunk == NULL)
             return false;
+        chunk->count = count;
+        chunk->runs = first;
+        chunk->run_count = (size_t)(run - first);
     }
     return true;
 }
@@ -141,10 +151,26 @@ static bool run_call(lom_device *device, const struct lom_call *call)
         return true;
     for (int instance = 0; instance < draw->desc.instances; instance++)
         for (size_t first = 0; first < call->triangles; first += limit) {
-            size_t count = call->triangles - first < limit ? call->triangles - first : limit;
-            if (!add_chunk(device, call, instance, first, count, NULL, 0))
+            struct lom_chunk *chunk = add_chunk(device, call, call->triangles);
+            if (chunk == NULL)
                 return false;
+            chunk->instance = instance;
+            chunk->first = call->first + first;
+            chunk->count = call->triangles - first < limit ? call->triangles - first : limit;
         }
+    return true;
+}
+
+/* Calls from number i on that share a chunk. */
+static bool run_joined(lom_device *device, size_t i, size_t count)
+{
+    const struct lom_call *calls = device->calls + i;
+    struct lom_chunk *chunk = add_chunk(device, calls, lom_joined_triangles(calls, count));
+    if (chunk == NULL)
+        return false;
+    chunk->calls = calls;
+    chunk->parts = device->pass.parts + i;
+    chunk->part_count = count;
     return true;
 }
 
@@ -160,10 +186,12 @@ static void count_work(lom_device *device)
     }
 }
 
-/* Chunks that run_call will make of a call. */
-static size_t count_chunks(const struct lom_draw *draw, size_t triangles)
+/* Chunks that run_call or run_joined will make. */
+static size_t count_chunks(const struct lom_draw *draw, size_t triangles, size_t joined)
 {
     size_t limit = draw->unit;
+    if (joined > 1)
+        return 1;
     if (!draw->rasterizes && draw->desc.feedback == NULL)
         return 0;
     if (draw->desc.culling.clusters != NULL)
@@ -177,12 +205,13 @@ static bool lay_tile_memory(lom_device *device)
     size_t tiles = (size_t)pass->tiles_x * (size_t)pass->tiles_y;
     pass->chunks_left = 0;
     pass->single_batch = true;
-    for (size_t i = 0; i < pass->call_count; i++) {
+    for (size_t i = 0, joined; i < pass->call_count; i += joined) {
         const struct lom_call *call = &device->calls[i];
         const struct lom_draw *draw = &device->draws[call->draw];
-        size_t chunks = count_chunks(draw, call->triangles);
+        joined = lom_joined_calls(pass, i);
+        size_t triangles = lom_joined_triangles(call, joined), chunks = count_chunks(draw, triangles, joined);
         pass->chunks_left += chunks;
-        pass->single_batch &= chunks == 0 || fits(device, pass->chunks_left - 1, draw, call->triangles);
+        pass->single_batch &= chunks == 0 || fits(device, pass->chunks_left - 1, draw, triangles);
     }
     if (!lom_lay_chunks(device, pass->chunks_left))
         return false;
@@ -225,6 +254,21 @@ static bool cull_draws(lom_device *device)
     return true;
 }
 
+static bool run_calls(lom_device *device)
+{
+    const struct lom_pass *pass = &device->pass;
+    for (size_t i = 0, joined; i < pass->call_count; i += joined) {
+        const struct lom_call *call = &device->calls[i];
+        struct lom_draw *draw = &device->draws[call->draw];
+        joined = lom_joined_calls(pass, i);
+        if (draw->constant)
+            find_paint(device, draw, uniforms_of(device, call));
+        if (joined > 1 ? !run_joined(device, i, joined) : !run_call(device, call))
+            return false;
+    }
+    return true;
+}
+
 bool lom_run_pass(lom_device *device)
 {
     struct lom_pass *pass = &device->pass;
@@ -238,17 +282,7 @@ bool lom_run_pass(lom_device *device)
     lom_forget_other_samples(pass);
     if (!cull_draws(device) || !lom_begin_counting(device))
         return false;
-    if (!lay_tile_memory(device))
-        return false;
-    for (size_t i = 0; i < pass->call_count; i++) {
-        const struct lom_call *call = &device->calls[i];
-        struct lom_draw *draw = &device->draws[call->draw];
-        if (draw->constant)
-            find_paint(device, draw, uniforms_of(device, call));
-        if (!run_call(device, call))
-            return false;
-    }
-    if (!run_batch(device))
+    if (!lom_join_calls(device) || !lay_tile_memory(device) || !run_calls(device) || !run_batch(device))
         return false;
     count_work(device);
     lom_end_counting(device);

@@ -26,7 +26,7 @@ LOM_INLINE void lom_run_shader(struct lom_tile *tile, const struct lom_packet *p
     in->covered = packet->covered;
     out.depth = packet->depth;
     out.discard = (lom_mask){ 0 };
-    shader->fragment[draw->variant](&out, in, tile->chunk->uniforms);
+    shader->fragment[draw->variant](&out, in, tile->uniforms);
     LOM_RECORD_HOOK(lom_record_shaded, tile, in, &out);
     tile->packets++;
     lom_mask mask = shader->discards ? in->covered & ~out.discard : in->covered;

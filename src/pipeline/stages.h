@@ -85,6 +85,7 @@ struct lom_draw {
     bool full_tests;   /* a stencil test or a query besides the depth test: sample_tests.wide.c */
     size_t counter;    /* with a query: which of the pass's */
     lom_output_kind output;
+    bool packs;             /* small triangles' fragments can be computed together, from their records alone */
     bool expands;           /* it has stages between vertices and clipping, or feedback */
     bool rasterizes;        /* something of it may be drawn */
     lom_topology drawn;     /* LOM_TRIANGLES, LOM_LINES, LOM_POINTS or LOM_SPRITES: what goes to clipping */
@@ -102,6 +103,15 @@ struct lom_call {
     uint32_t uniforms; /* in UNIFORMS_UNIT */
 };
 enum { UNIFORMS_UNIT = 64 };
+
+/* What is found of a call before its pass runs (join.c): how many calls the chunk has that begins with it, itself included;
+ * where there are several, its vertices, where its rows begin in the chunk's, and where its primitives end. */
+struct lom_part {
+    uint32_t joined;
+    uint32_t base, vertices; /* the number of the first; how many from that on */
+    uint32_t row;
+    uint32_t end; /* one more than the last of the chunk's primitives that is the call's */
+};
 enum { CHUNKS_WORD = 64 }; /* of lom_pass.reached */
 enum { SMALL_DRAW = 256 }; /* triangles at most */
 
@@ -165,6 +175,10 @@ struct lom_chunk {
     size_t first, count;        /* triangles */
     const struct lom_run *runs; /* with clusters: where the triangles are, in place of `first` */
     size_t run_count;
+    const struct lom_call *calls; /* of a chunk of several: whose triangles these are, and what is known of each; */
+    struct lom_part *parts;       /* NULL: a chunk of one call */
+    size_t part_count;
+    size_t first_row; /* where the rows of the vertices at hand go */
 
     struct lom_assembly *assembly; /* of the worker that has the chunk */
     uint32_t vertex_base;          /* index of row 0 unless listed */
@@ -249,6 +263,7 @@ struct lom_pass {
 
     size_t draw_count, call_count;      /* recorded in the device */
     size_t known_draws, known_uniforms; /* of them that the device has noted (call.c) */
+    struct lom_part *parts;             /* of the calls; NULL: each has chunks of its own */
 
     struct lom_chunk *chunks; /* the batch's */
     _Atomic uint64_t
@@ -291,6 +306,13 @@ void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const st
  * their numbers, and which vertices are needed (clusters.c). */
 size_t lom_triangles_of_run(const lom_clusters *clusters, const struct lom_run *run);
 bool lom_gather_clusters(struct lom_chunk *chunk, uint32_t *low, uint32_t *high);
+
+/* The vertices of a chunk of several calls, as lom_choose_vertices chooses those of one; shades them; finds where the calls'
+ * primitives end, of which none was clipped. The uniforms of part i. */
+bool lom_choose_parts(const struct lom_room *room, struct lom_chunk *chunk);
+void lom_shade_parts(const struct lom_pass *pass, struct lom_chunk *chunk);
+void lom_end_parts(struct lom_chunk *chunk);
+const void *lom_uniforms_of_part(const struct lom_pass *pass, const struct lom_chunk *chunk, size_t i);
 
 /* First half of the pipeline for one chunk: its triangles end up in its bins. */
 void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_assembly *assembly);

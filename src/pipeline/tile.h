@@ -94,6 +94,8 @@ struct lom_tile {
     uint64_t fragments, packets;   /* counted */
     const struct lom_draw *draw;   /* of the fragments in the queue */
     const struct lom_chunk *chunk; /* likewise */
+    const void *uniforms;          /* likewise, of their call */
+    uint32_t call_end;             /* one more than the last of the chunk's primitives that is of that call */
     bool tests_early;              /* the draw's depth test comes before its fragment shader */
     bool rejects_early;            /* it comes after, but who fails before would fail then, and is not shaded */
     bool tests_all;                /* all tests come before it, those of sample_tests.wide.c */

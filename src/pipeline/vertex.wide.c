@@ -288,6 +288,6 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
         if (__builtin_expect(chunk->kept_rows != NULL, 0))
             keep(chunk, first, &vertex);
         else
-            write_packet(pass, chunk, first, &vertex);
+            write_packet(pass, chunk, chunk->first_row + first, &vertex);
     }
 }

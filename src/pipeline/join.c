@@ -1,0 +1,141 @@
+/* Calls of one draw that share a chunk. In: the calls of a pass. Out: which of them do; in a chunk of them, its corners and
+ * shaded vertices. Thousands of boxes are as many triangles of one mesh then: set-up, coverage and tests of depths take
+ * them together, and only packets of a shader, which has one call's uniforms, end where a call does.
+ * Invariant: triangles stay in the order of their calls, so what they draw is what chunks of their own would. */
+#include "pipeline/device.h"
+#include "pipeline/variants.h"
+
+/* Lists of triangles by plain indices, whose fragments wait for others in the tile's list alone. */
+static bool joins(const struct lom_draw *draw)
+{
+    const lom_draw_desc *desc = &draw->desc;
+    return draw->packs && draw->rasterizes && !draw->expands && desc->topology == LOM_TRIANGLES &&
+           desc->indices != NULL && desc->index_bits == 32 && desc->base_vertex == 0 && !desc->restart &&
+           desc->provoking != LOM_PROVOKING_FIRST && desc->instances == 1 && desc->culling.clusters == NULL;
+}
+
+static const uint32_t *indices_of(const struct lom_draw *draw, const struct lom_call *call)
+{
+    return (const uint32_t *)draw->desc.indices + draw->desc.first + 3 * (size_t)call->first;
+}
+
+/* The vertices of a call; false where they are not all there, or not near one another. */
+static bool find_vertices(const struct lom_draw *draw, const struct lom_call *call, struct lom_part *part)
+{
+    uint32_t low = 0, high = 0;
+    if (call->triangles == 0)
+        return true;
+    lom_stages_of(draw->variant)->find_extremes(indices_of(draw, call), 3 * (size_t)call->triangles, &low, &high);
+    part->base = low;
+    part->vertices = high - low + 1;
+    return high < draw->desc.vertex_count && part->vertices <= MOST_ROWS * call->triangles;
+}
+
+/* `count` calls of a draw: chunks of about as many triangles as those of one mesh would have. */
+static void join_calls(const struct lom_draw *draw, const struct lom_call *calls, size_t count, size_t limit,
+                       struct lom_part *parts)
+{
+    size_t begin = 0, triangles = 0, rows = 0; /* of the chunk at hand */
+    bool known = false;                        /* the call before is whole, too */
+    for (size_t i = 0; i < count; i++) {
+        bool same = known && calls[i].first == calls[i - 1].first && calls[i].triangles == calls[i - 1].triangles;
+        if (same) {
+            parts[i].base = parts[i - 1].base;
+            parts[i].vertices = parts[i - 1].vertices;
+        }
+        bool starts = !known || triangles + calls[i].triangles > limit;
+        known = same || find_vertices(draw, &calls[i], &parts[i]);
+        if (starts || !known) {
+            begin = i;
+            triangles = rows = 0;
+        }
+        parts[begin].joined = (uint32_t)(i - begin + 1);
+        parts[i].row = (uint32_t)rows;
+        rows += parts[i].vertices;
+        triangles += calls[i].triangles;
+    }
+}
+
+bool lom_join_calls(lom_device *device)
+{
+    struct lom_pass *pass = &device->pass;
+    if (pass->call_count == pass->draw_count || pass->one_by_one || pass->is_recorded)
+        return true;
+    if (!lom_reserve(&device->parts, &device->part_capacity, pass->call_count, sizeof *device->parts, NULL))
+        return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for the draws of a pass.");
+    pass->parts = device->parts;
+    for (size_t i = 0, count; i < pass->call_count; i += count) {
+        const struct lom_call *calls = device->calls + i;
+        const struct lom_draw *draw = &device->draws[calls->draw];
+        for (count = 1; i + count < pass->call_count && calls[count].draw == calls->draw;)
+            count++;
+        for (size_t k = 0; k < count; k++)
+            pass->parts[i + k] = (struct lom_part){ .joined = 1 };
+        size_t limit = lom_even_share(lom_joined_triangles(calls, count), (size_t)device->desc.chunk);
+        if (count > 1 && joins(draw))
+            join_calls(draw, calls, count, limit, pass->parts + i);
+    }
+    return true;
+}
+
+size_t lom_joined_calls(const struct lom_pass *pass, size_t i)
+{
+    return pass->parts != NULL ? pass->parts[i].joined : 1;
+}
+
+size_t lom_joined_triangles(const struct lom_call *calls, size_t count)
+{
+    size_t triangles = 0;
+    for (size_t i = 0; i < count; i++)
+        triangles += calls[i].triangles;
+    return triangles;
+}
+
+bool lom_choose_parts(const struct lom_room *room, struct lom_chunk *chunk)
+{
+    struct lom_assembly *assembly = chunk->assembly;
+    const struct lom_part *last = &chunk->parts[chunk->part_count - 1];
+    if (!lom_renew(&assembly->corners, &assembly->corners_capacity, lom_larger_size(3 * chunk->count, room->corners),
+                   sizeof(uint32_t), NULL))
+        return false;
+    chunk->has_gaps = chunk->listed = false;
+    chunk->needed = NULL;
+    chunk->vertex_count = last->row + last->vertices;
+    uint32_t *corners = assembly->corners;
+    for (size_t i = 0; i < chunk->part_count; i++) {
+        const struct lom_part *part = &chunk->parts[i];
+        size_t count = 3 * (size_t)chunk->calls[i].triangles;
+        lom_stages_of(chunk->draw->variant)
+            ->rebase_indices(indices_of(chunk->draw, &chunk->calls[i]), count, part->base - part->row, corners);
+        corners += count;
+    }
+    return true;
+}
+
+/* In their order: packets write past the rows of the part at hand. */
+void lom_shade_parts(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    const size_t rows = chunk->vertex_count;
+    for (size_t i = 0; i < chunk->part_count; i++) {
+        const struct lom_part *part = &chunk->parts[i];
+        chunk->uniforms = lom_uniforms_of_part(pass, chunk, i);
+        chunk->vertex_base = part->base;
+        chunk->vertex_count = part->vertices;
+        chunk->first_row = part->row;
+        lom_stages_of(chunk->draw->variant)->shade_vertices(pass, chunk);
+    }
+    chunk->vertex_count = rows;
+}
+
+void lom_end_parts(struct lom_chunk *chunk)
+{
+    const size_t pitch = (size_t)chunk->draw->row_floats;
+    size_t at = 0;
+    for (size_t i = 0; i < chunk->part_count; i++) {
+        const struct lom_part *part = &chunk->parts[i];
+        const size_t rows = (part->row + part->vertices) * pitch;
+        while (at < chunk->triangle_count && chunk->primitives[at].row[0] < rows)
+            at++;
+        chunk->parts[i].end = (uint32_t)at;
+    }
+}
