@@ -164,7 +164,7 @@ programs     := $(tests:%.c=$(BUILD)/%) $(foreach v,$(VARIANTS),$(patsubst %.wid
 fuzz_targets := $(patsubst tests/fuzz/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 
 .PHONY: all demo docs pages check check-long coverage wasm matrix fuzz lint format install uninstall clean help
-.PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-shallow bench-light-grid bench-clouds \
+.PHONY: bench bench-peers bench-water-models bench-sea bench-fft bench-particles bench-serial bench-shallow bench-light-grid bench-clouds \
 	bench-octaves bench-impostors bench-mathematics bench-sampling
 .DELETE_ON_ERROR:
 
@@ -436,6 +436,16 @@ bench-change: $(BUILD)/bench/change
 $(BUILD)/bench/change: bench/change.c $(BUILD)/liblom.a
 	@mkdir -p $(@D)
 	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
+
+# Where one worker of a frame is alone, by processor time (bench/results/serial.md).
+DOORS = lom_run_pool lom_offer_work lom_device_shared_seconds
+bench-serial: $(BUILD)/bench/serial
+	$< 320x180 2 6 assets/scenes/*.toml assets/scenes/features/*.toml
+	$< 1280x720 2 4 assets/scenes/*.toml
+
+$(BUILD)/bench/serial: bench/serial.c $(BUILD)/liblom.a
+	@mkdir -p $(@D)
+	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) $(DOORS:%=-Wl,--wrap=%) -o $@ $< $(BUILD)/liblom.a $(LDLIBS)
 
 # Steps of shallow water (bench/results/shallow.md).
 bench-shallow: $(BUILD)/bench/shallow
