@@ -85,7 +85,7 @@ void lom_fill_rows(lom_texture *texture, int level, int layer)
     fill_ends(&e, lom_texel(texture, level, -1, 0, layer), l->height, row, row);
 }
 
-static void fill_slices(lom_texture *texture, int level)
+void lom_fill_slices(lom_texture *texture, int level)
 {
     const lom_level *l = &texture->level[level];
     uint8_t border[16];
@@ -102,7 +102,7 @@ static void fill_flat(lom_texture *texture, int level)
         lom_fill_rows(texture, level, z);
     }
     if (texture->kind == LOM_TEXTURE_3D)
-        fill_slices(texture, level);
+        lom_fill_slices(texture, level);
 }
 
 /* ---- cubes ---- */
@@ -167,28 +167,26 @@ static void fill_corner(lom_texture *texture, int level, int face, int x, int y)
     memcpy(to, mean, size);
 }
 
-static void fill_cube(lom_texture *texture, int level)
+void lom_fill_face(lom_texture *texture, int level, int face)
 {
     int n = texture->level[level].width;
     size_t size = lom_texel_size(texture);
-    for (int face = 0; face < 6; face++) {
-        for (int i = 0; i < n; i++) {
-            memcpy(lom_texel(texture, level, -1, i, face), texel_across(texture, level, face, -1, i), size);
-            memcpy(lom_texel(texture, level, n, i, face), texel_across(texture, level, face, n, i), size);
-            memcpy(lom_texel(texture, level, i, -1, face), texel_across(texture, level, face, i, -1), size);
-            memcpy(lom_texel(texture, level, i, n, face), texel_across(texture, level, face, i, n), size);
-        }
-        fill_corner(texture, level, face, -1, -1);
-        fill_corner(texture, level, face, n, -1);
-        fill_corner(texture, level, face, -1, n);
-        fill_corner(texture, level, face, n, n);
+    for (int i = 0; i < n; i++) {
+        memcpy(lom_texel(texture, level, -1, i, face), texel_across(texture, level, face, -1, i), size);
+        memcpy(lom_texel(texture, level, n, i, face), texel_across(texture, level, face, n, i), size);
+        memcpy(lom_texel(texture, level, i, -1, face), texel_across(texture, level, face, i, -1), size);
+        memcpy(lom_texel(texture, level, i, n, face), texel_across(texture, level, face, i, n), size);
     }
+    fill_corner(texture, level, face, -1, -1);
+    fill_corner(texture, level, face, n, -1);
+    fill_corner(texture, level, face, -1, n);
+    fill_corner(texture, level, face, n, n);
 }
 
 void lom_fill_apron(lom_texture *texture, int level)
 {
-    if (texture->kind == LOM_TEXTURE_CUBE)
-        fill_cube(texture, level);
-    else
+    for (int face = 0; face < 6 && texture->kind == LOM_TEXTURE_CUBE; face++)
+        lom_fill_face(texture, level, face);
+    if (texture->kind != LOM_TEXTURE_CUBE)
         fill_flat(texture, level);
 }

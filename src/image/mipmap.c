@@ -98,6 +98,23 @@ static void shrink_row_of_bytes(const uint32_t *upper, const uint32_t *lower, in
     }
 }
 
+/* The same of sRGB codes: their light is floats between 2^-12 and 1, of which sums of four are exact in double, whatever
+ * their order. */
+static void shrink_row_of_srgb(const uint32_t *upper, const uint32_t *lower, int width, uint32_t *to)
+{
+    for (int x = 0; x < width; x++) {
+        const uint32_t a = upper[2 * x], b = upper[2 * x + 1], c = lower[2 * x], d = lower[2 * x + 1];
+        const uint32_t alpha = (a >> 24) + (b >> 24) + (c >> 24) + (d >> 24);
+        uint32_t texel = (alpha + 1 + (alpha >> 2 & 1)) >> 2 << 24;
+        for (int shift = 0; shift < 24; shift += 8) {
+            double light = (double)lom_srgb_linear[a >> shift & 255] + (double)lom_srgb_linear[b >> shift & 255];
+            light += (double)lom_srgb_linear[c >> shift & 255] + (double)lom_srgb_linear[d >> shift & 255];
+            texel |= (uint32_t)lom_srgb8_of((float)(light / 4)) << shift;
+        }
+        to[x] = texel;
+    }
+}
+
 /* The same of floats, of so many a texel: means of four in double. */
 static void shrink_row_of_floats(const float *upper, const float *lower, int width, int floats, float *to)
 {
@@ -114,7 +131,7 @@ static void shrink_even_row(const lom_texture *texture, const void *upper, const
 {
     switch (texture->storage) {
     case LOM_STORAGE_RGBA8:
-        shrink_row_of_bytes(upper, lower, width, to);
+        (texture->srgb ? shrink_row_of_srgb : shrink_row_of_bytes)(upper, lower, width, to);
         return;
     case LOM_STORAGE_RGBA32F:
         shrink_row_of_floats(upper, lower, width, 4, to);
@@ -153,7 +170,7 @@ void lom_shrink_rows(lom_texture *texture, int level, int layer, int first, int 
 {
     const lom_level *from = &texture->level[level - 1], *to = &texture->level[level];
     bool deep = texture->kind == LOM_TEXTURE_3D;
-    bool flat = !texture->srgb && !deep, even = flat && from->width % 2 == 0 && from->height % 2 == 0;
+    bool even = !deep && from->width % 2 == 0 && from->height % 2 == 0;
     size_t texel = lom_texel_size(texture);
     span z = span_of(deep ? from->depth : 1, deep ? layer : 0);
     for (int v = first; v < end; v++) {
@@ -163,7 +180,7 @@ void lom_shrink_rows(lom_texture *texture, int level, int layer, int first, int 
                             lom_texel(texture, level - 1, 0, 2 * v + 1, layer), to->width, row);
             continue;
         }
-        if (flat && texture->storage == LOM_STORAGE_RGBA8) {
+        if (!deep && !texture->srgb && texture->storage == LOM_STORAGE_RGBA8) {
             shrink_odd_row_of_bytes(texture, level, layer, v, (uint32_t *)(void *)row);
             continue;
         }

@@ -204,7 +204,7 @@ static void prepare_decoded(lom_texture *texture, const lom_texture_desc *desc)
 
 /* ---- public ---- */
 
-static lom_texture *create(const lom_texture_desc *asked, lom_error *error)
+lom_texture *lom_begin_texture(const lom_texture_desc *asked, lom_error *error)
 {
     lom_texture_desc full = asked != NULL ? *asked : (lom_texture_desc){ .width = 0 }, *desc = &full;
     if (is_row(desc->kind) && desc->height == 0)
@@ -237,7 +237,6 @@ static lom_texture *create(const lom_texture_desc *asked, lom_error *error)
     }
     store_pixels(texture, desc);
     prepare_decoded(texture, desc);
-    lom_finish_texture(texture);
     return texture;
 }
 
@@ -245,7 +244,9 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
 {
     lom_float_state state;
     lom_enter_float_state(&state);
-    lom_texture *texture = create(desc, error);
+    lom_texture *texture = lom_begin_texture(desc, error);
+    if (texture != NULL)
+        lom_finish_texture(texture);
     lom_leave_float_state(&state);
     return texture;
 }

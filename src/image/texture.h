@@ -95,5 +95,12 @@ void lom_fill_columns(lom_texture *texture, int level, int layer, int first, int
 void lom_fill_column(lom_texture *texture, int level, int layer, int first, int end, bool of_last);
 void lom_fill_rows(lom_texture *texture, int level, int layer);
 void lom_fill_apron(lom_texture *texture, int level);
+/* Of an apron what lies beside a face of a cube's level; before and behind the slices of one in 3D, at last. */
+void lom_fill_face(lom_texture *texture, int level, int face);
+void lom_fill_slices(lom_texture *texture, int level);
+/* Texels `first` to `end` of texels[], of all levels and aprons, into `decoded`. */
+void lom_decode_texels(const lom_texture *texture, size_t first, size_t end);
+/* lom_create_texture without its last step, what is made of the pixels it was given: lom_finish_texture is still to come. */
+lom_texture *lom_begin_texture(const lom_texture_desc *desc, lom_error *error);
 
 #endif

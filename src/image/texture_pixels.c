@@ -165,27 +165,32 @@ static uint32_t linear15(uint32_t code)
     return (uint32_t)lom_int_of(lom_srgb_linear[code] * LOM_FIXED_LINEAR + 0.5f);
 }
 
-static void fill_decoded_pairs(lom_texture *texture)
+static void decode_pairs(const lom_texture *texture, size_t first, size_t end)
 {
     const uint32_t *texel = texture->texels;
-    uint32_t *to = texture->decoded, linear[256];
+    uint32_t *to = (uint32_t *)texture->decoded + 2 * first, linear[256];
     for (uint32_t code = 0; code < 256; code++)
         linear[code] = linear15(code);
-    for (size_t i = 0; i < texture->texel_count; i++, to += 2) {
+    for (size_t i = first; i < end; i++, to += 2) {
         to[0] = linear[texel[i] & 255] | linear[texel[i] >> 16 & 255] << 16;
         to[1] = linear[texel[i] >> 8 & 255] | (texel[i] >> 24) << 23;
     }
 }
 
-static void fill_decoded(lom_texture *texture)
+static void decode_floats(const lom_texture *texture, size_t first, size_t end)
 {
     const uint32_t *texel = texture->texels;
-    float *to = texture->decoded;
-    for (size_t i = 0; i < texture->texel_count; i++, to += 4) {
+    float *to = (float *)texture->decoded + 4 * first;
+    for (size_t i = first; i < end; i++, to += 4) {
         for (int c = 0; c < 3; c++)
             to[c] = lom_srgb_linear[texel[i] >> 8 * c & 255];
         to[3] = (float)(texel[i] >> 24);
     }
+}
+
+void lom_decode_texels(const lom_texture *texture, size_t first, size_t end)
+{
+    (texture->fixed ? decode_pairs : decode_floats)(texture, first, end);
 }
 
 void lom_finish_texture(lom_texture *texture)
@@ -196,7 +201,7 @@ void lom_finish_texture(lom_texture *texture)
         lom_fill_apron(texture, i);
     }
     if (texture->decoded != NULL)
-        (texture->fixed ? fill_decoded_pairs : fill_decoded)(texture);
+        lom_decode_texels(texture, 0, texture->texel_count);
 }
 
 /* Bytes of the pixels of level 0. */

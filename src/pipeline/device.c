@@ -185,7 +185,12 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
     lom_texture_desc made = desc != NULL ? *desc : none;
     if (device->desc.filtering == LOM_FILTERING_FIXED)
         made.sampler.filtering = LOM_FILTERING_FIXED;
-    lom_texture *texture = lom_create_texture(&made, &device->error);
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    lom_texture *texture = lom_begin_texture(&made, &device->error);
+    if (texture != NULL)
+        lom_finish_attachment(device, texture);
+    lom_leave_float_state(&state);
     if (texture == NULL)
         return NULL;
     texture->owner = device;

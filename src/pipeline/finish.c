@@ -1,79 +1,99 @@
-/* The end of a pass, and of an update: what lies around and above level 0 of a texture. In: its texels, after a pass
- * most often with the apron's columns, which tiles fill (resolve.c). Out: the aprons, and the other levels where it has
- * them. Bands of rows are handed out by a counter, with a barrier from level to level.
- * Invariant: a texel is what lom_finish_texture makes it, whoever does. */
+/* The end of a pass, of an update, and of making a texture: what lies around and above level 0, and its texels decoded.
+ * In: its texels, after a pass most often with the apron's columns, which tiles fill (resolve.c). Out: the aprons, the
+ * other levels where it has them, what samplers read. Rows, faces and ranges are handed out by a counter, with a barrier
+ * from level to level. Invariant: a texel is what lom_finish_texture makes it, whoever does. */
 #include "pipeline/device.h"
 
 enum {
-    BAND = 32,         /* rows */
-    SHARED = 256 * 128 /* texels of a level that are worth a barrier */
+    SHARED = 256 * 128, /* texels of a level that are worth a barrier */
+    PIECE = 1 << 14,    /* texels that a worker takes at a time */
+    FACES = 6
 };
 
+/* A level and its slices from `layer` on. */
 struct finish {
     lom_texture *texture;
-    int level;
-    atomic_int next; /* row */
+    int level, layer;
+    bool shrinks;
 };
 
-static void finish_bands(void *context, int worker)
+/* Rows counted through the slices: from the level before, with the apron's columns beside them. */
+static void finish_rows(void *context, size_t first, size_t end)
 {
-    struct finish *f = context;
-    int height = f->texture->level[f->level].height;
-    (void)worker;
-    for (;;) {
-        int first = atomic_fetch_add_explicit(&f->next, BAND, memory_order_relaxed);
-        if (first >= height)
-            return;
-        int end = first + BAND < height ? first + BAND : height;
-        if (f->level > 0 && f->texture->builds_mips)
-            lom_shrink_rows(f->texture, f->level, 0, first, end);
-        lom_fill_columns(f->texture, f->level, 0, first, end);
+    const struct finish *f = context;
+    const size_t height = (size_t)f->texture->level[f->level].height;
+    for (size_t row = first, next; row < end; row = next) {
+        const size_t slice = row / height;
+        next = (slice + 1) * height < end ? (slice + 1) * height : end;
+        const int layer = f->layer + (int)slice, y = (int)(row - slice * height), y1 = (int)(next - slice * height);
+        if (f->shrinks)
+            lom_shrink_rows(f->texture, f->level, layer, y, y1);
+        if (f->texture->kind != LOM_TEXTURE_CUBE)
+            lom_fill_columns(f->texture, f->level, layer, y, y1);
     }
 }
 
-/* Of a flat texture, from level `first` on. */
+static void finish_faces(void *context, size_t first, size_t end)
+{
+    const struct finish *f = context;
+    for (size_t face = first; face < end; face++)
+        lom_fill_face(f->texture, f->level, (int)face);
+}
+
+/* `count` slices of a level; in a cube the aprons of all faces, since each looks over the edges of its neighbours. */
+static void finish_level(lom_device *device, struct finish *f, int count)
+{
+    const lom_level *l = &f->texture->level[f->level];
+    const size_t rows = (size_t)l->height * (size_t)count, texels = (size_t)l->width * rows;
+    const bool is_cube = f->texture->kind == LOM_TEXTURE_CUBE, shares = texels >= SHARED;
+    if (f->shrinks || !is_cube)
+        lom_share_out(device->pool, rows, shares && f->shrinks ? PIECE / (size_t)l->width + 1 : rows, finish_rows, f);
+    if (is_cube) {
+        lom_share_out(device->pool, FACES, shares ? 1 : FACES, finish_faces, f);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        lom_fill_rows(f->texture, f->level, f->layer + i);
+    if (f->texture->kind == LOM_TEXTURE_3D)
+        lom_fill_slices(f->texture, f->level);
+}
+
+static void decode_texels(void *context, size_t first, size_t end)
+{
+    lom_decode_texels(context, first, end);
+}
+
+/* All slices, from level `first` on. */
 static void finish_levels(lom_device *device, lom_texture *texture, int first)
 {
     for (int i = first; i < texture->level_count; i++) {
-        struct finish finish = { .texture = texture, .level = i };
-        const lom_level *l = &texture->level[i];
-        if (i > 0 && (size_t)l->width * (size_t)l->height >= SHARED)
-            lom_offer_work(device->pool, finish_bands, &finish);
-        else
-            finish_bands(&finish, 0);
-        lom_fill_rows(texture, i, 0);
+        struct finish f = { .texture = texture, .level = i, .shrinks = i > 0 && texture->builds_mips };
+        finish_level(device, &f, lom_level_layers(texture, i));
     }
 }
 
 void lom_finish_attachment(lom_device *device, lom_texture *texture)
 {
-    if (texture->kind != LOM_TEXTURE_2D || texture->decoded != NULL) /* made from pixels: no usual target */
-        lom_finish_texture(texture);
-    else
-        finish_levels(device, texture, 0);
+    finish_levels(device, texture, 0);
+    if (texture->decoded != NULL)
+        lom_share_out(device->pool, texture->texel_count, PIECE, decode_texels, texture);
 }
 
-/* A level of a layer, and the levels that are made of it: in a cube their aprons are those of all faces. */
+/* A level of a layer, and the levels that are made of it. */
 void lom_finish_slice(lom_device *device, lom_texture *texture, lom_slice slice)
 {
+    const bool builds = slice.level == 0 && texture->builds_mips;
     if (lom_fills_columns(texture, slice)) {
         lom_fill_rows(texture, 0, 0);
         finish_levels(device, texture, 1);
         return;
     }
-    if (texture->decoded != NULL) {
-        lom_finish_texture(texture);
+    if (texture->decoded != NULL) { /* of all */
+        lom_finish_attachment(device, texture);
         return;
     }
-    const bool builds = slice.level == 0 && texture->builds_mips;
     for (int i = slice.level; i < (builds ? texture->level_count : slice.level + 1); i++) {
-        if (i > slice.level)
-            lom_shrink_rows(texture, i, slice.layer, 0, texture->level[i].height);
-        if (texture->kind == LOM_TEXTURE_CUBE) {
-            lom_fill_apron(texture, i);
-            continue;
-        }
-        lom_fill_columns(texture, i, slice.layer, 0, texture->level[i].height);
-        lom_fill_rows(texture, i, slice.layer);
+        struct finish f = { .texture = texture, .level = i, .layer = slice.layer, .shrinks = i > slice.level };
+        finish_level(device, &f, 1);
     }
 }

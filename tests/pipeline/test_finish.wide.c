@@ -89,6 +89,61 @@ static void what_is_drawn_is_decoded_again(void)
     lom_close_device(device);
 }
 
+static const float *make_noise(void)
+{
+    enum { MOST = 6 * 300 * 300 * 4 };
+    static float noise[MOST];
+    random_draws = 5;
+    for (size_t i = 0; i < MOST; i++)
+        noise[i] = random_float(0, 1);
+    return noise;
+}
+
+/* All of it, what lies around levels and slices and is never looked at aside: texels that samplers read. */
+static void compare_made(const lom_texture *a, const lom_texture *b)
+{
+    const size_t decoded = a->fixed ? 2 * sizeof(uint32_t) : 4 * sizeof(float);
+    CHECK(memcmp(a->texels, b->texels, a->texel_count * lom_texel_size(a)) == 0, "kind %d, format %d of %dx%d",
+          (int)a->kind, (int)a->format, a->level[0].width, a->level[0].height);
+    CHECK((a->decoded == NULL) == (b->decoded == NULL) &&
+              (a->decoded == NULL || memcmp(a->decoded, b->decoded, a->texel_count * decoded) == 0),
+          "kind %d, format %d, decoded", (int)a->kind, (int)a->format);
+}
+
+/* A texture of pixels, of every kind and of sizes that are and are not worth sharing, is what lom_create_texture makes. */
+static void workers_make_textures(void)
+{
+    static const lom_texture_desc descs[] = {
+        { .width = 256, .height = 512 },
+        { .width = 37, .height = 21 },
+        { .kind = LOM_TEXTURE_CUBE, .width = 256, .height = 256 },
+        { .kind = LOM_TEXTURE_CUBE, .width = 33, .height = 33 },
+        { .kind = LOM_TEXTURE_2D_ARRAY, .width = 300, .height = 200, .depth = 5 },
+        { .kind = LOM_TEXTURE_3D, .width = 70, .height = 50, .depth = 60 },
+    };
+    static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_R32F,
+                                          LOM_FORMAT_RGBA32F };
+    const float *noise = make_noise();
+    for (int threads = 1; threads <= 5; threads += 2) {
+        lom_device *device = open_device((lom_device_desc){ .threads = threads });
+        for (size_t i = 0; i < 4 * sizeof descs / sizeof *descs; i++) {
+            lom_texture_desc desc = descs[i / 4];
+            desc.format = formats[i % 4];
+            desc.pixels = noise;
+            desc.mips = LOM_MIPS_ALL;
+            lom_texture *made = lom_make_texture(device, &desc);
+            desc.sampler.filtering = made != NULL ? made->sampler.filtering : LOM_FILTERING_FLOAT;
+            lom_texture *alone = lom_create_texture(&desc, NULL);
+            CHECK(made != NULL && alone != NULL, "%s", lom_device_error(device)->text);
+            if (made != NULL && alone != NULL)
+                compare_made(made, alone);
+            lom_free_texture(alone);
+            lom_release_texture(device, made);
+        }
+        lom_close_device(device);
+    }
+}
+
 /* The colours and depths of a scene, on a device whose caches hold so many bytes. */
 static void draw_with_caches(size_t bytes, lom_format color, int width, lom_image *images[2])
 {
@@ -137,6 +192,7 @@ int main(int argc, char **argv)
 {
     RUN(levels_and_aprons_are_those_of_a_texture);
     RUN(what_is_drawn_is_decoded_again);
+    RUN(workers_make_textures);
     RUN(stores_past_the_caches_change_no_byte);
     return check_result();
 }
