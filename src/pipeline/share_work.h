@@ -7,7 +7,7 @@
 #include <lom/pipeline.h>
 
 /* Runs work(context, first, end) for ranges that make up 0 .. count - 1, `piece` at most in each, on the device's
- * workers, outside of its passes. */
+ * workers, while none of its passes runs; one may be recorded. */
 void lom_share_work(lom_device *device, size_t count, size_t piece, lom_range_work *work, void *context);
 
 #endif

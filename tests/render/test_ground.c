@@ -26,10 +26,10 @@ static uint16_t tilted(int x, int y)
     return (uint16_t)(100 * x + 200 * y);
 }
 
-static void load(uint16_t (*height)(int x, int y))
+static void load_by(int threads, uint16_t (*height)(int x, int y))
 {
     lom_error error = { .code = LOM_OK };
-    device = lom_open_device(&(lom_device_desc){ .threads = 1 });
+    device = lom_open_device(&(lom_device_desc){ .threads = threads });
     map = lom_create_image(SIZE, SIZE, 1, LOM_FORMAT_R16, &error);
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++)
@@ -39,6 +39,11 @@ static void load(uint16_t (*height)(int x, int y))
     CHECK(lom_make_ground_blocks(&ground, &terrain, map, map_heights,
                                  &(lom_quality){ .ambient_occlusion = true, .mipmaps = true }, device, &error),
           "%s", error.text);
+}
+
+static void load(uint16_t (*height)(int x, int y))
+{
+    load_by(1, height);
 }
 
 static void release(void)
@@ -193,7 +198,9 @@ static float seen_beside(float wall, int distance)
     static float heights[64 * 64];
     for (int i = 0; i < 64 * 64; i++)
         heights[i] = i % 64 >= 32 ? wall : 0;
-    CHECK(lom_find_sky_visibility(heights, 64, 64, (double[]){ 64, 64 }, share, 1, NULL), "no memory");
+    device = lom_open_device(&(lom_device_desc){ .threads = 3 });
+    CHECK(lom_find_sky_visibility(device, heights, 64, 64, (double[]){ 64, 64 }, share, 1, NULL), "no memory");
+    lom_close_device(device);
     return share[32 * 64 + 32 - distance];
 }
 
@@ -206,6 +213,34 @@ static void visibility_of_the_sky(void)
     float beside = seen_beside(8, 8);
     CHECK(beside > expected - 0.03f && beside < expected + 0.03f, "beside the wall %g, not %g", (double)beside,
           (double)expected);
+}
+
+/* The bytes of what is made of a map: vertices, errors and boxes of the blocks, normals and the sky that is seen. */
+static uint64_t hash_ground(void)
+{
+    uint64_t hash = lom_hash_bytes(LOM_HASH_START, ground.position, ground.position_count * sizeof *ground.position);
+    for (int i = 0; i < ground.across * ground.down; i++) {
+        hash = lom_hash_bytes(hash, ground.blocks[i].error, sizeof ground.blocks[i].error);
+        hash = lom_hash_bytes(hash, &ground.blocks[i].bounds, sizeof ground.blocks[i].bounds);
+    }
+    for (int level = 0; level < lom_texture_levels(ground.vertex_texture); level++) {
+        lom_image *texels = lom_read_texture(ground.vertex_texture, level, 0, NULL);
+        hash = lom_hash_bytes(hash, texels->pixels, lom_image_size(texels));
+        lom_free_image(texels);
+    }
+    return hash;
+}
+
+static void workers_make_what_one_makes(void)
+{
+    load_by(1, rough);
+    const uint64_t alone = hash_ground();
+    release();
+    for (int threads = 2; threads <= 5; threads += 3) {
+        load_by(threads, rough);
+        CHECK(hash_ground() == alone, "with %d workers the ground is another one", threads);
+        release();
+    }
 }
 
 /* Along rows, columns and diagonals of square cells rays pass through vertices only: the shadow's height is the largest
@@ -282,6 +317,7 @@ int main(int argc, char **argv)
     RUN(errors_are_what_a_level_is_off);
     RUN(planes_are_coarse);
     RUN(visibility_of_the_sky);
+    RUN(workers_make_what_one_makes);
     RUN(shadows_along_rows_and_diagonals);
     RUN(shadows_of_planes);
     RUN(shadows_of_extreme_suns);

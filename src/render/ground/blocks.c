@@ -2,10 +2,12 @@
  * is off, and a texture of normals and the sky's visibility. Level n of a block has the vertices whose column and row
  * within the block are multiples of 2^n or the last. */
 #include "base/numbers.h"
+#include "geometry/terrain.h"
 #include "pipeline/check_device.h"
+#include "pipeline/share_work.h"
 #include "render/ground/ground.h"
 
-#include "geometry/terrain.h"
+enum { BLOCKS = 8 /* that a worker takes at a time */ };
 
 struct loader {
     struct lom_ground *ground;
@@ -160,10 +162,11 @@ static bool lay_out(struct lom_ground *ground, lom_error *error)
     return ground->position != NULL;
 }
 
-static void fill_blocks(const struct loader *loader)
+static void fill_blocks(void *context, size_t first, size_t end)
 {
+    const struct loader *loader = context;
     struct lom_ground *ground = loader->ground;
-    for (int i = 0; i < ground->across * ground->down; i++) {
+    for (int i = (int)first; i < (int)end; i++) {
         struct lom_ground_block *b = &ground->blocks[i];
         struct place p = { loader, b, i % ground->across * LOM_GROUND_BLOCK, i / ground->across * LOM_GROUND_BLOCK, 0 };
         find_bounds(&p, &b->bounds);
@@ -210,12 +213,12 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
         lay_out(ground, error) && lom_make_ground_patterns(ground, error) &&
         (quality->wireframe == LOM_WIREFRAME_OFF || quality->tessellation || lom_make_ground_wires(ground, error));
     if (done)
-        fill_blocks(&loader);
+        lom_share_work(device, (size_t)ground->across * (size_t)ground->down, BLOCKS, fill_blocks, &loader);
     if (done && quality->tessellation)
         done = lom_make_ground_patches(ground, error);
     if (done && quality->ambient_occlusion)
-        done =
-            lom_find_sky_visibility(ground->heights, map->width, map->height, t->size, &loader.texels[0][3], 4, error);
+        done = lom_find_sky_visibility(device, ground->heights, map->width, map->height, t->size, &loader.texels[0][3],
+                                       4, error);
     done = done && make_vertex_texture(&loader, map->height, quality->mipmaps, device, error);
     lom_release(loader.texels);
     lom_release(loader.x);

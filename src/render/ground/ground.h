@@ -119,9 +119,10 @@ void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_v
 void lom_free_ground_blocks(struct lom_ground *ground);
 
 /* The share of the sky (0..1, weighted by the cosine to the vertical) that each vertex sees over the heights around
- * it, from a grid of at most 256 x 256 of them. share: width x height numbers, `stride` floats apart. */
-bool lom_find_sky_visibility(const float *heights, int width, int height, const double size[2], float *share,
-                             size_t stride, lom_error *error);
+ * it, from a grid of at most 256 x 256 of them. share: width x height numbers, `stride` floats apart. By all workers
+ * of the device. */
+bool lom_find_sky_visibility(lom_device *device, const float *heights, int width, int height, const double size[2],
+                             float *share, size_t stride, lom_error *error);
 
 /* For each vertex of width x height heights the height up to which terrain shadows a place there: the largest
  * h - d tan e of the heights h at a distance d > 0 towards the light, which stands at the elevation e. Below -1e29
