@@ -2,6 +2,8 @@
  * triangles and its uniforms. A descriptor has 792 bytes and what follows from it as many: where thousands of draws differ
  * in a matrix or a material, one of them is checked and kept, and of uniforms those that are not among the last ones.
  * Invariant: what a call names draws what its own descriptor would. */
+#include "pipeline/check_device.h"
+#include "pipeline/draw_again.h"
 #include "pipeline/expand.h"
 
 typedef uint64_t pair __attribute__((vector_size(16)));
@@ -66,14 +68,19 @@ bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct l
     return false;
 }
 
-/* Lists of triangles by indices, of which every three are one: not where what a draw draws is found but once for it, or
- * told of each. */
+/* Lists of triangles by indices, of which every three are one. */
+bool lom_may_be_shared(const lom_device *device, const lom_draw_desc *desc)
+{
+    return !device->pass.is_recorded && desc->topology == LOM_TRIANGLES && desc->indices != NULL &&
+           desc->culling.clusters == NULL && desc->condition == NULL && desc->count_from == NULL;
+}
+
+/* Not where what a draw draws is found but once for it, or told of each. */
 void lom_note_draw(lom_device *device, const lom_draw_desc *desc)
 {
     struct lom_pass *pass = &device->pass;
     const struct lom_draw *draw = &device->draws[pass->draw_count - 1];
-    if (pass->is_recorded || draw->constant || draw->expands || desc->topology != LOM_TRIANGLES ||
-        desc->indices == NULL || desc->culling.clusters != NULL || desc->condition != NULL || desc->count_from != NULL)
+    if (draw->constant || draw->expands || !lom_may_be_shared(device, desc))
         return;
     device->known_draw[pass->known_draws++ % KNOWN_DRAWS] =
         (struct lom_known_draw){ *desc, (uint32_t)(pass->draw_count - 1) };
@@ -90,8 +97,10 @@ static bool find_uniforms(const lom_device *device, const void *uniforms, size_t
     return false;
 }
 
-static bool copy_uniforms(lom_device *device, const void *uniforms, size_t size, struct lom_call *call)
+bool lom_copy_uniforms(lom_device *device, const lom_draw_desc *desc, struct lom_call *call)
 {
+    const void *uniforms = desc->uniforms;
+    const size_t size = desc->shader->uniforms_size;
     struct lom_pass *pass = &device->pass;
     if (size == 0 || find_uniforms(device, uniforms, size, &call->uniforms))
         return true;
@@ -106,14 +115,25 @@ static bool copy_uniforms(lom_device *device, const void *uniforms, size_t size,
     return true;
 }
 
-bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call *call)
+static bool add_call(lom_device *device, const struct lom_call *call)
 {
     struct lom_pass *pass = &device->pass;
     if (!lom_reserve(&device->calls, &device->call_capacity, pass->call_count + 1, sizeof *device->calls, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
-    if (!copy_uniforms(device, desc->uniforms, desc->shader->uniforms_size, call))
-        return false;
     device->calls[pass->call_count++] = *call;
     device->counters.draws++;
     return true;
+}
+
+bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call *call)
+{
+    return lom_copy_uniforms(device, desc, call) && add_call(device, call);
+}
+
+void lom_draw_held(lom_device *device, const struct lom_held_draw *held, size_t first, size_t count)
+{
+    const struct lom_call call = { held->draw, (uint32_t)((first - held->first) / 3), (uint32_t)(count / 3),
+                                   held->uniforms };
+    if (lom_check_device(device, NULL))
+        add_call(device, &call);
 }

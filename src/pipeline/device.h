@@ -72,7 +72,10 @@ bool lom_lay_chunks(lom_device *device, size_t count);
 bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct lom_call *call);
 /* Keeps a descriptor of which the pass's last draw was made, where others may be like it. */
 void lom_note_draw(lom_device *device, const lom_draw_desc *desc);
-/* Copies the descriptor's uniforms and adds the call to the pass. */
+/* Whether calls may name a draw of the descriptor again, so far as that says. */
+bool lom_may_be_shared(const lom_device *device, const lom_draw_desc *desc);
+/* Copies the descriptor's uniforms, for the call to name; the same, and adds the call to the pass. */
+bool lom_copy_uniforms(lom_device *device, const lom_draw_desc *desc, struct lom_call *call);
 bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call *call);
 /* Finds which calls of the pass share a chunk; false without memory (join.c). How many there are from call i on; the
  * triangles of so many. */

@@ -1,6 +1,8 @@
 /* Recording a draw. In: a descriptor. Out: a checked copy of it, with the pass's defaults filled in, unless there is one
  * already that differs in what a call names (call.c). Invariant: nothing that is recorded can make a later stage read outside what the descriptor names. */
 #include "lanes/variants.h"
+#include "pipeline/check_device.h"
+#include "pipeline/draw_again.h"
 #include "pipeline/expand.h"
 
 enum { LARGEST_LINE_WIDTH = 64 };
@@ -255,6 +257,18 @@ static bool add_draw(lom_device *device, const lom_draw_desc *desc, size_t count
         draw->desc.culling.clusters = NULL;
     *call = (struct lom_call){ .draw = (uint32_t)pass->draw_count++, .triangles = (uint32_t)draw->triangles };
     lom_note_draw(device, desc);
+    return true;
+}
+
+bool lom_hold_draw(lom_device *device, const lom_draw_desc *desc, struct lom_held_draw *held)
+{
+    struct lom_call call = { 0 };
+    *held = (struct lom_held_draw){ .is_held = false };
+    if (!lom_check_device(device, NULL) || !device->in_pass || !lom_may_be_shared(device, desc) ||
+        !check_draw(device, desc) || !add_draw(device, desc, 0, &call) || device->draws[call.draw].constant ||
+        device->draws[call.draw].expands || !lom_copy_uniforms(device, desc, &call))
+        return false;
+    *held = (struct lom_held_draw){ true, call.draw, call.uniforms, desc->first };
     return true;
 }
 

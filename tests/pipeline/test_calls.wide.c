@@ -3,8 +3,9 @@
  * this width. The descriptors of hundreds of draws come from a few states and fixed random numbers: which triangles of the
  * indices (also earlier ones, and places that are no multiple of three), which uniforms, shader, cull, blend, scissor,
  * depth test. The triangles are small and large, near one another and scattered, inside and clipped. And that what is wrong
- * in a draw that is like one before is an error as ever. */
+ * in a draw that is like one before is an error as ever. Draws that are held (draw_again.h) likewise. */
 #include "pipeline/device.h"
+#include "pipeline/draw_again.h"
 #include "stage.h"
 
 enum { WIDTH = 160, HEIGHT = 96, TRIANGLES = 60, DRAWS = 600, STATES = 9, TINTS = 7 };
@@ -185,6 +186,53 @@ static void shared_draws_of_several_samples_are_those_one_by_one(void)
     close_stage(&apart);
 }
 
+/* Of each state a draw of all triangles, held; then parts of them in an order of their own. What cannot be held is drawn. */
+static void draw_parts(stage *s, bool holds)
+{
+    static const struct tint tint = { .matrix = { [0] = 1 }, .color = { 0.5f, 0.25f, 0.125f, 1 } };
+    struct lom_held_draw held[STATES];
+    lom_draw_desc descs[STATES];
+    int held_count = 0;
+    begin(s, kept(false));
+    for (int i = 0; i < STATES; i++) {
+        descs[i] = state(i);
+        descs[i].uniforms = &tint;
+        descs[i].count = 3 * TRIANGLES;
+        held_count += holds && lom_hold_draw(s->device, &descs[i], &held[i]);
+    }
+    CHECK(held_count == (holds ? 6 : 0), "%d states are held", held_count);
+    random_draws = 4;
+    for (int i = 0; i < DRAWS; i++) {
+        const int number = (int)random_whole(0, STATES - 1);
+        const size_t first = 3 * (size_t)random_whole(0, TRIANGLES - 10), count = 3 * (size_t)random_whole(0, 10);
+        if (holds && held[number].is_held) {
+            lom_draw_held(s->device, &held[number], first, count);
+            continue;
+        }
+        descs[number].first = first;
+        descs[number].count = count;
+        lom_draw(s->device, &descs[number]);
+    }
+    finish(s);
+}
+
+static void held_draws_are_those_of_descriptors(void)
+{
+    lom_device_desc desc = { .threads = 2, .chunk = 16, .batch = 3 };
+    stage one = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    stage other = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    draw_parts(&one, true);
+    draw_parts(&other, false);
+    CHECK(same_images(one.image, other.image), "colours differ");
+    CHECK(same_images(one.depths, other.depths), "depths differ");
+    const lom_counters a = lom_device_counters(one.device), b = lom_device_counters(other.device);
+    CHECK(a.draws == b.draws && a.triangles == b.triangles && a.vertices == b.vertices && a.fragments == b.fragments,
+          "%llu and %llu draws, %llu and %llu triangles", (unsigned long long)a.draws, (unsigned long long)b.draws,
+          (unsigned long long)a.triangles, (unsigned long long)b.triangles);
+    close_stage(&one);
+    close_stage(&other);
+}
+
 /* What the first draw did right does not hide what the second does wrong. */
 static void errors_stay_errors(void)
 {
@@ -216,6 +264,7 @@ int main(int argc, char **argv)
     make_scene();
     RUN(shared_draws_are_those_of_their_own_passes);
     RUN(shared_draws_of_several_samples_are_those_one_by_one);
+    RUN(held_draws_are_those_of_descriptors);
     RUN(errors_stay_errors);
     return check_result();
 }

@@ -2,8 +2,8 @@
 #ifndef LOM_RENDER_ENTITIES_ENTITIES_H
 #define LOM_RENDER_ENTITIES_ENTITIES_H
 
+#include "pipeline/draw_again.h"
 #include "render/scene_view.h"
-
 #include "world/world.h"
 
 struct frame;
@@ -15,10 +15,26 @@ struct lom_distant {
     double distance;       /* of its middle: what grows with it */
 };
 
+/* Where a view's rays come from. */
+struct lom_order {
+    lom_vec3 eye, ahead;
+    bool parallel;
+};
+
+/* A triangle's first index, and the part that it is of. */
+struct lom_listed_triangle {
+    uint32_t number, part;
+};
+
 /* What of an entity is transparent. */
 struct lom_transparent {
-    struct lom_distant *triangles; /* twice as many: where they are sorted, too */
-    uint32_t *indices;             /* in the order of drawing, of the pass at hand */
+    struct lom_listed_triangle *listed; /* in the mesh's order */
+    struct lom_distant *triangles;      /* twice as many: where they are sorted, too */
+    const struct lom_distant *sorted;   /* of those; NULL: not yet */
+    uint32_t *indices;                  /* in the order of drawing */
+    struct lom_order seen_from;         /* of that order, */
+    lom_mat4 place;                     /* and where the entity was */
+    struct lom_held_draw *held;         /* of each material, in the pass at hand */
     size_t count;
 };
 

@@ -91,8 +91,10 @@ static void free_entity(lom_renderer *renderer, const struct lom_drawn_entity *e
     lom_release(entity->materials);
     if (!entity->shares_edges)
         lom_release(entity->edges);
+    lom_release(entity->transparent.listed);
     lom_release(entity->transparent.triangles);
     lom_release(entity->transparent.indices);
+    lom_release(entity->transparent.held);
 }
 
 void lom_free_entities(lom_renderer *renderer)

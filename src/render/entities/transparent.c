@@ -4,9 +4,8 @@
  * Order: entities by the distance of the middle of their bounds from the eye, the farthest first, equal ones in the scene's
  * order; within one its transparent triangles by the distance of their middles, equal ones in the mesh's order, whatever
  * their materials. So what a fine mesh has several layers of is right, a bottle as well as a pane; long triangles that
- * cross one another, and entities one of which lies within the other, are not cut.
- *
- * Invariant: the order is a function of the view's eye and of where the entities are, in double. */
+ * cross one another, and entities one of which lies within the other, are not cut. */
+#include "render/entities/order.h"
 #include "render/entities/shaders.h"
 #include "render/frame.h"
 #include "shading/square.h"
@@ -16,115 +15,34 @@ static bool has_transparent(const struct lom_drawn_entity *entity)
     return entity->transparent.count != 0;
 }
 
+/* Lists the triangles if there is a list; how many they are. */
+static size_t list_triangles(const struct lom_world_entity *source, struct lom_listed_triangle *list)
+{
+    size_t count = 0;
+    for (uint32_t k = 0; k < source->mesh->part_count; k++) {
+        const struct lom_world_part *part = &source->parts[k];
+        for (uint32_t i = 0; lom_is_transparent(part, source->entity) && i + 2 < part->count; i += 3, count++)
+            if (list != NULL)
+                list[count] = (struct lom_listed_triangle){ part->first + i, k };
+    }
+    return count;
+}
+
 bool lom_list_transparent(struct lom_drawn_entity *entity, lom_error *error)
 {
     const struct lom_world_entity *source = entity->source;
     struct lom_transparent *t = &entity->transparent;
-    size_t count = 0;
-    for (size_t i = 0; i < source->mesh->part_count; i++)
-        if (lom_is_transparent(&source->parts[i], source->entity))
-            count += source->parts[i].count / 3;
+    const size_t count = list_triangles(source, NULL), materials = lom_mesh_parts(source->mesh);
     if (count == 0)
         return true;
+    t->listed = lom_allocate(count, sizeof *t->listed, error);
     t->triangles = lom_allocate(2 * count, sizeof *t->triangles, error);
     t->indices = lom_allocate(3 * count, sizeof *t->indices, error);
-    if (t->triangles == NULL || t->indices == NULL)
+    t->held = lom_allocate(entity->backs != NULL ? 2 * materials : materials, sizeof *t->held, error);
+    if (t->listed == NULL || t->triangles == NULL || t->indices == NULL || t->held == NULL)
         return false;
-    t->count = count;
+    t->count = list_triangles(source, t->listed);
     return true;
-}
-
-/* ---- the order ---- */
-
-/* Where a view's rays come from. */
-struct order {
-    lom_vec3 eye, ahead;
-    bool parallel;
-};
-
-static struct order order_of(const struct lom_scene_view *view)
-{
-    const lom_view_rays rays = lom_find_view_rays(&view->projection, &view->view);
-    return (struct order){ view->eye, rays.ahead, rays.parallel };
-}
-
-/* What grows with the distance: its square, or with parallel rays how far ahead of the eye a place is. */
-static double distance_to(const struct order *order, lom_vec3 place)
-{
-    lom_vec3 d = lom_vec3_subtract(place, order->eye), along = order->parallel ? order->ahead : d;
-    return d.x * along.x + d.y * along.y + d.z * along.z;
-}
-
-/* Two sorted runs as one: of equally far things that of the first run comes first. */
-static void merge(const struct lom_distant *from, size_t middle, size_t end, struct lom_distant *to)
-{
-    size_t a = 0, b = middle;
-    for (size_t i = 0; i < end; i++) {
-        bool first = b == end || (a < middle && from[a].distance >= from[b].distance);
-        to[i] = from[first ? a++ : b++];
-    }
-}
-
-/* Farthest first, in runs of twice the length each time; `list` has room for as many once more. Returns where they are. */
-static struct lom_distant *sort(struct lom_distant *list, size_t count)
-{
-    struct lom_distant *from = list, *to = list + count;
-    for (size_t run = 1; run < count; run *= 2) {
-        for (size_t i = 0; i < count; i += 2 * run) {
-            size_t left = count - i;
-            merge(from + i, run < left ? run : left, 2 * run < left ? 2 * run : left, to + i);
-        }
-        struct lom_distant *sorted = to;
-        to = from;
-        from = sorted;
-    }
-    return from;
-}
-
-/* The middle of a triangle in the world. */
-static lom_vec3 find_middle(const struct lom_drawn_entity *entity, const uint32_t *index)
-{
-    const lom_mesh *mesh = entity->source->mesh;
-    double sum[3] = { 0, 0, 0 };
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++)
-            sum[i] += (double)mesh->vertices[index[k]].position[i];
-    return lom_transform_point(&entity->at->world_from_model, (lom_vec3){ sum[0] / 3, sum[1] / 3, sum[2] / 3 });
-}
-
-/* Whether a triangle of an entity that has materials of its own for backs turns its back. */
-static bool shows_back(const struct lom_drawn_entity *entity, const uint32_t *index, const struct order *order)
-{
-    lom_vec3 p[3];
-    if (entity->backs == NULL)
-        return false;
-    for (int k = 0; k < 3; k++) {
-        const float *at = entity->source->mesh->vertices[index[k]].position;
-        p[k] = lom_transform_point(&entity->at->world_from_model, (lom_vec3){ at[0], at[1], at[2] });
-    }
-    const lom_vec3 n = lom_vec3_cross(lom_vec3_subtract(p[1], p[0]), lom_vec3_subtract(p[2], p[0]));
-    const lom_vec3 away = order->parallel ? order->ahead : lom_vec3_subtract(p[0], order->eye);
-    const bool behind = n.x * away.x + n.y * away.y + n.z * away.z > 0;
-    return behind != lom_is_mirroring(&entity->at->world_from_model);
-}
-
-/* The triangles in their order; of the materials those of backs come after those of fronts. */
-static const struct lom_distant *order_triangles(const struct lom_drawn_entity *entity, const struct order *order)
-{
-    const struct lom_world_entity *source = entity->source;
-    struct lom_distant *list = entity->transparent.triangles;
-    const uint32_t backs = entity->backs != NULL ? (uint32_t)(entity->backs - entity->materials) : 0;
-    size_t count = 0;
-    for (uint32_t k = 0; k < source->mesh->part_count; k++) {
-        const struct lom_world_part *part = &source->parts[k];
-        for (uint32_t i = 0; lom_is_transparent(part, source->entity) && i + 2 < part->count; i += 3) {
-            const uint32_t *index = source->mesh->indices + part->first + i;
-            const uint32_t material = shows_back(entity, index, order) ? k + backs : k;
-            list[count++] =
-                (struct lom_distant){ part->first + i, material, distance_to(order, find_middle(entity, index)) };
-        }
-    }
-    return sort(list, count);
 }
 
 /* ---- drawing ---- */
@@ -139,28 +57,36 @@ static const lom_shader *shader_of(const lom_renderer *renderer, const struct lo
 }
 
 /* A draw for each run of triangles of one material. */
-static void draw_entity(lom_renderer *renderer, const struct lom_drawn_entity *entity,
-                        const struct lom_scene_view *view, const struct order *order,
-                        const struct lom_view_uniform *uniform)
+static void draw_entity(lom_renderer *renderer, struct lom_drawn_entity *entity, const struct lom_scene_view *view,
+                        const struct lom_order *order, const struct lom_view_uniform *uniform)
 {
-    const struct lom_distant *t = order_triangles(entity, order);
-    const size_t count = entity->transparent.count;
+    const struct lom_distant *t = lom_order_triangles(renderer->device, entity, order);
+    const size_t count = entity->transparent.count, materials = lom_mesh_parts(entity->source->mesh);
+    struct lom_held_draw *held = entity->transparent.held;
     struct lom_entity_uniforms uniforms;
     lom_draw_desc draw = lom_begin_entity(renderer, entity, view, uniform, &uniforms);
     draw.cull = LOM_CULL_NONE;
     draw.depth_write_off = true;
     draw.blend[0] = lom_blend_over;
     draw.indices = entity->transparent.indices;
-    for (size_t i = 0; i < count; i++)
-        memcpy(entity->transparent.indices + 3 * i, entity->source->mesh->indices + t[i].number, 3 * sizeof(uint32_t));
+    memset(held, 0, (entity->backs != NULL ? 2 * materials : materials) * sizeof *held);
     for (size_t first = 0, end; first < count; first = end) {
-        for (end = first + 1; end < count && t[end].part == t[first].part;)
+        const uint32_t material = t[first].part; /* the backs' follow the fronts' */
+        for (end = first + 1; end < count && t[end].part == material;)
             end++;
-        uniforms.material = entity->materials[t[first].part]; /* the backs' follow the fronts' */
-        draw.shader = shader_of(renderer, &uniforms.material);
+        if (!held[material].is_held) {
+            uniforms.material = entity->materials[material];
+            draw.shader = shader_of(renderer, &uniforms.material);
+            draw.first = 0;
+            draw.count = 3 * count;
+            lom_hold_draw(renderer->device, &draw, &held[material]);
+        }
         draw.first = 3 * first;
         draw.count = 3 * (end - first);
-        lom_draw(renderer->device, &draw);
+        if (held[material].is_held)
+            lom_draw_held(renderer->device, &held[material], draw.first, draw.count);
+        else
+            lom_draw(renderer->device, &draw);
     }
 }
 
@@ -187,15 +113,16 @@ size_t lom_count_transparent_entities(const lom_renderer *renderer, const struct
 size_t lom_draw_transparent_entities(lom_renderer *renderer, const struct lom_scene_view *view,
                                      const struct lom_culler *culler, const struct lom_view_uniform *uniform)
 {
-    const struct lom_drawn_entity *items = renderer->entities.items;
-    const struct order order = order_of(view);
+    struct lom_drawn_entity *items = renderer->entities.items;
+    const struct lom_order order = lom_order_of(view);
     struct lom_distant *list = renderer->entities.order;
     size_t count = 0;
     for (uint32_t i = 0; i < renderer->entities.count; i++)
         if (is_seen(&items[i], culler))
             list[count++] =
-                (struct lom_distant){ .number = i, .distance = distance_to(&order, middle_of(&items[i].at->bounds)) };
-    list = sort(list, count);
+                (struct lom_distant){ .number = i,
+                                      .distance = lom_distance_of(&order, middle_of(&items[i].at->bounds)) };
+    list = lom_sort_distant(renderer->device, list, count);
     for (size_t i = 0; i < count; i++)
         draw_entity(renderer, &items[list[i].number], view, &order, uniform);
     return count;
