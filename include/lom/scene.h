@@ -361,6 +361,8 @@ typedef struct lom_scene {
     size_t other_water_count;       /* at most LOM_MAX_OTHER_WATERS */
     lom_water_surf surf;            /* of the first water: when its height is not 0 waves come in to the terrain */
     lom_shallow_water shallow;      /* of the first water: when given is not 0 it flows */
+    lom_water_wake *wakes;          /* [[wake]], on the first water */
+    size_t wake_count;              /* at most LOM_MAX_WAKES */
     lom_clouds clouds;
     lom_quality quality;
     lom_entity *entities;

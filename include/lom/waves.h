@@ -71,6 +71,18 @@ typedef struct lom_water_surf {
     double plunging;  /* where they plunge, how far: 0 not at all .. 1 */
 } lom_water_surf;
 
+/* ---- [[wake]]: foam that a body leaves where it moves through the water ---- */
+
+enum { LOM_MAX_WAKES = 16 };
+
+typedef struct lom_water_wake {
+    bool present;
+    const char *entity; /* that leaves it */
+    double heading;     /* where its bow is: radians from the entity's own +x to its +z */
+    double half[2];     /* half axes of its waterline, metres: along and across */
+    size_t followed;    /* number of the entity, plus one */
+} lom_water_wake;
+
 /* ---- [shallow]: the surface as a height field that flows over the terrain (lom/shallow.h) ---- */
 
 typedef struct lom_shallow_spring {
@@ -82,7 +94,8 @@ typedef struct lom_shallow_spring {
 typedef struct lom_shallow_body {
     bool present;
     const char *entity; /* that it goes with, or NULL */
-    double position[2], half[2], heading, draft;
+    double position[2], half[2], draft;
+    double heading;               /* radians from +x to +z: of the world, or of the entity that it goes with */
     double time, duration, every; /* of dipping in, seconds; duration 0: it is always in the water */
     size_t followed;              /* number of the entity, plus one; 0: none */
 } lom_shallow_body;

@@ -55,7 +55,8 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_FOAM, "water.foam water.foam.amount water.foam.shore_depth" },
     { LOM_PART_WAVES, "water.foam.carried water.foam.window" },
     { each_frame, "water.foam.threshold water.foam.tile" },
-    { LOM_PART_WAVES, "surf surf.height surf.period surf.direction surf.breaking surf.plunging shallow.*" },
+    { LOM_PART_WAVES, "surf surf.height surf.period surf.direction surf.breaking surf.plunging shallow.* "
+                      "wake wake.*" },
     { LOM_PART_SPRAY, "surf.variation" },
 
     { LOM_PART_ENTITIES,

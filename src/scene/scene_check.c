@@ -162,6 +162,22 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     return true;
 }
 
+static bool check_wakes(lom_scene *scene, const lom_key_check *root)
+{
+    for (size_t i = 0; i < scene->wake_count; i++) {
+        lom_water_wake *wake = &scene->wakes[i];
+        const lom_key_check at = root->element(root, "wake", i);
+        wake->followed = find_entity(scene, wake->entity);
+        if (!scene->water.present)
+            return at.fail(&at, "", "a wake lies on [water], which there is not.");
+        if (wake->followed == 0)
+            return at.fail(&at, "entity", "no entity has this name.");
+        if (i >= LOM_MAX_WAKES)
+            return at.fail(&at, "", "there are at most 16 wakes.");
+    }
+    return true;
+}
+
 /* Each wave throws a drop's next life. */
 static bool check_source(const lom_scene *scene, const lom_spray *spray, const lom_key_check *at)
 {
@@ -235,6 +251,7 @@ bool lom_check_scene(lom_reader *reader, const lom_toml_value *root)
     lom_measure_from_terrain(reader->scene, &check);
     return check_all_names(reader->scene, &check) && check_waters(reader->scene, &check) &&
            check_ground(reader->scene, &check) && check_shallow(reader->scene, &check) &&
-           check_followed(reader->scene, &check) && check_drops(reader->scene, &check) &&
-           check_views(reader->scene, &check) && check_fluids(reader->scene, &check) && add_sky(reader->scene, reader);
+           check_followed(reader->scene, &check) && check_wakes(reader->scene, &check) &&
+           check_drops(reader->scene, &check) && check_views(reader->scene, &check) &&
+           check_fluids(reader->scene, &check) && add_sky(reader->scene, reader);
 }

@@ -114,6 +114,8 @@ static const lom_key root[] = {
       .others_offset = AT(lom_scene, other_waters), .length_offset = AT(lom_scene, other_water_count) },
     { "surf", LOM_KEY_TABLE, AT(lom_scene, surf), .table = &lom_water_surf_keys },
     { "shallow", LOM_KEY_TABLE, AT(lom_scene, shallow), .table = &lom_shallow_keys },
+    { "wake", LOM_KEY_TABLES, AT(lom_scene, wakes), .table = &lom_water_wake_keys,
+      .length_offset = AT(lom_scene, wake_count), .text = "Foam behind what moves through the water." },
     { "entity", LOM_KEY_TABLES, AT(lom_scene, entities), .table = &lom_entity_keys,
       .length_offset = AT(lom_scene, entity_count), .text = "Meshes in the scene." },
     { "clouds", LOM_KEY_TABLE, AT(lom_scene, clouds), .table = &lom_clouds_keys },

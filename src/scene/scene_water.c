@@ -33,10 +33,13 @@ struct lom_wave_site lom_scene_wave_site(const lom_scene *scene, size_t number, 
     const bool is_first = number == 0;
     const lom_water_surf *surf = is_first ? &scene->surf : &no_surf;
     const lom_shallow_water *shallow = is_first ? &scene->shallow : &not_shallow;
+    const size_t wake_count = is_first ? scene->wake_count : 0;
     return (struct lom_wave_site){ .waves = &water->waves,
                                    .foam = &water->foam,
                                    .surf = surf,
                                    .shallow = shallow,
+                                   .wakes = scene->wakes,
+                                   .wake_count = wake_count,
                                    .level = water->level,
                                    .middle = { water->position[0], water->position[1] },
                                    .size = { water->size[0], water->size[1] },

@@ -132,12 +132,25 @@ LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, co
     return light;
 }
 
-/* Foam is a heap that scatters light through: where a lip has fallen on the water ahead and the sheet is folded, the side
- * that looks down is lit as the one above it, so the fold is no dark flap with a hard edge. */
+/* Foam is a heap that scatters light through: where a lip has been thrown ahead and the sheet is folded, the side that
+ * looks down has the light of the one above it. Over the edge of a lip that is the normal turned up, (x, -y, z), which
+ * goes on from one side to the other without a jump; where the sheet lies back under itself it is the opposite normal,
+ * which has its part from where the sheet stands upright to 20 degrees beyond that. So there is neither a dark flap nor a
+ * line along the fold. */
+LOM_INLINE lom_float lom_lambert_on_foam(const struct lom_light_uniform *light, lom_float3 normal)
+{
+    lom_float3 up = { normal.x, lom_abs(normal.y), normal.z };
+    lom_float lambert = lom_lambert(light, up);
+    if (!lom_any(normal.y < 0.0f))
+        return lambert;
+    lom_float opposite = lom_lambert(light, (lom_float3){ -normal.x, up.y, -normal.z });
+    lom_float part = 1.0f - lom_smoothstep(lom_splat(-0.35f), lom_splat(0.0f), normal.y);
+    return lom_mix(lambert, lom_max(lambert, opposite), part);
+}
+
 LOM_INLINE lom_float3 lom_foam_radiance(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
-    lom_float up = lom_select(p->normal.y < 0.0f, lom_splat(-1.0f), lom_splat(1.0f));
-    lom_float lambert = lom_lambert(&u->light, lom_scale3(p->normal, up)) * lom_light_share(&u->light, p->offset);
+    lom_float lambert = lom_lambert_on_foam(&u->light, p->normal) * lom_light_share(&u->light, p->offset);
     lambert = lom_open_water_share(&u->entity_shadow, p->offset, lambert);
     lom_float3 light = lom_add3(lom_uniform3(u->light.ambient), lom_scale3(lom_uniform3(u->light.color), lambert));
     if (u->light.lamps != NULL)

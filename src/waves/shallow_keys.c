@@ -1,5 +1,6 @@
 /* The tables of the scene file's [shallow] keys. In: nothing. Out: names, ranges, defaults and documentation of
  * lom_shallow_water, its springs and its bodies. */
+#include "base/numbers.h"
 #include "waves/wave_keys.h"
 
 #include <lom/shallow.h>
@@ -24,15 +25,14 @@ static const lom_key_table spring_table = { .size = sizeof(lom_shallow_spring),
 #undef AT
 #define AT(member) offsetof(lom_shallow_body, member)
 static const lom_key body[] = {
-    { "entity", LOM_KEY_STRING, AT(entity),
-      .text = "Name of an entity that it goes with, its length along the entity's -z; instead of `position` and "
-              "`heading`." },
+    { "entity", LOM_KEY_STRING, AT(entity), .text = "Name of an entity that it goes with, instead of `position`." },
     { "position", LOM_KEY_NUMBER, AT(position), 2, .minimum = -4e8, .maximum = 4e8, .unit = "m",
       .text = "x and z of its middle." },
     { "half", LOM_KEY_NUMBER, AT(half), 2, .flags = LOM_KEY_SPREAD, .minimum = 1e-6, .maximum = 1e4,
       .initial = { 1, 1 }, .unit = "m", .text = "Its half axes, along and across `heading`." },
     { "heading", LOM_KEY_ANGLE, AT(heading), .minimum = -360, .maximum = 360, .unit = "degrees",
-      .text = "Where it points: 0 is +x, 90 is +z." },
+      .text = "Where it points: 0 is +x, 90 is +z. With `entity` these are the entity's own axes, and without a "
+              "heading it points along its -z." },
     { "draft", LOM_KEY_NUMBER, AT(draft), .maximum = 1000, .initial = { 0.3 }, .unit = "m",
       .text = "How much of the water's depth it takes in its middle." },
     { "time", LOM_KEY_NUMBER, AT(time), .minimum = -1e9, .maximum = 1e9, .unit = "s",
@@ -44,9 +44,11 @@ static const lom_key body[] = {
 };
 static bool check_body(void *members, const lom_key_check *check)
 {
-    const lom_shallow_body *it = members;
+    lom_shallow_body *it = members;
     if (it->entity == NULL && !check->is_given(check, "position"))
         return check->fail(check, "entity", "a body needs a position or an entity.");
+    if (it->entity != NULL && !check->is_given(check, "heading"))
+        it->heading = -lom_pi / 2;
     return !(it->every > 0) || (it->duration > 0 && it->duration <= it->every) ||
            check->fail(check, "every", "it dips in again after its duration, which is above 0.");
 }

@@ -101,7 +101,9 @@ static lom_shallow_obstacle place_body(const struct lom_wave_site *site, const l
                                body->draft * dip_of(body, time) };
     if (body->followed != 0) {
         double place[2];
-        site->follow(site->scene, body->followed, time, place, &o.heading);
+        double ahead; /* of the entity's -z */
+        site->follow(site->scene, body->followed, time, place, &ahead);
+        o.heading = ahead + (body->heading + lom_pi / 2);
         o.x = place[0];
         o.z = place[1];
     }

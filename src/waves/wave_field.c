@@ -3,7 +3,8 @@
 #include "waves/wave_field.h"
 
 static const struct lom_wave_kind *const kinds[] = { &lom_trochoid_waves, &lom_river_waves,   &lom_ripple_waves,
-                                                     &lom_surf_waves,     &lom_shallow_waves, &lom_sea_waves };
+                                                     &lom_surf_waves,     &lom_shallow_waves, &lom_sea_waves,
+                                                     &lom_wakes };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
 struct lom_wave_field {

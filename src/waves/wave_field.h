@@ -55,7 +55,7 @@ struct lom_wave_kind {
     void (*report)(const void *state, const struct lom_wave_moment *moment, struct lom_wave_report *report);
 };
 extern const struct lom_wave_kind lom_trochoid_waves, lom_river_waves, lom_ripple_waves, lom_surf_waves,
-    lom_shallow_waves, lom_sea_waves;
+    lom_shallow_waves, lom_sea_waves, lom_wakes;
 
 struct lom_wave_field;
 

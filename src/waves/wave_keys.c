@@ -1,5 +1,5 @@
-/* The tables of the keys of waves: [water.waves], [surf], [water.foam]. In: nothing. Out: names, ranges, defaults and
- * documentation of the members of lom_water_waves, lom_water_surf and lom_water_foam. */
+/* The tables of the keys of waves: [water.waves], [surf], [water.foam], [[wake]]. In: nothing. Out: names, ranges, defaults
+ * and documentation of the members of lom_water_waves, lom_water_surf, lom_water_foam and lom_water_wake. */
 #include "waves/wave_keys.h"
 
 #include "waves/sea_desc.h"
@@ -138,3 +138,23 @@ const lom_key_table lom_water_foam_keys = { .size = sizeof(lom_water_foam),
                                             .keys = foam,
                                             .key_count = COUNT(foam),
                                             .text = "Foam on breaking waves and at the shore." };
+
+#undef AT
+#define AT(member) offsetof(lom_water_wake, member)
+static const lom_key wake[] = {
+    { "entity", LOM_KEY_STRING, AT(entity), .flags = LOM_KEY_REQUIRED,
+      .text = "Name of the entity that leaves it, as it moves." },
+    { "heading", LOM_KEY_ANGLE, AT(heading), .minimum = -360, .maximum = 360, .initial = { -90 }, .unit = "degrees",
+      .text = "Where its bow is, in the entity's own axes: 0 is +x, 90 is +z, -90 its -z." },
+    { "half", LOM_KEY_NUMBER, AT(half), 2, .flags = LOM_KEY_SPREAD, .minimum = 1e-6, .maximum = 1e4,
+      .initial = { 1, 1 }, .unit = "m", .text = "Half axes of its waterline, along and across." },
+};
+const lom_key_table lom_water_wake_keys = {
+    .size = sizeof(lom_water_wake),
+    .keys = wake,
+    .key_count = COUNT(wake),
+    .text =
+        "Foam that a body leaves behind it on the first water, wherever it goes: it lies where the body was, spreads, "
+        "and fades in `water.foam.window`; with `water.foam.carried` its pattern is drawn out as it spreads. "
+        "`water.foam.amount` is how much of it there is."
+};

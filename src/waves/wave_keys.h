@@ -10,6 +10,8 @@ extern const lom_key_table lom_water_waves_keys;
 extern const lom_key_table lom_water_foam_keys;
 /* [surf]: lom_water_surf. */
 extern const lom_key_table lom_water_surf_keys;
+/* [[wake]]: lom_water_wake. */
+extern const lom_key_table lom_water_wake_keys;
 /* [shallow]: lom_shallow_water. */
 extern const lom_key_table lom_shallow_keys;
 

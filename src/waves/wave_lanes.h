@@ -71,12 +71,33 @@ struct lom_surf_uniform {
     double origin[2]; /* of the places */
 };
 
+/* The way of a body in the time before, the newest place first, in runs of steps: where its bow was, how far it has come
+ * since, and how much foam of that time is left. */
+enum { LOM_WAKE_STEPS = 8, LOM_WAKE_RUNS = 12 };
+struct lom_wake_place {
+    float x, z, way, foam;
+};
+struct lom_wake_run {
+    struct lom_wake_place place[LOM_WAKE_STEPS + 1];
+    float low[2], high[2]; /* no foam of the run is outside, but for the size of what is sampled */
+};
+struct lom_wake_track {
+    struct lom_wake_run run[LOM_WAKE_RUNS];
+    float half[2]; /* of the body's waterline, metres: along, and across with the foam at its sides */
+};
+struct lom_wakes_uniform {
+    const struct lom_wake_track *tracks;
+    int count; /* 0: there are none */
+    bool is_carried;
+};
+
 struct lom_waves_uniform {
     double origin[3]; /* the place in the world that places are counted from */
     struct lom_river_uniform river;
     struct lom_ripple_uniform ripples;
     struct lom_shallow_uniform shallow;
     struct lom_surf_uniform surf;
+    struct lom_wakes_uniform wakes;
     int trochoid_count, cascade_count;
     struct lom_trochoid_uniform trochoid[LOM_MAX_WAVES];
     struct lom_cascade_uniform cascade[LOM_SURFACE_CASCADES];

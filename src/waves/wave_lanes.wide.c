@@ -2,6 +2,7 @@
  * slopes with the variance of what is too small to be seen, foam (wave_lanes.h says what each kind of wave is). */
 #include "base/numbers.h"
 #include "waves/surf_lanes.h"
+#include "waves/wake_lanes.h"
 
 #include <string.h>
 
@@ -249,6 +250,8 @@ static void add_other_slopes(const struct lom_waves_uniform *waves, lom_float x,
         add_river_slopes(&waves->river, x, z, f, w);
     if (waves->ripples.normals != NULL)
         add_ripple_slopes(&waves->ripples, x, z, f, w);
+    if (waves->wakes.count > 0)
+        add_wakes(&waves->wakes, x, z, f, w);
 }
 
 /* Both, the one, or the other: what is NULL is not asked for. */

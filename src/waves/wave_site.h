@@ -20,6 +20,8 @@ struct lom_wave_site {
     const lom_water_foam *foam;
     const lom_water_surf *surf;
     const lom_shallow_water *shallow;
+    const lom_water_wake *wakes; /* `wake_count` of them */
+    size_t wake_count;
     double level;           /* of the water at rest, y in metres */
     double middle[2];       /* of the water, x and z in metres: trochoids, seas and ripples are counted from there */
     double size[2];         /* of the water, metres */

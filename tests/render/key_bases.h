@@ -154,6 +154,10 @@ static const struct base bases[] = {
     { "shallow", "shallow terrain.size water.size water.level",
       VIEW TERRAIN DISPLACED "[shallow]\ncells = 16\nsize = 20\n[[shallow.spring]]\nposition = [1, 1]\nrate = 2\n"
                              "[[shallow.body]]\nposition = [2, 2]\nduration = 1\n" },
+    { "wakes", "wake water.foam.window water.foam.carried water.foam.amount water.foam.tile entity.0.key",
+      VIEW DISPLACED "[water.foam]\namount = 2\nwindow = 0.6\ncarried = true\ntile = 1.5\n[[wake]]\nentity = \"box\"\n"
+                     "half = [1.5, 1]\n[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\n[[entity.key]]\n"
+                     "time = -1\nposition = [-6, 0, 2]\n[[entity.key]]\ntime = 1\nposition = [8, 0, 3]\n" },
     { "spray", "spray quality.spray camera.near output.fps",
       VIEW
       "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\njets = 2\nspread = 0.3\nspread_up = 0.2\ndrag = 0.3\n"

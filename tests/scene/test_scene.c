@@ -303,6 +303,9 @@ static void contradictions(void)
           "lake.toml:6:7: it dips in again after its duration, which is above 0." },
         { "[water]\n[shallow]\n[[shallow.body]]\nposition=[0,0]\nevery=1", NULL,
           "lake.toml:5:7: it dips in again after its duration, which is above 0." },
+        { "[[wake]]\nentity='boat'", NULL, "lake.toml:1:3: a wake lies on [water], which there is not." },
+        { "[water]\n[[wake]]\nentity='boat'", NULL, "lake.toml:3:8: no entity has this name." },
+        { "[water]\n[[wake]]\nhalf=1", NULL, "lake.toml:2:3: the key \"entity\" is missing in this table." },
     };
     WRONG(cases);
     static const struct {

@@ -1,6 +1,6 @@
 /* Proves the foam of a shore at every width: where a pixel holds one depth it is that of the depth, where it holds more
  * the mean over them; of a shore that is narrower than a pixel it is the shore's share, wherever in the pixel that
- * lies. */
+ * lies; and that no line shows where a sheet of foam turns over. */
 #include "check.h"
 
 #include "water/foam_cover.h"
@@ -68,10 +68,41 @@ static void a_mix_of_even_grains_is_even(void)
     }
 }
 
+/* Turned over from facing up to facing down, about any axis and under any sun, the light of foam goes on without a jump.
+ * What looks up has its own; what looks down has what the other side of the sheet has, or the side over the edge, and
+ * where it is upright that of both sides of the edge. */
+static void foam_that_turns_over_has_no_line(void)
+{
+    for (int sun = 0; sun < 12; sun++)
+        for (int axis = 0; axis < 12; axis++) {
+            const double height = 0.1 + 0.07 * sun, flat = lom_double_sqrt(1 - height * height);
+            const struct lom_light_uniform light = { .to_light = { (float)flat, (float)height, 0 } };
+            const float x = (float)lom_double_cos(0.5236 * axis), z = (float)lom_double_sin(0.5236 * axis);
+            double before = 0;
+            for (int degree = 0; degree <= 180; degree++) {
+                const float y = (float)lom_double_cos(degree * lom_two_pi / 360);
+                const float away = (float)lom_double_sin(degree * lom_two_pi / 360);
+                const double here =
+                    (double)lom_lambert_on_foam(&light, lom_splat3(x * away, y, z * away))[LOM_LANES - 1];
+                const double own = (double)lom_lambert(&light, lom_splat3(x * away, y, z * away))[0];
+                const double over = (double)lom_lambert(&light, lom_splat3(x * away, -y, z * away))[0];
+                const double other = (double)lom_lambert(&light, lom_splat3(-x * away, -y, -z * away))[0];
+                const double change = here - before;
+                CHECK(degree == 0 || (change < 0.09 && change > -0.09), "sun %d, axis %d: by %g at %d degrees", sun,
+                      axis, change, degree);
+                CHECK(degree > 90 || here == own, "%d degrees: what looks up has %g of %g", degree, here, own);
+                CHECK(degree <= 90 || here >= over - 1e-6, "%d degrees: %g, over the edge %g", degree, here, over);
+                CHECK(degree < 111 || here >= other - 1e-6, "%d degrees: %g, above %g", degree, here, other);
+                before = here;
+            }
+        }
+}
+
 int main(int argc, char **argv)
 {
     RUN(a_pixel_of_one_depth_has_its_foam);
     RUN(a_narrow_shore_is_its_share);
     RUN(a_mix_of_even_grains_is_even);
+    RUN(foam_that_turns_over_has_no_line);
     return check_result();
 }
