@@ -104,56 +104,133 @@ static bool read_row(const struct terrain *terrain, int j, double *heights, lom_
     return true;
 }
 
-/* The unit normals of the two triangles of each quad between two rows of heights. With a = (0, y, 0), b = (dx, y + p,
- * 0) and c = (0, y + q, dz), cross(c - a, b - a) = dx dz (-p/dx, 1, -q/dz). */
-static void row_normals(const struct terrain *terrain, const double *upper, const double *lower, lom_vec3 (*normals)[2])
+/* The triangles of each quad between two rows of heights: 0 is a, c, b and 1 is b, c, d. Their slopes, then their unit
+ * normals, a row a component; and what the rows of vertices above and below them need. */
+struct faces {
+    double *of[2][3];
+    bool is_steep; /* so that squares of slopes overflow */
+};
+
+/* Two rows of heights and two of faces are enough at a time, and what rows of vertices have in common. */
+struct rows {
+    double *memory, *heights[2], *across, *normal[3];
+    struct faces faces[2];
+    lom_mesh_vertex *vertices;
+};
+
+static bool make_rows(struct rows *rows, int width, lom_error *error)
 {
-    double across = (terrain->map->width - 1) / terrain->width, along = (terrain->map->height - 1) / terrain->length;
-    for (int i = 0; i + 1 < terrain->map->width; i++) {
-        double a = upper[i], b = upper[i + 1], c = lower[i], d = lower[i + 1];
-        normals[i][0] = lom_vec3_normalize((lom_vec3){ (a - b) * across, 1, (a - c) * along });
-        normals[i][1] = lom_vec3_normalize((lom_vec3){ (c - d) * across, 1, (b - d) * along });
+    const size_t pitch = (size_t)width;
+    rows->vertices = lom_allocate(pitch, sizeof *rows->vertices, error);
+    double *next = rows->memory = lom_allocate(18 * pitch, sizeof *next, error);
+    if (rows->vertices == NULL || next == NULL)
+        return false;
+    for (int i = 0; i < 2; i++, next += pitch)
+        rows->heights[i] = next;
+    for (int i = 0; i < 12; i++, next += pitch)
+        rows->faces[i / 6].of[i / 3 % 2][i % 3] = next;
+    for (int i = 0; i < 3; i++, next += pitch)
+        rows->normal[i] = next;
+    rows->across = next;
+    for (int i = 0; i < width; i++)
+        rows->across[i] = (double)i / (width - 1);
+    return true;
+}
+
+static void free_rows(struct rows *rows)
+{
+    lom_release(rows->vertices);
+    lom_release(rows->memory);
+}
+
+/* Unit vectors, where no square overflows or vanishes. */
+static void normalize_all(double *restrict x, double *restrict y, double *restrict z, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const double length = __builtin_sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+        x[i] /= length;
+        y[i] /= length;
+        z[i] /= length;
     }
 }
 
-static void add(lom_vec3 *sum, const lom_vec3 *normal)
+static void normalize_steep(double *x, double *y, double *z, int count)
 {
-    sum->x += normal->x;
-    sum->y += normal->y;
-    sum->z += normal->z;
-}
-
-/* Adds the triangles of one row of quads that touch vertex i of its upper (side 0) or lower (side 1) row of vertices:
- * the first triangle of a quad is a, c, b and the second b, c, d. */
-static void add_normals(lom_vec3 *sum, const lom_vec3 (*normals)[2], int quads, int i, int side)
-{
-    if (i > 0) { /* as b, or as d */
-        if (side == 0)
-            add(sum, &normals[i - 1][0]);
-        add(sum, &normals[i - 1][1]);
-    }
-    if (i < quads) { /* as a, or as c */
-        add(sum, &normals[i][0]);
-        if (side == 1)
-            add(sum, &normals[i][1]);
+    for (int i = 0; i < count; i++) {
+        const lom_vec3 unit = lom_vec3_normalize((lom_vec3){ x[i], y[i], z[i] });
+        x[i] = unit.x;
+        y[i] = unit.y;
+        z[i] = unit.z;
     }
 }
 
-static void fill_row(const struct terrain *terrain, int j, const double *heights, const lom_vec3 (*above)[2],
-                     const lom_vec3 (*below)[2], lom_mesh_vertex *row)
+/* With a = (0, y, 0), b = (dx, y + p, 0) and c = (0, y + q, dz), cross(c - a, b - a) = dx dz (-p/dx, 1, -q/dz). */
+static void find_faces(const struct terrain *terrain, const double *restrict upper, const double *restrict lower,
+                       struct faces *faces)
 {
-    int columns = terrain->map->width - 1, rows = terrain->map->height - 1;
+    const int quads = terrain->map->width - 1;
+    const double across = quads / terrain->width, along = (terrain->map->height - 1) / terrain->length;
+    const double steep = 0x1p400;
+    double *restrict x0 = faces->of[0][0], *restrict y0 = faces->of[0][1], *restrict z0 = faces->of[0][2];
+    double *restrict x1 = faces->of[1][0], *restrict y1 = faces->of[1][1], *restrict z1 = faces->of[1][2];
+    for (int i = 0; i < quads; i++) {
+        const double a = upper[i], b = upper[i + 1], c = lower[i], d = lower[i + 1];
+        x0[i] = (a - b) * across;
+        z0[i] = (a - c) * along;
+        x1[i] = (c - d) * across;
+        z1[i] = (b - d) * along;
+        y0[i] = y1[i] = 1;
+    }
+    faces->is_steep = false;
+    for (int i = 0; i < quads; i++)
+        faces->is_steep |= !(__builtin_fabs(x0[i]) < steep && __builtin_fabs(z0[i]) < steep &&
+                             __builtin_fabs(x1[i]) < steep && __builtin_fabs(z1[i]) < steep);
+    for (int side = 0; side < 2; side++)
+        (faces->is_steep ? normalize_steep : normalize_all)(faces->of[side][0], faces->of[side][1], faces->of[side][2],
+                                                            quads);
+}
+
+/* Adds of one row of quads the triangles that touch each vertex of its lower row, or of its upper: of the quad before a
+ * vertex, then of the one behind it. */
+static void add_above(double *restrict sum, const double *restrict first, const double *restrict second, int quads)
+{
+    sum[0] = sum[0] + first[0] + second[0];
+    for (int i = 1; i < quads; i++)
+        sum[i] = sum[i] + second[i - 1] + first[i] + second[i];
+    sum[quads] += second[quads - 1];
+}
+
+static void add_below(double *restrict sum, const double *restrict first, const double *restrict second, int quads)
+{
+    sum[0] += first[0];
+    for (int i = 1; i < quads; i++)
+        sum[i] = sum[i] + first[i - 1] + second[i - 1] + first[i];
+    sum[quads] = sum[quads] + first[quads - 1] + second[quads - 1];
+}
+
+/* The normals of a row of vertices; NULL: there are no quads above, or below. */
+static void find_normals(struct rows *rows, const struct faces *above, const struct faces *below, int quads)
+{
+    for (int k = 0; k < 3; k++) {
+        memset(rows->normal[k], 0, ((size_t)quads + 1) * sizeof(double));
+        if (above != NULL)
+            add_above(rows->normal[k], above->of[0][k], above->of[1][k], quads);
+        if (below != NULL)
+            add_below(rows->normal[k], below->of[0][k], below->of[1][k], quads);
+    }
+    const bool is_steep = (above != NULL && above->is_steep) || (below != NULL && below->is_steep);
+    (is_steep ? normalize_steep : normalize_all)(rows->normal[0], rows->normal[1], rows->normal[2], quads + 1);
+}
+
+static void fill_row(const struct terrain *terrain, int j, const double *heights, const struct rows *rows)
+{
+    const int columns = terrain->map->width - 1;
+    const double v = (double)j / (terrain->map->height - 1);
     for (int i = 0; i <= columns; i++) {
-        double u = (double)i / columns, v = (double)j / rows;
-        lom_vec3 sum = { 0, 0, 0 };
-        if (j > 0)
-            add_normals(&sum, above, columns, i, 1);
-        if (j < rows)
-            add_normals(&sum, below, columns, i, 0);
-        sum = lom_vec3_normalize(sum);
-        row[i] = (lom_mesh_vertex){
+        const double u = rows->across[i];
+        rows->vertices[i] = (lom_mesh_vertex){
             .position = { (float)((u - .5) * terrain->width), (float)heights[i], (float)((v - .5) * terrain->length) },
-            .normal = { (float)sum.x, (float)sum.y, (float)sum.z },
+            .normal = { (float)rows->normal[0][i], (float)rows->normal[1][i], (float)rows->normal[2][i] },
             .uv = { (float)u, (float)v },
             .color = { 1, 1, 1, 1 },
         };
@@ -171,43 +248,46 @@ static void fill_indices(int width, int height, uint32_t *index)
         }
 }
 
-/* Two rows of heights and two rows of face normals are enough at a time. */
-static bool visit_rows(const struct terrain *terrain, lom_terrain_row *visit, void *context, lom_error *error)
+static bool visit_rows(const struct terrain *terrain, struct rows *rows, int first, int end, lom_terrain_row *visit,
+                       void *context, lom_error *error)
 {
-    size_t width = (size_t)terrain->map->width;
-    int rows = terrain->map->height;
-    lom_mesh_vertex *row = lom_allocate(width, sizeof *row, error);
-    double *heights = lom_allocate(2 * width, sizeof *heights, error);
-    lom_vec3(*normals)[2] = lom_allocate(2 * width, sizeof *normals, error);
-    bool good = row != NULL && heights != NULL && normals != NULL && read_row(terrain, 0, heights, error);
-    for (int j = 0; good && j < rows; j++) {
-        double *here = heights + (j & 1) * width, *next = heights + (~j & 1) * width;
-        lom_vec3(*below)[2] = normals + (j & 1) * width, (*above)[2] = normals + (~j & 1) * width;
-        good = j + 1 == rows || read_row(terrain, j + 1, next, error);
-        if (good && j + 1 < rows)
-            row_normals(terrain, here, next, below);
-        if (good) {
-            fill_row(terrain, j, here, (const lom_vec3(*)[2])above, (const lom_vec3(*)[2])below, row);
-            visit(context, j, row);
-        }
+    const int count = terrain->map->height, from = first > 0 ? first - 1 : 0;
+    bool good = read_row(terrain, from, rows->heights[from & 1], error);
+    for (int j = from; good && j < end; j++) {
+        double *here = rows->heights[j & 1], *next = rows->heights[~j & 1];
+        struct faces *below = &rows->faces[j & 1], *above = &rows->faces[~j & 1];
+        good = j + 1 == count || read_row(terrain, j + 1, next, error);
+        if (good && j + 1 < count)
+            find_faces(terrain, here, next, below);
+        if (!good || j < first)
+            continue;
+        find_normals(rows, j > 0 ? above : NULL, j + 1 < count ? below : NULL, terrain->map->width - 1);
+        fill_row(terrain, j, here, rows);
+        visit(context, j, rows->vertices);
     }
-    lom_release(row);
-    lom_release(heights);
-    lom_release(normals);
+    return good;
+}
+
+bool lom_visit_terrain_rows(const lom_image *map, const double size[2], double height, double base, int first, int end,
+                            lom_terrain_row *visit, void *context, lom_error *error)
+{
+    struct terrain terrain = { map, size[0], size[1], height, base };
+    struct rows rows = { .memory = NULL };
+    if (!check_terrain(&terrain, error))
+        return false;
+    lom_float_state state;
+    lom_enter_float_state(&state);
+    bool good = make_rows(&rows, map->width, error) && visit_rows(&terrain, &rows, first, end, visit, context, error);
+    free_rows(&rows);
+    lom_leave_float_state(&state);
     return good;
 }
 
 bool lom_visit_terrain(const lom_image *map, double width, double length, double height, double base,
                        lom_terrain_row *visit, void *context, lom_error *error)
 {
-    struct terrain terrain = { map, width, length, height, base };
-    if (!check_terrain(&terrain, error))
-        return false;
-    lom_float_state state;
-    lom_enter_float_state(&state);
-    bool good = visit_rows(&terrain, visit, context, error);
-    lom_leave_float_state(&state);
-    return good;
+    return lom_visit_terrain_rows(map, (double[]){ width, length }, height, base, 0, map->height, visit, context,
+                                  error);
 }
 
 bool lom_read_terrain_heights(const lom_image *map, const double size[2], double height, float *heights,

@@ -11,13 +11,32 @@ enum { TOGETHER = 64 }; /* texels of the formats that are converted in double */
 
 /* ---- a row ---- */
 
-static void pack_bytes(int channels, const uint8_t *from, int count, uint32_t *to)
+static inline void pack(int channels, const uint8_t *from, int count, uint32_t *to)
 {
     for (int i = 0; i < count; i++, from += channels) {
         uint32_t texel = channels == 4 ? 0 : 0xff000000u;
         for (int c = 0; c < channels; c++)
             texel |= (uint32_t)from[c] << 8 * c;
         to[i] = texel;
+    }
+}
+
+/* A loop for each number of channels. */
+static void pack_bytes(int channels, const uint8_t *from, int count, uint32_t *to)
+{
+    switch (channels) {
+    case 1:
+        pack(1, from, count, to);
+        return;
+    case 2:
+        pack(2, from, count, to);
+        return;
+    case 3:
+        pack(3, from, count, to);
+        return;
+    default:
+        pack(4, from, count, to);
+        return;
     }
 }
 

@@ -136,7 +136,7 @@ static bool load_sky(lom_reference *reference, lom_error *error)
     reference->sky_cosine = lom_double_cos(-sky->rotation);
     if (!sky->present || sky->faces[0] == NULL)
         return true;
-    reference->sky_faces = lom_read_sky_faces(sky, error);
+    reference->sky_faces = lom_read_sky_faces(sky, reference->world->files, error);
     if (reference->sky_faces != NULL)
         lom_set_picture(&reference->sky, reference->sky_faces, reference->scene->output.transfer == LOM_TRANSFER_SRGB);
     return reference->sky_faces != NULL;

@@ -44,7 +44,7 @@ lom_reference *lom_create_reference_of(struct lom_world *world, lom_error *error
 
 lom_reference *lom_create_reference(const lom_scene *scene, lom_error *error)
 {
-    struct lom_world *world = lom_create_world(scene, error);
+    struct lom_world *world = lom_create_world(scene, NULL, error);
     return world == NULL ? NULL : create(world, true, error);
 }
 

@@ -51,7 +51,7 @@ static bool load(struct change *c, lom_error *error)
     lom_renderer *r = c->renderer;
     const struct lom_world *shared = c->all ? NULL : c->before.world;
     if (has_new_world(c))
-        r->world = lom_create_world_after(c->scene, shared, (c->parts & LOM_PART_HEIGHTS) == 0, error);
+        r->world = lom_create_world_after(c->scene, shared, (c->parts & LOM_PART_HEIGHTS) == 0, NULL, error);
     else
         lom_follow_scene(r->world, c->scene);
     bool done = lom_load_renderer(r, c->parts, error);

@@ -1,6 +1,7 @@
 /* Making and freeing a renderer. In: a scene. Out: a device with everything that the scene names. */
-#include "pipeline/check_device.h"
 #include "base/pass_error.h"
+#include "pipeline/check_device.h"
+#include "pipeline/share_work.h"
 #include "reference/reference.h"
 #include "render/rooms.h"
 #include "water/water_models.h"
@@ -26,10 +27,20 @@ bool lom_load_renderer(lom_renderer *renderer, unsigned parts, lom_error *error)
     return true;
 }
 
+/* The files are read by all workers, before any of them is asked for. */
 static bool load(lom_renderer *renderer, const lom_scene *scene, lom_error *error)
 {
-    renderer->world = lom_create_world(scene, error);
-    return lom_load_renderer(renderer, LOM_PARTS_ALL, error);
+    struct lom_files files = { .count = 0 };
+    bool done = lom_list_files(&files, scene, error);
+    if (done) {
+        lom_share_work(renderer->device, files.count, 1, lom_read_files, &files);
+        renderer->world = lom_create_world(scene, &files, error);
+        done = lom_load_renderer(renderer, LOM_PARTS_ALL, error);
+    }
+    if (renderer->world != NULL)
+        renderer->world->files = NULL;
+    lom_free_files(&files);
+    return done;
 }
 
 lom_renderer *lom_create_renderer(const lom_scene *scene, const lom_device_desc *desc, lom_error *error)

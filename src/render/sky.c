@@ -28,7 +28,7 @@ bool lom_load_sky(lom_renderer *renderer, lom_error *error)
     const lom_scene *scene = renderer->scene;
     if (!scene->sky.present || scene->sky.faces[0] == NULL)
         return true;
-    lom_image *faces = lom_read_sky_faces(&scene->sky, error);
+    lom_image *faces = lom_read_sky_faces(&scene->sky, renderer->world->files, error);
     if (faces != NULL)
         renderer->sky.box = lom_make_sky_texture(renderer->device, faces, scene->output.transfer == LOM_TRANSFER_SRGB);
     lom_free_image(faces);

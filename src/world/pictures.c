@@ -55,10 +55,11 @@ static struct lom_world_picture *keep(struct lom_world *world, const char *path,
 }
 
 /* The file of a path, or the normals that are made of one. */
-static lom_image *read_picture(const struct lom_world_picture *picture, const char *path, lom_error *error)
+static lom_image *read_picture(const struct lom_world *world, const struct lom_world_picture *picture, const char *path,
+                               lom_error *error)
 {
     if (picture == NULL || picture->heights == 0)
-        return lom_read_image(path, error);
+        return lom_take_image(world->files, path, error);
     char *file = lom_allocate(picture->heights + 1, 1, error);
     lom_image *heights = file != NULL ? lom_read_image(memcpy(file, path, picture->heights), error) : NULL;
     lom_image *normals = heights != NULL ? lom_normals_of_heights(heights, picture->bump, error) : NULL;
@@ -71,7 +72,7 @@ const lom_image *lom_world_picture(struct lom_world *world, const char *path, lo
 {
     const struct lom_world_picture *picture = find(world, path);
     if (picture == NULL || picture->image == NULL)
-        picture = keep(world, path, read_picture(picture, path, error), error);
+        picture = keep(world, path, read_picture(world, picture, path, error), error);
     return picture == NULL ? NULL : picture->image;
 }
 
@@ -98,7 +99,7 @@ static const char *keep_heights(struct lom_world *world, const char *path, float
 bool lom_keep_world_normals(struct lom_world *world, const char *path, float bump, const char **kept, lom_error *error)
 {
     lom_error failed = { .code = LOM_OK };
-    lom_image *file = lom_read_image(path, error);
+    lom_image *file = lom_take_image(world->files, path, error);
     if (file == NULL)
         return false;
     const bool grey = lom_is_grey(file, &failed);
@@ -115,7 +116,7 @@ bool lom_keep_world_picture(struct lom_world *world, const char *path, const cha
     if (picture == NULL && world->before != NULL && find(world->before, path) != NULL)
         picture = add(world, path, error); /* it could be read before */
     else if (picture == NULL)
-        picture = keep(world, path, lom_read_image(path, error), error);
+        picture = keep(world, path, lom_take_image(world->files, path, error), error);
     *kept = picture == NULL ? NULL : picture->path;
     return picture != NULL;
 }
@@ -130,7 +131,7 @@ const lom_image *lom_world_made_flow(struct lom_world *world, const char *normal
     snprintf(name, size, "%s, its flow map", normal_map);
     const struct lom_world_picture *picture = find(world, name);
     if (picture == NULL || picture->image == NULL) {
-        lom_image *normals = lom_read_image(normal_map, error);
+        lom_image *normals = lom_take_image(world->files, normal_map, error);
         lom_image *flow = normals == NULL ? NULL : lom_make_flow_map(normals, error);
         bool done = keep(world, normal_map, normals, error) != NULL;
         picture = keep(world, name, flow, error);
@@ -152,9 +153,9 @@ void lom_release_world_picture(struct lom_world *world, const char *path)
 /* ---- the sky ---- */
 
 /* Face `face`; the first decides the size. */
-static bool read_face(lom_image **faces, const char *path, int face, lom_error *error)
+static bool read_face(lom_image **faces, struct lom_files *files, const char *path, int face, lom_error *error)
 {
-    lom_image *file = lom_read_image(path, error);
+    lom_image *file = lom_take_image(files, path, error);
     lom_image *image = file == NULL ? NULL : lom_convert_image(file, LOM_FORMAT_RGBA8, error);
     bool done = image != NULL;
     lom_free_image(file);
@@ -171,9 +172,9 @@ static bool read_face(lom_image **faces, const char *path, int face, lom_error *
     return done;
 }
 
-static lom_image *read_cube(const char *path, lom_error *error)
+static lom_image *read_cube(struct lom_files *files, const char *path, lom_error *error)
 {
-    lom_image *file = lom_read_image(path, error), *faces = NULL;
+    lom_image *file = lom_take_image(files, path, error), *faces = NULL;
     if (file != NULL && file->slices != LOM_SLICES_CUBE)
         lom_fail(error, LOM_ERROR_INPUT, "%s: this file holds no cube of six faces.", path);
     else if (file != NULL)
@@ -182,14 +183,14 @@ static lom_image *read_cube(const char *path, lom_error *error)
     return faces;
 }
 
-lom_image *lom_read_sky_faces(const lom_sky_params *sky, lom_error *error)
+lom_image *lom_read_sky_faces(const lom_sky_params *sky, struct lom_files *files, lom_error *error)
 {
     if (sky->cube != NULL)
-        return read_cube(sky->cube, error);
+        return read_cube(files, sky->cube, error);
     lom_image *faces = NULL;
     bool done = true;
     for (int face = 0; done && face < 6; face++)
-        done = read_face(&faces, sky->faces[face], face, error);
+        done = read_face(&faces, files, sky->faces[face], face, error);
     if (done)
         return faces;
     lom_free_image(faces);

@@ -13,7 +13,7 @@ const lom_image *lom_world_height_map(struct lom_world *world, lom_error *error)
 {
     const lom_terrain *t = &world->scene->terrain;
     if (world->height_map == NULL && t->present)
-        world->height_map = lom_read_image(t->height_map, error);
+        world->height_map = lom_take_image(world->files, t->height_map, error);
     return world->height_map;
 }
 
@@ -58,7 +58,7 @@ static const lom_mesh *find_mesh(struct lom_world *world, const char *path, lom_
         return NULL;
     mesh = held_mesh(world->before, path);
     if (mesh == NULL)
-        mesh = lom_read_obj(path, error);
+        mesh = lom_take_mesh(world->files, path, error);
     if (mesh == NULL)
         return NULL;
     lom_add_warnings(&world->warnings, &mesh->warnings);
@@ -134,7 +134,7 @@ static bool read_entities(struct lom_world *world, lom_error *error)
 /* ---- all of it ---- */
 
 struct lom_world *lom_create_world_after(const lom_scene *scene, const struct lom_world *before, bool shares_ground,
-                                         lom_error *error)
+                                         struct lom_files *files, lom_error *error)
 {
     struct lom_world *world = lom_allocate(1, sizeof *world, error);
     if (world == NULL)
@@ -143,6 +143,7 @@ struct lom_world *lom_create_world_after(const lom_scene *scene, const struct lo
     lom_enter_float_state(&state);
     world->scene = scene;
     world->before = before;
+    world->files = files;
     bool done = read_ground(world, shares_ground, error) && read_entities(world, error);
     world->before = NULL;
     lom_leave_float_state(&state);
@@ -154,9 +155,9 @@ struct lom_world *lom_create_world_after(const lom_scene *scene, const struct lo
     return NULL;
 }
 
-struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error)
+struct lom_world *lom_create_world(const lom_scene *scene, struct lom_files *files, lom_error *error)
 {
-    return lom_create_world_after(scene, NULL, false, error);
+    return lom_create_world_after(scene, NULL, false, files, error);
 }
 
 void lom_part_worlds(const struct lom_world *owner, struct lom_world *other)

@@ -7,6 +7,7 @@
 #define LOM_WORLD_WORLD_H
 
 #include "scene/scene_water.h"
+#include "world/files.h"
 
 #include <lom/scene.h>
 
@@ -69,17 +70,19 @@ struct lom_world {
     struct lom_world_picture *pictures;
     size_t picture_count, picture_capacity;
     const struct lom_world *before; /* while it is made: what it takes over; else NULL */
+    struct lom_files *files;        /* read ahead, for it and what is loaded of it to take; or NULL */
 };
 
-/* Reads the height map, the meshes and the maps that the meshes' materials name. A map of a mesh that cannot be read is
- * left out with a warning. NULL on failure; freed with lom_free_world. */
-struct lom_world *lom_create_world(const lom_scene *scene, lom_error *error);
+/* Reads the height map, the meshes and the maps that the meshes' materials name, where `files` (or NULL) does not have
+ * them; it is the world's until world->files is set to NULL. A map of a mesh that cannot be read is left out with a
+ * warning. NULL on failure; freed with lom_free_world. */
+struct lom_world *lom_create_world(const lom_scene *scene, struct lom_files *files, lom_error *error);
 void lom_free_world(struct lom_world *world); /* NULL is allowed */
 
 /* The same of a scene of which there was another world before: meshes with the paths of that one's, and with
  * shares_ground the heights, are shared with it instead of read. Until lom_part_worlds neither may be freed. */
 struct lom_world *lom_create_world_after(const lom_scene *scene, const struct lom_world *before, bool shares_ground,
-                                         lom_error *error);
+                                         struct lom_files *files, lom_error *error);
 /* What both have is from now on the first one's, and the other can only be freed. NULL is allowed. */
 void lom_part_worlds(const struct lom_world *owner, struct lom_world *other);
 /* The world of another scene, which has the same terrain and the same entities but for their names and their key
@@ -105,7 +108,7 @@ void lom_release_world_picture(struct lom_world *world, const char *path);
 void lom_release_world_files(struct lom_world *world);
 /* The six faces of a sky box (+x, -x, +y, -y, +z, -z) as the slices of an RGBA8 image, which is the caller's. Faces are
  * squares of one size. NULL on failure. */
-lom_image *lom_read_sky_faces(const lom_sky_params *sky, lom_error *error);
+lom_image *lom_read_sky_faces(const lom_sky_params *sky, struct lom_files *files, lom_error *error);
 
 /* ---- a moment (moment.c) ---- */
 

@@ -288,7 +288,7 @@ static bool place(const char *name, uint64_t *hash, lom_error *error)
 {
     static const char *const moves[] = { "entity.box.key=[{time=0, position=[0,1,0]}, {time=1, position=[2,1,0]}]" };
     lom_scene *scene = lom_read_scene(small_path(name), moves, 1, error);
-    struct lom_world *world = scene != NULL ? lom_create_world(scene, error) : NULL;
+    struct lom_world *world = scene != NULL ? lom_create_world(scene, NULL, error) : NULL;
     struct lom_moment moment = { .placements = NULL };
     bool done = world != NULL && lom_world_at(world, 0, &moment, error) && lom_world_at(world, 0.5, &moment, error);
     *hash = 1;

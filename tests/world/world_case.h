@@ -14,7 +14,7 @@ static struct lom_world *world;
 static bool open_world(const char *text, lom_error *error)
 {
     scene = lom_decode_scene(text, strlen(text), small_path("scene.toml"), NULL, 0, error);
-    world = scene == NULL ? NULL : lom_create_world(scene, error);
+    world = scene == NULL ? NULL : lom_create_world(scene, NULL, error);
     return world != NULL;
 }
 

@@ -7,11 +7,16 @@
 #include "pipeline/share_work.h"
 #include "render/ground/ground.h"
 
-enum { BLOCKS = 8 /* that a worker takes at a time */ };
+#include <stdatomic.h>
+
+enum { BLOCKS = 8, ROWS = 64 /* that a worker takes at a time */ };
 
 struct loader {
     struct lom_ground *ground;
+    const lom_terrain *terrain;
+    const lom_image *map;
     int width; /* vertices of a row */
+    atomic_bool failed;
     float (*texels)[4];
     float *x;          /* of the columns */
     float *z;          /* of the rows */
@@ -26,12 +31,34 @@ static void take_row(void *context, int row, const lom_mesh_vertex *vertices)
     for (int i = 0; i < loader->width; i++) {
         const lom_mesh_vertex *v = &vertices[i];
         float *texel = loader->texels[first + (size_t)i];
-        loader->x[i] = v->position[0];
         for (int k = 0; k < 3; k++)
             texel[k] = v->normal[k];
         texel[3] = 1;
+        if (row == 0)
+            loader->x[i] = v->position[0];
     }
     loader->z[row] = vertices[0].position[2];
+}
+
+static bool visit_rows(struct loader *loader, int first, int end, lom_error *error)
+{
+    const lom_terrain *t = loader->terrain;
+    return lom_visit_terrain_rows(loader->map, t->size, t->height, 0, first, end, take_row, loader, error);
+}
+
+static void take_rows(void *context, size_t first, size_t end)
+{
+    struct loader *loader = context;
+    if (!visit_rows(loader, (int)first, (int)end, NULL))
+        atomic_store_explicit(&loader->failed, true, memory_order_relaxed);
+}
+
+/* By all workers; what fails is done again, to say why. */
+static bool visit_terrain(struct loader *loader, lom_device *device, lom_error *error)
+{
+    const int rows = loader->map->height;
+    lom_share_work(device, (size_t)rows, ROWS, take_rows, loader);
+    return !atomic_load_explicit(&loader->failed, memory_order_relaxed) || visit_rows(loader, 0, rows, error);
 }
 
 /* Vertices of a level along an edge of so many quads, less one. */
@@ -49,61 +76,6 @@ struct place { /* of a block in the grid, a level of it */
 static float height_at(const struct place *p, int column, int row)
 {
     return p->loader->ground->heights[(size_t)(p->y0 + row) * (size_t)p->loader->width + (size_t)(p->x0 + column)];
-}
-
-/* A quad of the level, its corners named as lom_make_terrain does, and how many quads of level 0 it joins. */
-struct cell {
-    int x, y, width, height;
-    float a, b, c, d;
-};
-
-static struct cell cell_at(const struct place *p, int column, int row)
-{
-    int step = 1 << p->level, x = column * step, y = row * step;
-    int x1 = lom_smaller_int(x + step, p->block->columns), y1 = lom_smaller_int(y + step, p->block->rows);
-    return (struct cell){
-        x, y, x1 - x, y1 - y, height_at(p, x, y), height_at(p, x1, y), height_at(p, x, y1), height_at(p, x1, y1)
-    };
-}
-
-/* The cosine between up and the normal of a triangle that rises by these heights over the quad's width and length. */
-static float cosine_of(const struct place *p, const struct cell *cell, float across, float down)
-{
-    double s = (double)across / (cell->width * p->loader->spacing[0]);
-    double t = (double)down / (cell->height * p->loader->spacing[1]);
-    return (float)(1 / lom_double_sqrt(1 + s * s + t * t));
-}
-
-/* The largest distance of a vertex of level 0 from the plane of the triangle above or below it. */
-static float error_of_cell(const struct place *p, const struct cell *cell)
-{
-    float upper = cosine_of(p, cell, cell->b - cell->a, cell->c - cell->a);
-    float lower = cosine_of(p, cell, cell->d - cell->c, cell->d - cell->b), worst = 0;
-    for (int j = 0; j <= cell->height; j++) {
-        float t = (float)j / (float)cell->height;
-        for (int i = 0; i <= cell->width; i++) {
-            float s = (float)i / (float)cell->width, here = height_at(p, cell->x + i, cell->y + j);
-            bool first = s + t <= 1;
-            float above = cell->a + s * (cell->b - cell->a) + t * (cell->c - cell->a);
-            float below = cell->d + (1 - s) * (cell->c - cell->d) + (1 - t) * (cell->b - cell->d);
-            float off = ((first ? above : below) - here) * (first ? upper : lower);
-            off = off < 0 ? -off : off;
-            worst = off > worst ? off : worst;
-        }
-    }
-    return worst;
-}
-
-static float error_of_level(const struct place *p)
-{
-    float worst = 0;
-    for (int row = 0; row < joined(p->block->rows, p->level); row++)
-        for (int column = 0; column < joined(p->block->columns, p->level); column++) {
-            struct cell cell = cell_at(p, column, row);
-            float error = error_of_cell(p, &cell);
-            worst = error > worst ? error : worst;
-        }
-    return worst;
 }
 
 static void copy_level(const struct place *p, float (*to)[3])
@@ -166,6 +138,7 @@ static void fill_blocks(void *context, size_t first, size_t end)
 {
     const struct loader *loader = context;
     struct lom_ground *ground = loader->ground;
+    const struct lom_ground_grid grid = { ground->heights, loader->width, { loader->spacing[0], loader->spacing[1] } };
     for (int i = (int)first; i < (int)end; i++) {
         struct lom_ground_block *b = &ground->blocks[i];
         struct place p = { loader, b, i % ground->across * LOM_GROUND_BLOCK, i / ground->across * LOM_GROUND_BLOCK, 0 };
@@ -174,7 +147,7 @@ static void fill_blocks(void *context, size_t first, size_t end)
         for (p.level = 0; p.level < LOM_GROUND_LEVELS; p.level++) {
             copy_level(&p, ground->position + b->first[p.level]);
             if (p.level > 0)
-                b->error[p.level] = error_of_level(&p);
+                b->error[p.level] = lom_find_level_error(&grid, p.x0, p.y0, b, p.level);
         }
     }
 }
@@ -201,6 +174,8 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
     ground->across = joined(ground->columns, LOM_GROUND_LEVELS - 1);
     ground->down = joined(ground->rows, LOM_GROUND_LEVELS - 1);
     struct loader loader = { .ground = ground,
+                             .terrain = t,
+                             .map = map,
                              .width = map->width,
                              .base = t->base,
                              .spacing = { t->size[0] / ground->columns, t->size[1] / ground->rows },
@@ -208,8 +183,7 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
                              .x = lom_allocate((size_t)map->width, sizeof(float), error),
                              .z = lom_allocate((size_t)map->height, sizeof(float), error) };
     bool done =
-        loader.texels != NULL && loader.x != NULL && loader.z != NULL &&
-        lom_visit_terrain(map, t->size[0], t->size[1], t->height, 0, take_row, &loader, error) &&
+        loader.texels != NULL && loader.x != NULL && loader.z != NULL && visit_terrain(&loader, device, error) &&
         lay_out(ground, error) && lom_make_ground_patterns(ground, error) &&
         (quality->wireframe == LOM_WIREFRAME_OFF || quality->tessellation || lom_make_ground_wires(ground, error));
     if (done)

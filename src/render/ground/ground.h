@@ -118,6 +118,16 @@ void lom_map_ground(const struct lom_ground *ground, const double size[2], lom_v
                     float shift[2]);
 void lom_free_ground_blocks(struct lom_ground *ground);
 
+/* Heights of a terrain's vertices: of a row, and metres between columns and between rows. */
+struct lom_ground_grid {
+    const float *heights;
+    int width;
+    double spacing[2];
+};
+/* The largest distance of a vertex of level 0 from the surface of a level of the block that begins at column x and row y. */
+float lom_find_level_error(const struct lom_ground_grid *grid, int x, int y, const struct lom_ground_block *block,
+                           int level);
+
 /* The share of the sky (0..1, weighted by the cosine to the vertical) that each vertex sees over the heights around
  * it, from a grid of at most 256 x 256 of them. share: width x height numbers, `stride` floats apart. By all workers
  * of the device. */
