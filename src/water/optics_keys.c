@@ -32,7 +32,7 @@ static const lom_key optics[] = {
     { "reach", LOM_KEY_NUMBER, AT(reach), .maximum = 1, .initial = { 0.5 },
       .text =
           "How far from its pixel a bent or mirrored ray may look, in parts of the picture. What lies further is sky "
-          "above and bottomless water below." },
+          "above and bottomless water below. An eye under water looks over all of it." },
     { "steps", LOM_KEY_INTEGER, AT(steps), .minimum = 4, .maximum = 256, .initial = { 24 },
       .text = "Of a ray against the scene's depth.",
       .dial = &(const lom_key_dial){ .approximates = "where a bent or mirrored ray meets the scene",

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Proves of water with waves what the eye saw wrong once, by numbers of pictures: a still surface is the same on the mesh
 # as on two triangles, at the horizon and at its corners; no pixel of it is much darker than all that are beside it; what
-# it mirrors has no teeth; the foam of a far shore is one line; outside of Snell's window nothing is drawn out in streaks;
-# the ripples of still water show in every model; black of a flow map moves nothing; a boat stays in its picture.
+# it mirrors has no teeth; the foam of a far shore is one line; outside of Snell's window nothing is drawn out in streaks,
+# and within it the shore is whole; the ripples of still water show in every model; black of a flow map moves nothing; a
+# boat stays in its picture.
 . "$(dirname "$0")/render.sh"
 scenes=assets/scenes
 flat() { # SCENE and options: largest difference of the mesh and the two triangles, in levels
@@ -55,6 +56,14 @@ few the_mirror_has_no_teeth 20 teeth 12 cove.toml --frame 30 --size 1280x720 --c
 few a_far_shore_is_no_dashes 35 dashes 40 surf.toml --frame 60 --size 960x540 --crop 205,225,60,40
 few outside_of_the_window_nothing_is_drawn_out 200 streaks 1 reef.toml --size 640x360 --crop 578,0,50,24
 
+# What stands on the shore, at the rim of the window, where rays are bent the farthest: still water against the reference.
+rim() { "$lom" render $scenes/reef.toml --size 960x540 --crop 820,0,60,22 -q --set water.waves.height=0 --set water.optics.roughness=0 \
+    --set water.optics.caustics=0 "$@"; }
+rim -o "$folder/rim.ppm" && rim --set quality.water=reference --set quality.reference.samples=4 -o "$folder/traced.ppm"
+decibels=$("$lom" compare "$folder/traced.ppm" "$folder/rim.ppm" --json | sed 's/.*"psnr": \([0-9]*\)\..*/\1/')
+[ "${decibels:-0}" -ge 30 ] && why= || why="$decibels dB, not 30"
+verdict the_shore_in_the_window_is_whole "$why"
+
 # The lake's ripples: near the eye a picture with them is nearer to the reference than one without.
 near_reference() { # MODEL NORMALS: dB
     "$lom" render $scenes/lake.toml --size 1280x720 --crop 300,600,200,100 --set "quality.water=$1" -q \
@@ -73,6 +82,10 @@ verdict still_water_has_the_ripples_of_its_normal_map "$why"
 printf 'P6 2 2 255 \000\000\000\000\000\000\000\000\000\000\000\000' >"$folder/black.ppm"
 flow() { "$lom" render $scenes/lake.toml --size 160x90 --hash --set "water.flow_map=$folder/black.ppm" "$@"; }
 [ "$(flow)" = "$(flow --set water.flow_strength=0)" ] && why= || why='lookups are moved'
+still() { sed "s|\"\.\./|\"assets/|; /^flow_map/d" $scenes/lake.toml | "$lom" render - --size 160x90 --hash --set water.flow=false "$@"; }
+for model in planar displaced; do
+    [ "$(flow --set quality.water=$model)" = "$(still --set quality.water=$model)" ] || why="in $model a black map is not none"
+done
 verdict black_of_a_flow_map_moves_nothing "$why"
 
 red() { # FRAME: pixels of the wake's boat

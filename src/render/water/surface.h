@@ -12,6 +12,8 @@ struct surface {
 
 /* surface_uniforms.c: all of it but the pictures of the scene and the mesh, which are zeros. */
 void lom_look_at_surface(struct surface *surface, const struct frame *f);
+/* How far from its pixel a ray may look, in parts of a picture. */
+double lom_ray_reach(const struct frame *f);
 /* surface_pictures.c: what the surface reflects and what is behind it, where that is more than sky and water. */
 bool lom_draw_surface_pictures(struct surface *surface, struct frame *f, lom_error *error);
 

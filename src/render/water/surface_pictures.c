@@ -7,8 +7,7 @@ static const float nothing[4] = { 0, 0, 0, 0 };
 
 static lom_rect lookups(const struct frame *f, const struct lom_window *window, const lom_texture *picture)
 {
-    lom_rect r = lom_water_reach(f, window, f->scene->water.optics.reach, lom_texture_width(picture),
-                                 lom_texture_height(picture));
+    lom_rect r = lom_water_reach(f, window, lom_ray_reach(f), lom_texture_width(picture), lom_texture_height(picture));
     /* Levels of detail: a lookup reads texels up to two of the coarsest level away, and of places that are up to two
      * apart. */
     int more = (3 + LOM_BLUR_PLACES) << LOM_BLUR_LEVELS, x1 = r.x + r.width + more, y1 = r.y + r.height + more;
@@ -52,7 +51,8 @@ static double longest_below(const struct frame *f)
 
 /* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it, as
  * far away as can be, which for parallel rays is as deep as the scene is. False where it does not meet the surface, or
- * does not pass. */
+ * does not pass; a little beyond the rim of Snell's window it counts as one that just passes, along the surface: rays
+ * turn so fast there that none of a grid need be near the farthest. */
 static bool bend_ray(const struct surface *surface, const struct frame *f, double x, double y, double out[2])
 {
     const float(*r)[3] = surface->uniforms.ray, *along = surface->uniforms.eye.along;
@@ -61,9 +61,10 @@ static bool bend_ray(const struct surface *surface, const struct frame *f, doubl
         d[i] = f->parallel ? (double)along[i] : (double)r[i][0] * x + (double)r[i][1] * y + (double)r[i][2];
     double size = lom_double_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = -side * d[1] / size;
     double square = 1 - eta * eta * (1 - c * c);
-    if (c <= 0 || square <= 0)
+    if (c <= 0 || square <= -0.15)
         return false;
-    double bent[3] = { eta * d[0] / size, -side * lom_double_sqrt(square), eta * d[2] / size }, view[3] = { 0, 0, 0 };
+    const double down = square > 0 ? lom_double_sqrt(square) : 0;
+    double bent[3] = { eta * d[0] / size, -side * down, eta * d[2] / size }, view[3] = { 0, 0, 0 };
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             view[i] += f->view.view.m[i][k] * bent[k];
@@ -87,8 +88,9 @@ static struct lom_window bent_window(const struct surface *surface, const struct
     double top = -1, bent[2];
     if (!surface->uniforms.bent && !f->below)
         return window;
-    for (int i = 0; i <= 64; i++) {
-        double x = i % 8 / 3.5 - 1, y = i / 8 / 4.0 - 1;
+    const int rays = f->below ? 32 : 8; /* a side; a 30th of the view is less than what counts as the rim */
+    for (int i = 0; i <= rays * rays; i++) {
+        double x = i % rays * 2.0 / (rays - 1) - 1, y = i / rays * 2.0 / rays - 1;
         if (!bend_ray(surface, f, x, y, bent))
             continue;
         top = y > top ? y : top;

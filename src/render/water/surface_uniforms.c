@@ -47,7 +47,6 @@ static void set_optics(struct lom_surface_uniforms *u, const lom_scene *scene)
     const lom_water_optics *optics = &scene->water.optics;
     u->roughness = (float)optics->roughness;
     u->glitter = (float)optics->glitter;
-    u->reach = (float)optics->reach;
     u->fresnel = optics->fresnel;
     u->steps = optics->steps;
     u->surface_steps = 96;
@@ -64,6 +63,13 @@ static double farther(double square, lom_vec3 eye, const lom_box *box)
     for (int i = 0; i < 3; i++)
         sum += low[i] * low[i] > high[i] * high[i] ? low[i] * low[i] : high[i] * high[i];
     return sum > square ? sum : square;
+}
+
+/* At the rim of Snell's window a ray is bent by half of what the picture holds, which is made to show all of it: cut off
+ * anywhere before that, what stands at the shore ends in teeth. */
+double lom_ray_reach(const struct frame *f)
+{
+    return f->below ? 1 : f->scene->water.optics.reach;
 }
 
 /* From the eye to the farthest corner of anything that a ray could meet; from any place of the picture's plane, where
@@ -95,6 +101,7 @@ void lom_look_at_surface(struct surface *surface, const struct frame *f)
     set_rays(u->ray, &f->view);
     u->waves = f->waves;
     u->side = f->below ? -1 : 1;
+    u->reach = (float)lom_ray_reach(f);
     u->eta = (float)(f->below ? f->scene->water.optics.index : 1 / f->scene->water.optics.index);
     u->range = (float)find_range(f);
     u->pixel[0] = 1.0f / (float)f->width;
