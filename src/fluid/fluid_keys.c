@@ -135,7 +135,8 @@ const lom_key_table lom_fluid_keys = {
         "A volume of liquid that moves freely: a dam that breaks, a splash, wax that melts. A frame needs all the "
         "steps "
         "before it; where its basin is out of view it has none. It is drawn after the waters and before clouds, with "
-        "the scene behind it bent and absorbed; water and the reference do not mirror it, and it throws no shadow. "
-        "docs/fluid.md says how.",
+        "the scene behind it bent and absorbed; water mirrors it and shows what of it lies below. Its shadows "
+        "(`quality.entity_shadows`, lamps with `shadow`) are as deep as `absorption` makes them. docs/fluid.md says "
+        "how.",
     .check = check_fluid
 };

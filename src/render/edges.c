@@ -8,8 +8,7 @@
 
 enum { MARGIN = 2 }; /* pixels on each side */
 
-/* A range of pixels, grown on both sides within 0..size; by how many before it. */
-static int grow(int *from, int *count, int size, int margin)
+int lom_grow_range(int *from, int *count, int size, int margin)
 {
     const int before = *from < margin ? *from : margin, rest = size - *from - *count;
     *from -= before;
@@ -30,8 +29,8 @@ void lom_begin_edges(struct frame *f)
     f->asked = (lom_rect){ 0, 0, f->crop.width, f->crop.height };
     const bool bends = lom_count_fluids(f->scene) != 0 && f->renderer->reference == NULL;
     const int margin = (f->smooths ? MARGIN : 0) + (bends ? lom_fluid_reach(f->height) : 0);
-    f->asked.x = grow(&f->crop.x, &f->crop.width, f->width, margin);
-    f->asked.y = grow(&f->crop.y, &f->crop.height, f->height, margin);
+    f->asked.x = lom_grow_range(&f->crop.x, &f->crop.width, f->width, margin);
+    f->asked.y = lom_grow_range(&f->crop.y, &f->crop.height, f->height, margin);
 }
 
 static bool smooth(struct frame *f, const lom_edge_filter *filter, const lom_pass_desc *pass)
@@ -76,8 +75,8 @@ void lom_begin_smooth_picture(struct frame *f, lom_pass_desc *pass)
     lom_texture *const *of = f->renderer->targets.of;
     pass->color[0] = of[LOM_TARGET_REFLECTION_SHARP];
     pass->edges = of[LOM_TARGET_REFLECTION_EDGES];
-    grow(&pass->scissor.x, &pass->scissor.width, lom_texture_width(pass->color[0]), MARGIN);
-    grow(&pass->scissor.y, &pass->scissor.height, lom_texture_height(pass->color[0]), MARGIN);
+    lom_grow_range(&pass->scissor.x, &pass->scissor.width, lom_texture_width(pass->color[0]), MARGIN);
+    lom_grow_range(&pass->scissor.y, &pass->scissor.height, lom_texture_height(pass->color[0]), MARGIN);
 }
 
 bool lom_smooth_picture(struct frame *f, lom_pass_desc *pass, lom_texture *color, lom_rect scissor)

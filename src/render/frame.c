@@ -18,6 +18,7 @@ static const struct stage {
 } stages[] = {
     { lom_prepare_lamps, "lamps" },    /* where each of them reaches */
     { lom_prepare_ground, "terrain" }, /* its levels of detail and its shadow */
+    { lom_prepare_fluids, "liquid_shadow" },
     { lom_prepare_entities, "entity_shadow" },
     { lom_prepare_lamp_shadows, "lamp_shadow" },
     { lom_prepare_clouds, "cloud_light" },   /* their light */
@@ -68,6 +69,18 @@ static void look(struct frame *f)
     f->view.plane[3] = 1;
     f->view.sky = true;
     f->view.pixels = 1;
+}
+
+struct lom_scene_view lom_view_of_side(const struct frame *f, double side)
+{
+    struct lom_scene_view view = f->view;
+    const double level = f->divided_at, up = f->view.eye.y < level ? -side : side;
+    if (!f->shows_water)
+        return view;
+    view.plane[0] = view.plane[2] = 0;
+    view.plane[1] = up;
+    view.plane[3] = -up * level;
+    return view;
 }
 
 static bool draw_opaque(struct frame *f, lom_error *error)

@@ -39,7 +39,8 @@ struct frame {
     size_t water_order[1 + LOM_MAX_OTHER_WATERS]; /* the farthest first */
     bool names_water;                             /* steps of the plan say whose they are */
     bool shows_water;                             /* a surface is drawn over the scene, */
-    double divided_at;                            /* the first one at this level */
+    size_t divided_by;                            /* of this number the first one, */
+    double divided_at;                            /* at this level */
     lom_plan *plan;
     const lom_frame_desc *desc;
     double done; /* the share of the stages behind this one */
@@ -66,7 +67,13 @@ bool lom_find_view(const lom_scene *scene, const char *name, const lom_picture_v
  * asks to keep them. */
 lom_pass_desc lom_frame_pass(const struct frame *f, lom_texture *color);
 
-/* edges.c: grows the drawn part by what smoothing looks at, where edges are smoothed; the stage that smooths the frame's. */
+/* The frame's view of what is on one side of the level of the water that is drawn first: the eye's (1) or the other one
+ * (-1); all of it where none is drawn. */
+struct lom_scene_view lom_view_of_side(const struct frame *f, double side);
+
+/* edges.c: grows a range of pixels on both sides within 0..size; by how many before it. */
+int lom_grow_range(int *from, int *count, int size, int margin);
+/* The same file: grows the drawn part by what smoothing looks at, where edges are smoothed; the stage that smooths the frame's. */
 void lom_begin_edges(struct frame *f);
 bool lom_smooth_frame(struct frame *f, lom_error *error);
 /* The same of the pass of what water mirrors, which draws its sharp picture; and from that the one in `color`, within the

@@ -6,6 +6,7 @@
 #include "render/lamp_shadows.h"
 
 #include "base/numbers.h"
+#include "base/pass_error.h"
 #include "base/reserve.h"
 #include "render/entities/shaders.h"
 #include "render/frame.h"
@@ -24,7 +25,7 @@ struct face_view {
 
 /* What a frame's step tells. */
 struct tally {
-    size_t lamps, maps, drawn, empty, unseen, over;
+    size_t lamps, maps, drawn, empty, unseen, over, liquids;
 };
 
 static int map_size(const struct frame *f)
@@ -173,6 +174,51 @@ static bool make_face(struct frame *f, const struct face_view *v, struct lom_lam
     return true;
 }
 
+/* ---- liquids ---- */
+
+/* Which liquids take of the light of a face, each run to the frame's time; none without memory. */
+static size_t find_liquids(struct frame *f, const struct face_view *v, bool takes[LOM_MAX_FLUIDS], lom_error *error)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < f->scene->fluid_count; i++) {
+        takes[i] = lom_shows_liquid(f->scene, i) && is_in_range(v, lom_fluid_box(&f->scene->fluids[i]));
+        if (takes[i] && !lom_ready_fluid(f, i, error))
+            return 0;
+        count += takes[i];
+    }
+    return count;
+}
+
+static lom_texture *find_liquid_map(struct frame *f, size_t number, lom_error *error)
+{
+    struct lom_lamp_shadows *s = &f->renderer->lamps.shadows;
+    if (!lom_reserve(&s->liquids, &s->liquid_capacity, number + 1, sizeof *s->liquids, error))
+        return NULL;
+    if (number == s->liquid_count)
+        s->liquids[s->liquid_count++] = NULL;
+    if (s->liquids[number] == NULL)
+        s->liquids[number] = lom_make_fluid_map(f->renderer->device, map_size(f));
+    return s->liquids[number];
+}
+
+/* A face that no liquid is before has no map of them. */
+static bool make_liquid_face(struct frame *f, const struct face_view *v, struct lom_lamp_shadow_uniform *shadow,
+                             struct lom_lamp_face_uniform *face, struct tally *tally, lom_error *error)
+{
+    bool takes[LOM_MAX_FLUIDS];
+    lom_error failed = { 0 };
+    if (find_liquids(f, v, takes, &failed) == 0)
+        return lom_pass_error(&failed, error);
+    lom_texture *map = find_liquid_map(f, tally->liquids, error);
+    if (map == NULL)
+        return false;
+    tally->liquids++;
+    face->liquid = map;
+    shadow->has_liquid = true;
+    return lom_draw_fluid_map(f->renderer, map, takes,
+                              &(struct lom_fluid_light){ .clip_from_world = v->clip_from_world, .from = v->from.eye });
+}
+
 /* Rows of a rotation as a shader has them, divided by a tangent. */
 static void set_axes(struct lom_lamp_face_uniform *face, lom_vec3 axis, double tangent)
 {
@@ -204,12 +250,13 @@ static bool make_maps(struct frame *f, const struct lom_placed_lamp *lamp, struc
     for (int i = 0; i < faces.count; i++) {
         const struct face_view v = view_of(lamp, faces.axis[i], faces.tangent, inside);
         set_axes(&shadow->face[i], faces.axis[i], faces.tangent);
-        if (!make_face(f, &v, &shadow->face[i], tally, error))
+        if (!make_face(f, &v, &shadow->face[i], tally, error) ||
+            !make_liquid_face(f, &v, shadow, &shadow->face[i], tally, error))
             return false;
     }
-    if (tally->maps > before)
+    if (tally->maps > before || shadow->has_liquid)
         u->shadow = shadow;
-    tally->empty += tally->maps == before;
+    tally->empty += tally->maps == before && !shadow->has_liquid;
     return true;
 }
 
@@ -249,6 +296,10 @@ static void add_step(struct frame *f, const struct tally *t)
                                   "nothing is in reach, %zu are out of view, %zu beyond quality.lamp_shadow_maps",
                                   t->maps, t->lamps, t->drawn, t->empty, t->unseen, t->over);
     step->width = step->height = t->drawn > 0 ? map_size(f) : 0;
+    if (t->liquids == 0)
+        return;
+    step = lom_add_step(f, "liquid shadows of lamps", true, "%zu maps of what liquids take of their light", t->liquids);
+    step->width = step->height = map_size(f);
 }
 
 bool lom_prepare_lamp_shadows(struct frame *f, lom_error *error)
@@ -283,6 +334,9 @@ void lom_drop_lamp_shadows(lom_renderer *renderer)
     struct lom_lamp_shadows *shadows = &renderer->lamps.shadows;
     for (size_t i = 0; i < shadows->count; i++)
         lom_release_texture(renderer->device, shadows->maps[i].texture);
+    for (size_t i = 0; i < shadows->liquid_count; i++)
+        lom_release_texture(renderer->device, shadows->liquids[i]);
+    lom_release(shadows->liquids);
     lom_release(shadows->maps);
     lom_release(shadows->items);
     *shadows = (struct lom_lamp_shadows){ .maps = NULL };

@@ -17,6 +17,8 @@ struct lom_lamp_map {
 struct lom_lamp_shadows {
     struct lom_lamp_map *maps; /* kept from frame to frame, in the order of lamps and faces */
     size_t count, capacity;
+    lom_texture **liquids; /* likewise of what liquids take of their light; drawn anew in each frame */
+    size_t liquid_count, liquid_capacity;
     struct lom_lamp_shadow_uniform *items; /* of the frame's lamps; what throws no shadow has no map */
     size_t item_capacity;
 };

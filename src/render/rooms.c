@@ -98,7 +98,7 @@ void lom_drop_made(lom_renderer *renderer, unsigned parts)
         { LOM_PART_GROUND_SHADOW, lom_drop_ground_shadow },   { LOM_PART_GROUND_LAYERS, lom_drop_composed_ground },
         { LOM_PART_ENTITY_SHADOWS, lom_drop_entity_shadows }, { LOM_PART_CAUSTICS, lom_drop_caustics },
         { LOM_PART_CLOUD_LIGHT, lom_drop_cloud_light },       { LOM_PART_TARGETS, lom_drop_targets },
-        { LOM_PART_LAMP_SHADOWS, lom_drop_lamp_shadows }
+        { LOM_PART_LAMP_SHADOWS, lom_drop_lamp_shadows },     { LOM_PART_ENTITY_SHADOWS, lom_drop_fluid_shadow }
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if ((rows[i].part & parts) != 0)

@@ -132,6 +132,13 @@ static struct lom_reflection_uniform reflection_uniform(const lom_quality *quali
     return u;
 }
 
+struct lom_sun_shadow_uniform lom_sun_shadow_of(const lom_renderer *renderer, lom_vec3 eye)
+{
+    struct lom_sun_shadow_uniform u = lom_entity_shadow_uniform(&renderer->entities, eye);
+    lom_set_fluid_shadow(&u, renderer, eye);
+    return u;
+}
+
 struct lom_view_uniform lom_view_uniform_of(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
     lom_mat4 clip_from_offset = lom_clip_from_offset(&view->projection, &view->view);
@@ -141,7 +148,7 @@ struct lom_view_uniform lom_view_uniform_of(const lom_renderer *renderer, const 
                                   .haze = lom_scene_haze(renderer->scene, view->eye.y, view->mirrored),
                                   .reflection = reflection_uniform(&renderer->scene->quality),
                                   .caustics = caustics_uniform(&view->caustics, view->eye) };
-    u.entity_shadow = lom_entity_shadow_uniform(&renderer->entities, view->eye);
+    u.entity_shadow = lom_sun_shadow_of(renderer, view->eye);
     lom_center_row(u.plane, view->plane, view->eye);
     return u;
 }
@@ -201,7 +208,8 @@ bool lom_shows_transparent(const lom_renderer *renderer, const struct lom_scene_
 bool lom_shows_scene(const lom_renderer *renderer, const struct lom_scene_view *view)
 {
     struct lom_culler culler = lom_culler_of(view, NULL);
-    return lom_shows_ground(&renderer->ground, &culler) || lom_shows_entities(renderer, &culler);
+    return lom_shows_ground(&renderer->ground, &culler) || lom_shows_entities(renderer, &culler) ||
+           lom_shows_fluids(renderer, &culler);
 }
 
 bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view *view)

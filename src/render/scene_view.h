@@ -62,6 +62,9 @@ bool lom_shows_terrain(const lom_renderer *renderer, const struct lom_scene_view
 /* What every draw of a pass that looks so at the scene shares. */
 struct lom_view_uniform lom_view_uniform_of(const lom_renderer *renderer, const struct lom_scene_view *view);
 
+/* What keeps the sun off of places less the eye: entities and liquids. */
+struct lom_sun_shadow_uniform lom_sun_shadow_of(const lom_renderer *renderer, lom_vec3 eye);
+
 struct lom_light_uniform lom_scene_light(const lom_scene *scene);
 /* The same for places less the eye, with the shadows of clouds and terrain that the frame has made. */
 struct lom_light_uniform lom_renderer_light(const lom_renderer *renderer, lom_vec3 eye);

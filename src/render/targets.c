@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES, FOR_EDGES, FOR_MIRRORED_EDGES, FOR_FLUIDS };
+enum need { ALWAYS, FOR_WATER, FOR_SPRAY, FOR_WIRES, FOR_EDGES, FOR_MIRRORED_EDGES, FOR_FLUIDS, FOR_WET_FLUIDS };
 enum size { DRAWN, REFLECTED, REFRACTED }; /* of the part that is drawn; of the frame, scaled as quality says */
 enum kind { COLOR, DEPTH, MASK, LAYER, MARKS };
 
@@ -47,6 +47,13 @@ static bool has_bytes(const lom_scene *scene)
     return !lom_has_float_targets(scene);
 }
 
+/* A liquid is drawn at once when it has been copied what is behind it, in each picture. */
+static bool always(const lom_scene *scene)
+{
+    (void)scene;
+    return true;
+}
+
 /* By lom_target. A target shares the texture of an earlier one of its size where the scene lets it: where what the one
  * holds has been read for the last time when the other is drawn. */
 static const struct row {
@@ -74,6 +81,14 @@ static const struct row {
     [LOM_TARGET_REFLECTION_EDGES] = { "edges of the reflection", FOR_MIRRORED_EDGES, REFLECTED, MARKS, .keeps = false },
     [LOM_TARGET_FLUID_SCENE] = { "behind the fluid", FOR_FLUIDS, DRAWN, LAYER, .keeps = false },
     [LOM_TARGET_FLUID_LENGTH] = { "lengths in the fluid", FOR_FLUIDS, DRAWN, LAYER, .keeps = false },
+    [LOM_TARGET_FLUID_REFLECTED] = { "behind the mirrored fluid", FOR_WET_FLUIDS, REFLECTED, LAYER, always,
+                                     LOM_TARGET_FLUID_SCENE, .keeps = false },
+    [LOM_TARGET_FLUID_REFLECTED_LENGTH] = { "lengths in the mirrored fluid", FOR_WET_FLUIDS, REFLECTED, LAYER, always,
+                                            LOM_TARGET_FLUID_LENGTH, .keeps = false },
+    [LOM_TARGET_FLUID_REFRACTED] = { "behind the sunken fluid", FOR_WET_FLUIDS, REFRACTED, LAYER, always,
+                                     LOM_TARGET_FLUID_SCENE, .keeps = false },
+    [LOM_TARGET_FLUID_REFRACTED_LENGTH] = { "lengths in the sunken fluid", FOR_WET_FLUIDS, REFRACTED, LAYER, always,
+                                            LOM_TARGET_FLUID_LENGTH, .keeps = false },
 };
 
 bool lom_smooths_edges(const lom_scene *scene)
@@ -85,12 +100,14 @@ bool lom_smooths_edges(const lom_scene *scene)
 static void describe(const lom_scene *scene, const struct lom_targets *size, lom_texture_desc desc[LOM_TARGETS])
 {
     const bool has_water = lom_has_water(scene), smooths = lom_smooths_edges(scene);
+    const bool has_fluids = lom_count_fluids(scene) != 0;
     const bool needed[] = { [ALWAYS] = true,
                             [FOR_WATER] = has_water,
                             [FOR_EDGES] = smooths,
                             [FOR_MIRRORED_EDGES] = smooths && has_water,
                             [FOR_SPRAY] = lom_count_drops(scene) != 0,
-                            [FOR_FLUIDS] = lom_count_fluids(scene) != 0,
+                            [FOR_FLUIDS] = has_fluids,
+                            [FOR_WET_FLUIDS] = has_fluids && has_water,
                             [FOR_WIRES] = scene->quality.wireframe == LOM_WIREFRAME_VISIBLE };
     const double scale[] = {
         [REFLECTED] = scene->quality.reflection_scale, [REFRACTED] = scene->quality.refraction_scale

@@ -20,7 +20,11 @@ enum lom_target {
     LOM_TARGET_REFLECTION_SHARP,
     LOM_TARGET_REFLECTION_EDGES,
     LOM_TARGET_FLUID_SCENE,  /* what is behind a liquid, with its reach; */
-    LOM_TARGET_FLUID_LENGTH, /* how far rays go through it */
+    LOM_TARGET_FLUID_LENGTH, /* how far rays go through it; the same in what water mirrors and lets through */
+    LOM_TARGET_FLUID_REFLECTED,
+    LOM_TARGET_FLUID_REFLECTED_LENGTH,
+    LOM_TARGET_FLUID_REFRACTED,
+    LOM_TARGET_FLUID_REFRACTED_LENGTH,
     LOM_TARGETS
 };
 

@@ -193,12 +193,12 @@ static const lom_key quality[] = {
       .dial = &(const lom_key_dial){ .none = "says what is shown: the shadows that ground throws, or none" } },
     { "entity_shadows", LOM_KEY_INTEGER, AT(lom_quality, entity_shadows), .minimum = 0, .maximum = 8192,
       .unit = "texels",
-      .text = "Entities keep the sun off terrain, entities and the glints and foam of water: a side of each of two "
-              "maps, one "
-              "of the entities near the eye. 0: they do not.",
-      .dial = &(const lom_key_dial){ .approximates = "the edge of a shadow that an entity throws",
+      .text =
+          "Entities keep the sun off terrain, entities, liquids and the glints and foam of water: a side of each of "
+          "two maps, one of the entities near the eye; liquids have a third of their own. 0: they do not.",
+      .dial = &(const lom_key_dial){ .approximates = "the edge of a shadow that an entity or a liquid throws",
                                      .settings = "256 512 1024 2048 4096 8192",
-                                     .needs = "entity quality.entity_shadows" } },
+                                     .needs = "entity|fluid quality.entity_shadows" } },
     { "shadow_cascades", LOM_KEY_INTEGER, AT(lom_quality, shadow_cascades), .minimum = 1, .maximum = 4,
       .initial = { 1 }, .unit = "maps",
       .text =

@@ -19,7 +19,8 @@
 #define LOM_SHADOW_LIFT 0.6
 
 struct lom_lamp_face_uniform {
-    const lom_texture *map; /* depth, 0 where there is nothing; NULL: nothing at all */
+    const lom_texture *map;    /* depth, 0 where there is nothing; NULL: nothing at all */
+    const lom_texture *liquid; /* as of liquid_shadow.h; NULL: none */
     float right[3], up[3],
         forward[3]; /* of a place less the lamp: forward is the depth w, the others over it are -1..1 */
 };
@@ -28,6 +29,7 @@ struct lom_lamp_shadow_uniform {
     struct lom_lamp_face_uniform face[6];
     int count;         /* 1, or 6 along the axes of the world */
     float place[3];    /* of the lamp, less the eye of the frame */
+    bool has_liquid;   /* before a face */
     float size, texel; /* of each map: texels a side, and 1 / size */
     float scale;       /* texture coordinates are 1/2 + scale right / w, 1/2 - scale up / w */
     float from;        /* depth is from / w */

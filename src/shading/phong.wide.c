@@ -54,6 +54,15 @@ static lom_float3 product(const float light[3], const float material[3], lom_flo
     return lom_scale3(lom_mul3(lom_uniform3(light), lom_uniform3(material)), share);
 }
 
+static void dim_by_liquids(const struct lom_lamp_shadow_uniform *shadow, const struct lom_lamp_walk *walk,
+                           struct lom_lit *lit)
+{
+    lom_float3 through;
+    LOM_WIDE(lom_liquid_lamp)(shadow, &walk->place, &walk->normal, &through);
+    lit->textured = lom_mul3(lit->textured, through);
+    lit->highlight = lom_mul3(lit->highlight, through);
+}
+
 /* Adds what lamps give, in their order. */
 static void add_lamps(const struct lom_light_uniform *light, const struct facet *f, struct lom_lit *lit)
 {
@@ -68,10 +77,15 @@ static void add_lamps(const struct lom_light_uniform *light, const struct facet 
         struct reflected r = reflect_light(f, to_lamp, share);
         lom_float3 textured =
             lom_add3(product(lamp->ambient, f->m->ambient, share), product(lamp->diffuse, f->m->diffuse, r.diffuse));
-        LOM_NAME_BY(lamp->name, textured);
-        lit->textured = lom_add3(lit->textured, textured);
+        struct lom_lit added = { textured, lom_splat3(0, 0, 0) };
         if (f->shines)
-            lit->highlight = lom_add3(lit->highlight, product(lamp->specular, f->m->specular, r.specular));
+            added.highlight = product(lamp->specular, f->m->specular, r.specular);
+        if (lamp->shadow != NULL && lamp->shadow->has_liquid)
+            dim_by_liquids(lamp->shadow, &walk, &added);
+        LOM_NAME_BY(lamp->name, added.textured);
+        lit->textured = lom_add3(lit->textured, added.textured);
+        if (f->shines)
+            lit->highlight = lom_add3(lit->highlight, added.highlight);
     }
 }
 
@@ -95,7 +109,13 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
     struct lom_lit lit;
     lom_float3 around = lom_mix3(lom_uniform3(light->ground), lom_uniform3(light->ambient), 0.5f + 0.5f * normal.y);
     lom_float3 ambient = lom_mul3(lom_scale3(around, sky), lom_uniform3(m->ambient));
-    lom_float3 diffuse = product(light->color, m->diffuse, lambert);
+    lom_float3 diffuse = product(light->color, m->diffuse, lambert), liquid_light = lom_splat3(1, 1, 1);
+    const bool has_liquid = view->entity_shadow.liquid.map != NULL;
+    if (has_liquid) {
+        LOM_WIDE(lom_liquid_light)(&view->entity_shadow.liquid, &f->offset, &normal, &liquid_light);
+        LOM_NAME_VALUE(liquid_light);
+        diffuse = lom_mul3(diffuse, liquid_light);
+    }
     LOM_NAME_VALUE(ambient);
     LOM_NAME_VALUE(diffuse);
     lit.textured = lom_add3(ambient, diffuse);
@@ -103,6 +123,8 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
     if (f->shines) {
         lom_float specular = f->model->highlight(normal, lom_uniform3(light->to_light), f->to_eye, f->exponent) * share;
         lit.highlight = product(light->color, m->specular, specular);
+        if (has_liquid)
+            lit.highlight = lom_mul3(lit.highlight, liquid_light);
     }
     if (light->lamps != NULL)
         add_lamps(light, f, &lit);

@@ -1,33 +1,76 @@
-/* Shadows of entities and of what stands before lamps. In: maps of the depth that a light sees, places of surfaces. Out:
- * the share of the light that comes to a place. */
+/* Shadows of entities, of what stands before lamps, and of liquids. In: maps of what a light sees, places of surfaces.
+ * Out: the share of the light that comes to a place. */
 #include "shading/lamp.h"
 #include "shading/sun_shadow.h"
+
+/* The 3 x 3 texels around a place, the middle one's column and row, weighted by the quadratic B-spline (Reeves, Salesin,
+ * Cook 1987, with a smooth kernel), so that edges move by less than a texel. */
+struct spline {
+    lom_float column, row, across[3], down[3];
+};
+
+LOM_INLINE struct spline spline_at(float size, lom_float s, lom_float t)
+{
+    lom_float x = s * size, y = t * size, column = lom_floor(x), row = lom_floor(y);
+    lom_float dx = x - column - 0.5f, dy = y - row - 0.5f;
+    return (struct spline){ column,
+                            row,
+                            { 0.5f * (0.5f - dx) * (0.5f - dx), 0.75f - dx * dx, 0.5f * (0.5f + dx) * (0.5f + dx) },
+                            { 0.5f * (0.5f - dy) * (0.5f - dy), 0.75f - dy * dy, 0.5f * (0.5f + dy) * (0.5f + dy) } };
+}
 
 /* What share of a map's texels around a place has something nearer to the light than it, and what share has not. */
 struct kernel {
     lom_float dark, open;
 };
 
-/* 3 x 3 texels, weighted by the quadratic B-spline (Reeves, Salesin, Cook 1987, with a smooth kernel), so that edges move
- * by less than a texel. */
 LOM_INLINE struct kernel compare_texels(const lom_texture *map, float size, float texel, lom_float s, lom_float t,
                                         lom_float depth)
 {
-    lom_float x = s * size, y = t * size, column = lom_floor(x), row = lom_floor(y);
-    lom_float dx = x - column - 0.5f, dy = y - row - 0.5f;
-    lom_float across[3] = { 0.5f * (0.5f - dx) * (0.5f - dx), 0.75f - dx * dx, 0.5f * (0.5f + dx) * (0.5f + dx) };
-    lom_float down[3] = { 0.5f * (0.5f - dy) * (0.5f - dy), 0.75f - dy * dy, 0.5f * (0.5f + dy) * (0.5f + dy) };
+    const struct spline k = spline_at(size, s, t);
     struct kernel sum = { { 0 }, { 0 } };
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++) {
-            lom_float at_s = (column + ((float)i - 0.5f)) * texel;
-            lom_float at_t = (row + ((float)j - 0.5f)) * texel;
-            lom_float nearest = lom_sample_depth(map, at_s, at_t), weight = across[i] * down[j];
+            lom_float at_s = (k.column + ((float)i - 0.5f)) * texel;
+            lom_float at_t = (k.row + ((float)j - 0.5f)) * texel;
+            lom_float nearest = lom_sample_depth(map, at_s, at_t), weight = k.across[i] * k.down[j];
             lom_mask dark = (nearest > depth) & (nearest > 0.0f);
             sum.dark = sum.dark + lom_select(dark, weight, (lom_float){ 0 });
             sum.open = sum.open + lom_select(dark, (lom_float){ 0 }, weight);
         }
     return sum;
+}
+
+static lom_float share_behind(const struct kernel *sum, lom_float negative_depth, lom_mask shaded)
+{
+    lom_float through = lom_exp(lom_min(negative_depth, (lom_float){ 0 }));
+    return lom_select(shaded, sum->open + sum->dark * through, lom_splat(1.0f));
+}
+
+/* What the texels around a place let through of a light: of those whose liquid is nearer to it than the place the mean
+ * optical depth counts. */
+static lom_float3 look_through(const lom_texture *map, float size, lom_float s, lom_float t, lom_float depth)
+{
+    const struct spline k = spline_at(size, s, t);
+    const lom_float low = lom_splat(-2.0f), high = lom_splat(size + 2.0f);
+    const lom_int column = lom_to_int(lom_min(lom_max(k.column, low), high));
+    const lom_int row = lom_to_int(lom_min(lom_max(k.row, low), high));
+    lom_float3 depths = lom_splat3(0, 0, 0);
+    struct kernel sum = { { 0 }, { 0 } };
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++) {
+            const lom_float4 texel = lom_fetch(map, column + (i - 1), row + (j - 1), 0);
+            const lom_mask behind = (texel.w > depth) & (texel.w > 0.0f);
+            const lom_float weight = k.across[i] * k.down[j];
+            const lom_float dark = lom_select(behind, weight, (lom_float){ 0 });
+            depths = lom_add3(depths, lom_scale3((lom_float3){ texel.x, texel.y, texel.z }, dark));
+            sum.dark = sum.dark + dark;
+            sum.open = sum.open + lom_select(behind, (lom_float){ 0 }, weight);
+        }
+    const lom_mask shaded = sum.dark > 0.0f;
+    depths = lom_scale3(depths, -1.0f / lom_select(shaded, sum.dark, lom_splat(1.0f)));
+    return (lom_float3){ share_behind(&sum, depths.x, shaded), share_behind(&sum, depths.y, shaded),
+                         share_behind(&sum, depths.z, shaded) };
 }
 
 static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_float3 place)
@@ -86,6 +129,18 @@ void LOM_WIDE(lom_entity_light)(const struct lom_sun_shadow_uniform *sun, const 
         *share = *share * map_light(&sun->map[i], moved_place(&sun->map[i], *offset, *normal));
 }
 
+void LOM_WIDE(lom_liquid_light)(const struct lom_liquid_map_uniform *liquid, const lom_float3 *offset,
+                                const lom_float3 *normal, lom_float3 *share)
+{
+    lom_float3 place = lom_add3(*offset, lom_scale3(*normal, lom_splat(liquid->offset)));
+    lom_float s = lom_transform_row(liquid->s, place), t = lom_transform_row(liquid->t, place);
+    lom_float depth = lom_transform_row(liquid->depth, place);
+    lom_mask seen = (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f);
+    *share = lom_splat3(1, 1, 1);
+    if (lom_any(seen))
+        *share = look_through(liquid->map, liquid->size, s, t, depth);
+}
+
 static lom_float largest(lom_float3 v)
 {
     return lom_max(lom_max(lom_abs(v.x), lom_abs(v.y)), lom_abs(v.z));
@@ -112,31 +167,75 @@ static lom_float lean_of(const struct lom_lamp_shadow_uniform *shadow, lom_float
     return size.x + size.y + size.z - along;
 }
 
+/* Texture coordinates on a face, and depth, of the lanes whose place it sees. */
+struct seen_by_face {
+    lom_float s, t, depth;
+};
+
+static struct seen_by_face look_from(const struct lom_lamp_shadow_uniform *shadow,
+                                     const struct lom_lamp_face_uniform *face, lom_float3 way, lom_float depth,
+                                     lom_mask mine)
+{
+    lom_float inverse = lom_select(mine, 1.0f / depth, (lom_float){ 0 });
+    return (struct seen_by_face){ 0.5f + shadow->scale * lom_dot3(way, lom_uniform3(face->right)) * inverse,
+                                  0.5f - shadow->scale * lom_dot3(way, lom_uniform3(face->up)) * inverse,
+                                  shadow->from * inverse };
+}
+
 /* A place behind the lamp has nothing before it. */
 static lom_float face_light(const struct lom_lamp_shadow_uniform *shadow, const struct lom_lamp_face_uniform *face,
                             lom_float3 way, lom_float depth, lom_mask mine)
 {
-    lom_float inverse = lom_select(mine, 1.0f / depth, (lom_float){ 0 });
-    lom_float s = 0.5f + shadow->scale * lom_dot3(way, lom_uniform3(face->right)) * inverse;
-    lom_float t = 0.5f - shadow->scale * lom_dot3(way, lom_uniform3(face->up)) * inverse;
-    struct kernel k = compare_texels(face->map, shadow->size, shadow->texel, s, t, shadow->from * inverse);
+    const struct seen_by_face at = look_from(shadow, face, way, depth, mine);
+    struct kernel k = compare_texels(face->map, shadow->size, shadow->texel, at.s, at.t, at.depth);
     return lom_select(mine & (k.dark > 0.0f), k.open, lom_splat(1.0f));
+}
+
+/* Places moved off their surface, less the lamp, and their depths. */
+struct before_lamp {
+    lom_float3 way;
+    lom_float depth;
+};
+
+static struct before_lamp move_off(const struct lom_lamp_shadow_uniform *shadow, lom_float3 place, lom_float3 normal)
+{
+    lom_float3 way = lom_sub3(place, lom_uniform3(shadow->place));
+    lom_float depth = depth_before(shadow, way);
+    lom_float moved = depth * (shadow->lift + shadow->lean * lean_of(shadow, way, depth, normal));
+    way = lom_add3(way, lom_scale3(normal, moved));
+    return (struct before_lamp){ way, depth_before(shadow, way) };
 }
 
 void LOM_WIDE(lom_shade_lamp)(const struct lom_lamp_shadow_uniform *shadow, const lom_float3 *place,
                               const lom_float3 *normal, lom_float *share)
 {
-    lom_float3 way = lom_sub3(*place, lom_uniform3(shadow->place));
-    lom_float depth = depth_before(shadow, way);
-    lom_float moved = depth * (shadow->lift + shadow->lean * lean_of(shadow, way, depth, *normal));
-    way = lom_add3(way, lom_scale3(*normal, moved));
-    depth = depth_before(shadow, way);
-    lom_mask left = (*share > 0.0f) & (depth > 0.0f);
+    const struct before_lamp at = move_off(shadow, *place, *normal);
+    lom_mask left = (*share > 0.0f) & (at.depth > 0.0f);
     for (int i = 0; i < shadow->count && lom_any(left); i++) {
         const struct lom_lamp_face_uniform *face = &shadow->face[i];
-        lom_mask mine = left & (lom_dot3(way, lom_uniform3(face->forward)) == depth);
+        lom_mask mine = left & (lom_dot3(at.way, lom_uniform3(face->forward)) == at.depth);
         left = left & ~mine;
         if (face->map != NULL && lom_any(mine))
-            *share = *share * face_light(shadow, face, way, depth, mine);
+            *share = *share * face_light(shadow, face, at.way, at.depth, mine);
+    }
+}
+
+void LOM_WIDE(lom_liquid_lamp)(const struct lom_lamp_shadow_uniform *shadow, const lom_float3 *place,
+                               const lom_float3 *normal, lom_float3 *share)
+{
+    const struct before_lamp at = move_off(shadow, *place, *normal);
+    lom_mask left = at.depth > 0.0f;
+    const lom_float one = lom_splat(1.0f);
+    *share = lom_splat3(1, 1, 1);
+    for (int i = 0; i < shadow->count && lom_any(left); i++) {
+        const struct lom_lamp_face_uniform *face = &shadow->face[i];
+        lom_mask mine = left & (lom_dot3(at.way, lom_uniform3(face->forward)) == at.depth);
+        left = left & ~mine;
+        if (face->liquid == NULL || !lom_any(mine))
+            continue;
+        const struct seen_by_face seen = look_from(shadow, face, at.way, at.depth, mine);
+        const lom_float3 through = look_through(face->liquid, shadow->size, seen.s, seen.t, seen.depth);
+        *share = lom_mul3(*share, (lom_float3){ lom_select(mine, through.x, one), lom_select(mine, through.y, one),
+                                                lom_select(mine, through.z, one) });
     }
 }

@@ -3,7 +3,7 @@
 #ifndef LOM_SHADING_SUN_SHADOW_H
 #define LOM_SHADING_SUN_SHADOW_H
 
-#include <lom/texture.h>
+#include "shading/liquid_shadow.h"
 
 /* How near to the sun entities reach, seen from it. */
 struct lom_shadow_map_uniform {
@@ -20,6 +20,7 @@ struct lom_sun_shadow_uniform {
     int count;
     bool cascaded;
     struct lom_shadow_map_uniform map[LOM_ENTITY_SHADOWS];
+    struct lom_liquid_map_uniform liquid; /* what liquids take of it */
 };
 
 /* The share of the sunlight that entities let through to places less the eye, in [0, 1] (shadow_map.wide.c). normal: unit,
@@ -27,15 +28,24 @@ struct lom_sun_shadow_uniform {
 void LOM_WIDE(lom_entity_light)(const struct lom_sun_shadow_uniform *sun, const lom_float3 *offset,
                                 const lom_float3 *normal, lom_float *share);
 
-/* The share of the sunlight that comes to the places of water, where `open` of it would without entities. */
+/* The share of the sunlight that comes to the places of water, where `open` of it would without entities and liquids;
+ * what comes through these counts by its brightness. */
 LOM_INLINE lom_float lom_open_water_share(const struct lom_sun_shadow_uniform *sun, lom_float3 offset, lom_float open)
 {
-    if (sun->count == 0 || !lom_any(open > 0.0f))
+    if ((sun->count == 0 && sun->liquid.map == NULL) || !lom_any(open > 0.0f))
         return open;
     const lom_float3 none = { { 0 }, { 0 }, { 0 } };
-    lom_float share;
-    LOM_WIDE(lom_entity_light)(sun, &offset, &none, &share);
-    return open * share;
+    if (sun->count != 0) {
+        lom_float share;
+        LOM_WIDE(lom_entity_light)(sun, &offset, &none, &share);
+        open = open * share;
+    }
+    if (sun->liquid.map != NULL) {
+        lom_float3 through;
+        LOM_WIDE(lom_liquid_light)(&sun->liquid, &offset, &none, &through);
+        open = open * lom_liquid_brightness(through);
+    }
+    return open;
 }
 
 #endif

@@ -27,7 +27,8 @@ static const struct exception {
     { "follower", 1e-3, 1000, 4, 0 },
     { "entity_hits", 1e-3, 100, 0, 0 }, /* waves are at most 100 m high */
     { "fluid", 1e-3, 10, 0, 0x1p10 },   /* basins lie within 1000 km, and conduct up to 10 m^2/s */
-    { "far_fluid", 1e-3, 1, 0, -1 },    /* it lies there */
+    { "lit_fluid", 1e-3, 10, 0, 0x1p10 },
+    { "far_fluid", 1e-3, 1, 0, -1 }, /* it lies there */
 };
 
 /* What bases are drawn with: a wind whose way is whole 64ths of a metre, as clouds go (src/cloud/cloud_wind.c). */

@@ -194,16 +194,9 @@ static struct lom_shadow_map_uniform map_uniform(const struct lom_entity_shadow 
 {
     const float size = (float)lom_texture_width(shadow->map);
     struct lom_shadow_map_uniform u = {
-        .map = shadow->map, .size = size, .texel = 1 / size, .offset = (float)(2.5 * shadow->texel)
+        .map = shadow->map, .size = size, .texel = 1 / size, .offset = (float)(2.5 * shadow->at.texel)
     };
-    double s[4], t[4];
-    for (int i = 0; i < 4; i++) {
-        s[i] = shadow->clip_from_world.m[0][i] / 2 + (i == 3 ? 0.5 : 0);
-        t[i] = -shadow->clip_from_world.m[1][i] / 2 + (i == 3 ? 0.5 : 0);
-    }
-    lom_center_row(u.s, s, eye);
-    lom_center_row(u.t, t, eye);
-    lom_center_row(u.depth, shadow->clip_from_world.m[2], eye);
+    lom_set_sun_map_rows(&shadow->at, eye, u.s, u.t, u.depth);
     return u;
 }
 

@@ -4,6 +4,7 @@
 
 #include "pipeline/draw_again.h"
 #include "render/scene_view.h"
+#include "render/sun_view.h"
 #include "world/world.h"
 
 struct frame;
@@ -54,8 +55,7 @@ struct lom_drawn_entity {
 struct lom_entity_shadow {
     lom_texture *map;
     bool falls; /* on something, in this frame */
-    lom_mat4 clip_from_world;
-    double texel; /* metres */
+    struct lom_sun_map at;
     uint64_t made_for;
 };
 

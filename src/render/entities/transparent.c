@@ -142,17 +142,6 @@ bool lom_draw_transparent_over(struct frame *f, const struct lom_scene_view *vie
     return lom_end_pass(r->device);
 }
 
-/* The frame's view of what is on one side of the level of the water that is drawn first: the eye's (1) or the other one (-1). */
-static struct lom_scene_view view_of_side(const struct frame *f, double side)
-{
-    struct lom_scene_view view = f->view;
-    const double level = f->divided_at, up = f->view.eye.y < level ? -side : side;
-    view.plane[0] = view.plane[2] = 0;
-    view.plane[1] = up;
-    view.plane[3] = -up * level;
-    return view;
-}
-
 static bool draw_part(struct frame *f, const struct lom_scene_view *view, const char *text)
 {
     lom_renderer *r = f->renderer;
@@ -169,7 +158,7 @@ static bool draw_part(struct frame *f, const struct lom_scene_view *view, const 
 
 bool lom_draw_transparent_beyond(struct frame *f)
 {
-    const struct lom_scene_view view = view_of_side(f, -1);
+    const struct lom_scene_view view = lom_view_of_side(f, -1);
     return draw_part(f, &view, "transparent parts of entities beyond the water, the farthest first");
 }
 
@@ -184,7 +173,7 @@ static bool has_any(const lom_renderer *renderer)
 bool lom_draw_transparent(struct frame *f, lom_error *error)
 {
     (void)error;
-    const struct lom_scene_view view = f->shows_water ? view_of_side(f, 1) : f->view;
+    const struct lom_scene_view view = lom_view_of_side(f, 1);
     if (!has_any(f->renderer))
         return true;
     if (!lom_shows_transparent(f->renderer, &view)) {

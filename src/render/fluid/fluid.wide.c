@@ -6,12 +6,13 @@
  * (screen-space refraction after C. Wyman, An approximate image-space approach for interactive refraction, 2005; of
  * liquids W. van der Laan, S. Green, M. Sainz, Screen space fluid rendering with curvature flow, 2009).
  *
- * Invariant: pixels are looked up by their numbers in the whole frame. */
+ * Invariant: pixels are looked up by their numbers in the whole picture. */
 #include "render/fluid/shaders.h"
 #include "shading/phong.h"
 #include "water/surface_radiance.h"
 
 enum { OFFSET = 0, NORMAL = 3, LENGTH_VARYINGS = 3, VARYINGS = 6 };
+static const float far_away = 0x1p60f; /* of what is not there */
 
 /* ---- the scene behind ---- */
 
@@ -25,7 +26,7 @@ static void square_vertex(lom_vertex *out, const lom_attributes *in, const void 
 static void copy_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_fluid_uniforms *u = uniforms;
-    lom_int x = lom_to_int(in->x) - u->first[0], y = lom_to_int(in->y) - u->first[1];
+    lom_int x = lom_to_int(in->x) - u->origin[0], y = lom_to_int(in->y) - u->origin[1];
     lom_float4 color = lom_fetch(u->color, x, y, 0);
     lom_float reach = lom_depth_reach(&u->view.eye, lom_fetch(u->depth, x, y, 0).x);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, reach };
@@ -65,12 +66,23 @@ static struct seen look_at(const struct lom_fluid_uniforms *u, const lom_varying
     return s;
 }
 
+/* How far along the ray to a place all counts that lies before the clip plane, in parts of the way to the place: less than
+ * 1 where the ray has left it, more where it comes to it behind the place. */
+static lom_float find_kept(const struct lom_fluid_uniforms *u, const struct seen *s)
+{
+    lom_float at = lom_transform_row(u->view.plane, s->offset);
+    lom_float start = at - lom_dot3(lom_uniform3(u->view.plane), s->path), change = start - at;
+    lom_float way = start / lom_select(change == 0.0f, lom_splat(1.0f), change);
+    way = lom_select((change == 0.0f) | (way < 0.0f), (lom_float){ 0 }, way);
+    return lom_select(at < 0.0f, way, lom_splat(1.0f));
+}
+
 static void length_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_fluid_uniforms *u = uniforms;
     struct seen s = look_at(u, in);
     lom_float stands = lom_depth_reach(&u->view.eye, in->target_depth);
-    lom_float length = u->side * (s.distance * lom_min(stands / s.reach, lom_splat(1.0f)));
+    lom_float length = u->side * (s.distance * lom_min(stands / s.reach, find_kept(u, &s)));
     out->color[0] = (lom_float4){ length, length, length, length };
 }
 
@@ -78,7 +90,8 @@ static void length_fragment(lom_fragment *out, const lom_varyings *in, const voi
 
 static void vertex(lom_vertex *out, const lom_attributes *in, const void *uniforms)
 {
-    transform(out, in, uniforms);
+    const struct lom_fluid_uniforms *u = uniforms;
+    out->distance[0] = lom_transform_row(u->view.plane, transform(out, in, u));
     out->varying[NORMAL] = in->attribute[1].x;
     out->varying[NORMAL + 1] = in->attribute[1].y;
     out->varying[NORMAL + 2] = in->attribute[1].z;
@@ -90,13 +103,17 @@ static lom_float4 fetch(const struct lom_fluid_uniforms *u, lom_int x, lom_int y
     lom_int right = lom_splat_int(u->last[0]), bottom = lom_splat_int(u->last[1]);
     x = lom_select_int(x < left, left, lom_select_int(x > right, right, x));
     y = lom_select_int(y < top, top, lom_select_int(y > bottom, bottom, y));
-    return lom_fetch(u->scene, x - u->first[0], y - u->first[1], 0);
+    return lom_fetch(u->scene, x - u->origin[0], y - u->origin[1], 0);
 }
 
-/* The scene at a place of the frame, in pixels: the mean of the four texels around it of those that stand behind the
- * surface; all of which count where none does. */
-static lom_float3 look_behind(const struct lom_fluid_uniforms *u, lom_float x, lom_float y, lom_float reach)
+/* The scene at a place of the picture, in pixels: the mean of the four texels around it of those that stand behind the
+ * surface; all of which count where none does. Where the picture has no sky, what the ray meets in it. */
+static lom_float3 look_behind(const struct lom_fluid_uniforms *u, lom_float x, lom_float y, lom_float reach,
+                              lom_float3 ray)
 {
+    lom_float3 sky = lom_splat3(0, 0, 0);
+    if (u->sky_is_behind)
+        sky = lom_sky_radiance(&u->sky, ray, (lom_float){ 0 });
     lom_float left = lom_floor(x - 0.5f), top = lom_floor(y - 0.5f), s = x - 0.5f - left, t = y - 0.5f - top;
     lom_int column = lom_to_int(left), row = lom_to_int(top);
     lom_float3 sum = lom_splat3(0, 0, 0);
@@ -105,7 +122,10 @@ static lom_float3 look_behind(const struct lom_fluid_uniforms *u, lom_float x, l
         lom_float4 texel = fetch(u, column + (i & 1), row + (i >> 1));
         lom_float weight = ((i & 1) ? s : 1.0f - s) * ((i >> 1) ? t : 1.0f - t);
         weight = lom_select(texel.w > reach, weight, weight * 1e-6f);
-        sum = lom_add3(sum, lom_scale3((lom_float3){ texel.x, texel.y, texel.z }, weight));
+        lom_float3 color = { texel.x, texel.y, texel.z };
+        if (u->sky_is_behind)
+            color = lom_mix3(color, sky, lom_select(texel.w > far_away, lom_splat(1.0f), (lom_float){ 0 }));
+        sum = lom_add3(sum, lom_scale3(color, weight));
         weights = weights + weight;
     }
     return lom_scale3(sum, 1.0f / lom_max(weights, lom_splat(1e-12f)));
@@ -121,7 +141,7 @@ static lom_float3 look_along(const struct lom_fluid_uniforms *u, const lom_varyi
     lom_float far = lom_sqrt(x * x + y * y),
               share = lom_min(u->reach / lom_max(far, lom_splat(1e-6f)), lom_splat(1.0f));
     lom_float to_x = in->x + x * share, to_y = in->y + y * share;
-    return look_behind(u, to_x, to_y, s->reach);
+    return look_behind(u, to_x, to_y, s->reach, bent);
 }
 
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
@@ -134,7 +154,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     /* What is seen faces the eye. */
     lom_float turn = lom_max(0.08f + lom_dot3(normal, d), (lom_float){ 0 });
     normal = lom_normalize3(lom_sub3(normal, lom_scale3(d, turn)));
-    lom_int column = lom_to_int(in->x) - u->first[0], row = lom_to_int(in->y) - u->first[1];
+    lom_int column = lom_to_int(in->x) - u->origin[0], row = lom_to_int(in->y) - u->origin[1];
     lom_float length = lom_max(lom_fetch(u->length, column, row, 0).x, (lom_float){ 0 });
     lom_float cosine = lom_saturate(-lom_dot3(normal, d));
     lom_float share = lom_fresnel_exact(cosine, lom_splat(u->eta));
@@ -164,6 +184,6 @@ LOM_SHADER(lom_fluid_copy_shader, square_vertex, copy_fragment, .reads_position 
 LOM_SHADER(lom_fluid_length_shader, length_vertex, length_fragment, .attributes = 1, .varyings = LENGTH_VARYINGS,
            .reads = LOM_VARYINGS(0, LENGTH_VARYINGS), .reads_position = true, .colors = 1, .reads_depth = true,
            .uniforms_size = sizeof(struct lom_fluid_uniforms))
-LOM_SHADER(lom_fluid_shader, vertex, fragment, .attributes = 2, .varyings = VARYINGS,
+LOM_SHADER(lom_fluid_shader, vertex, fragment, .attributes = 2, .varyings = VARYINGS, .clip_distances = 1,
            .reads = LOM_VARYINGS(0, VARYINGS), .reads_position = true, .colors = 1,
            .uniforms_size = sizeof(struct lom_fluid_uniforms))

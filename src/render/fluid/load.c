@@ -1,43 +1,17 @@
-/* Liquids of a scene at a time. In: their keys, a time. Out: particles and a surface. Invariant: the state is that
- * after all steps from the start to the time. */
-#include "render/fluid/advance.h"
-#include "render/renderer.h"
-
-enum { MOST_STEPS = 1000000 };
+/* Liquids of a scene. In: the scene. Out: each before its first step; and, once a frame, at the frame's time. */
+#include "render/frame.h"
 
 size_t lom_count_fluids(const lom_scene *scene)
 {
     size_t count = 0;
-    for (size_t i = 0; scene->quality.fluid && i < scene->fluid_count; i++)
-        count += scene->fluids[i].visible;
+    for (size_t i = 0; i < scene->fluid_count; i++)
+        count += lom_shows_liquid(scene, i);
     return count;
 }
 
-static lom_fluid *begin(const lom_fluid_params *p, lom_error *error)
+lom_box lom_fluid_box(const lom_fluid_params *p)
 {
-    lom_fluid_desc desc = { .spacing = p->spacing,
-                            .step = p->step,
-                            .viscosity = p->viscosity,
-                            .solid_viscosity = p->solid_viscosity,
-                            .latent_heat = p->latent_heat,
-                            .conductivity = p->conductivity,
-                            .blocks = p->blocks,
-                            .block_count = p->block_count,
-                            .solids = p->solids,
-                            .solid_count = p->solid_count };
-    for (int i = 0; i < 3; i++) {
-        desc.low[i] = p->low[i];
-        desc.high[i] = p->high[i];
-        desc.gravity[i] = p->gravity[i];
-    }
-    for (int i = 0; i < 2; i++)
-        desc.melting[i] = p->melting[i];
-    lom_error failed = { 0 };
-    lom_fluid *fluid = lom_create_fluid(&desc, &failed);
-    if (fluid == NULL)
-        lom_fail(error, failed.code, "[[fluid]]%s%s: %s", p->name != NULL ? " " : "", p->name != NULL ? p->name : "",
-                 failed.text);
-    return fluid;
+    return (lom_box){ { p->low[0], p->low[1], p->low[2] }, { p->high[0], p->high[1], p->high[2] } };
 }
 
 bool lom_load_fluids(lom_renderer *renderer, lom_error *error)
@@ -47,7 +21,8 @@ bool lom_load_fluids(lom_renderer *renderer, lom_error *error)
     m->items = lom_allocate(scene->fluid_count, sizeof *m->items, error);
     m->count = m->items != NULL ? scene->fluid_count : 0;
     for (size_t i = 0; i < m->count; i++)
-        if (scene->fluids[i].visible && (m->items[i].fluid = begin(&scene->fluids[i], error)) == NULL)
+        if (lom_shows_liquid(scene, i) &&
+            (m->items[i].liquid.fluid = lom_begin_liquid(renderer->world, i, error)) == NULL)
             return false;
     return m->items != NULL;
 }
@@ -55,50 +30,28 @@ bool lom_load_fluids(lom_renderer *renderer, lom_error *error)
 void lom_free_fluids(lom_renderer *renderer)
 {
     struct lom_drawn_fluids *m = &renderer->fluids;
-    for (size_t i = 0; i < m->count; i++) {
-        lom_free_fluid(m->items[i].fluid);
-        lom_free_mesh(m->items[i].mesh);
-    }
+    for (size_t i = 0; i < m->count; i++)
+        lom_free_liquid(&m->items[i].liquid);
     lom_release(m->items);
+    lom_drop_fluid_shadow(renderer);
 }
 
-/* A thousandth of a step is rounding. */
-static bool run(struct lom_drawn_fluids *all, struct lom_drawn_fluid *it, const lom_fluid_params *p, lom_device *device,
-                double time, lom_error *error)
-{
-    const double steps = time > p->start ? lom_double_floor((time - p->start) / p->step + 0.001) : 0;
-    if (steps > MOST_STEPS)
-        return lom_fail(error, LOM_ERROR_LIMIT,
-                        "This frame is more than %d steps (fluid.step) after the beginning of a "
-                        "liquid (fluid.start).",
-                        MOST_STEPS);
-    const int64_t wanted = lom_int64_of(steps);
-    if (lom_view_fluid(it->fluid).steps > wanted) {
-        lom_free_fluid(it->fluid);
-        it->fluid = begin(p, error);
-    }
-    bool done = it->fluid != NULL;
-    while (done && lom_view_fluid(it->fluid).steps < wanted) {
-        done = lom_step_fluid(it->fluid, device, error);
-        all->run++;
-    }
-    return done;
-}
-
-bool lom_advance_fluid(struct frame *f, size_t number, lom_error *error)
+bool lom_ready_fluid(struct frame *f, size_t number, lom_error *error)
 {
     lom_renderer *r = f->renderer;
-    const lom_fluid_params *p = &f->scene->fluids[number];
     struct lom_drawn_fluid *it = &r->fluids.items[number];
-    if (it->fluid == NULL && (it->fluid = begin(p, error)) == NULL)
-        return false;
-    if (!run(&r->fluids, it, p, r->device, f->time, error))
-        return false;
-    const int64_t steps = lom_view_fluid(it->fluid).steps;
-    if (it->mesh != NULL && it->meshed == steps)
+    const uint64_t before = it->liquid.run;
+    if (it->ready)
         return true;
-    lom_free_mesh(it->mesh);
-    it->mesh = lom_make_fluid_mesh(it->fluid, p->low, r->device, error);
-    it->meshed = steps;
-    return it->mesh != NULL;
+    const bool done = lom_run_liquid(&it->liquid, r->world, number, r->device, f->time, error);
+    r->fluids.run += it->liquid.run - before;
+    if (!done)
+        return false;
+    it->ready = true;
+    const lom_fluid_view view = lom_view_fluid(it->liquid.fluid);
+    lom_add_step(f, "fluid steps", true,
+                 "%lld steps from the beginning, %llu of them for this frame; %zu particles, %zu triangles",
+                 (long long)view.steps, (unsigned long long)(it->liquid.run - before), view.particles,
+                 it->liquid.mesh->index_count / 3);
+    return true;
 }

@@ -18,7 +18,7 @@ static lom_lake_view lake_view(const struct frame *f)
                             .frame_width = f->width,
                             .frame_height = f->height,
                             .light = lom_renderer_light(r, f->view.eye),
-                            .entity_shadow = lom_entity_shadow_uniform(&r->entities, f->view.eye),
+                            .entity_shadow = lom_sun_shadow_of(r, f->view.eye),
                             .normal_map = r->water->normal_map,
                             .flow_map = r->water->flow_map };
 }
@@ -72,8 +72,8 @@ static bool draw_reflection(struct frame *f, lom_error *error)
     view.plane[0] = view.plane[2] = 0;
     view.plane[1] = 1;
     view.plane[3] = water->clip_offset - water->level;
-    lom_step *step =
-        lom_add_step(f, "reflection", true, "terrain, entities and sky above the water, mirrored in its plane");
+    lom_step *step = lom_add_step(f, "reflection", true,
+                                  "terrain, entities, liquids and sky above the water, mirrored in its plane");
     return draw_picture(f, step, f->renderer->targets.of[LOM_TARGET_REFLECTION],
                         f->renderer->targets.of[LOM_TARGET_REFLECTION_DEPTH], &view, error);
 }
@@ -92,21 +92,22 @@ static bool draw_refraction(struct frame *f, lom_error *error)
     view.plane[1] = -1;
     view.plane[3] = water->level + water->clip_offset;
     view.sky = false;
-    lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities below the water, with their depth");
+    lom_step *step =
+        lom_add_step(f, "refraction", true, "terrain, entities and liquids below the water, with their depth");
     return draw_picture(f, step, f->renderer->targets.of[LOM_TARGET_REFRACTION],
                         f->renderer->targets.of[LOM_TARGET_REFRACTION_DEPTH], &view, error);
 }
 
 /* The surface by the shader of its model. */
-static bool draw_quad(struct frame *f, const lom_lake_view *view)
+static bool draw_quad(struct frame *f, const lom_lake_view *view, lom_error *error)
 {
     const struct lom_water_model_row *model = &lom_water_models[f->scene->quality.water];
     struct lom_lake_uniforms uniforms;
     const lom_draw_desc draw = lom_lake_draw(model->shader, &f->scene->water, view, &uniforms);
-    return lom_draw_over_scene(f, model->text, &draw);
+    return lom_draw_over_scene(f, model->text, &draw, error);
 }
 
-static bool draw_surface(struct frame *f)
+static bool draw_surface(struct frame *f, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     const lom_water_params *water = &f->scene->water;
@@ -115,16 +116,16 @@ static bool draw_surface(struct frame *f)
     view.reflection = water->reflection ? r->targets.of[LOM_TARGET_REFLECTION] : NULL;
     view.refraction = below ? r->targets.of[LOM_TARGET_REFRACTION] : NULL;
     view.refraction_depth = below ? r->targets.of[LOM_TARGET_REFRACTION_DEPTH] : NULL;
-    return draw_quad(f, &view);
+    return draw_quad(f, &view, error);
 }
 
 /* The cheapest model: a blended quad of one colour. */
-static bool draw_tinted(struct frame *f)
+static bool draw_tinted(struct frame *f, lom_error *error)
 {
     lom_lake_view view = lake_view(f);
     lom_add_step(f, "reflection", false, "tinted water reflects nothing");
     lom_add_step(f, "refraction", false, "tinted water is blended over the scene");
-    return draw_quad(f, &view);
+    return draw_quad(f, &view, error);
 }
 
 bool lom_draw_lake(struct frame *f, lom_error *error)
@@ -140,10 +141,10 @@ bool lom_draw_lake(struct frame *f, lom_error *error)
     if (!lom_may_show_water(f))
         return lom_skip_water(f, "the water's quad is outside the view");
     if (!model->is_looked_up)
-        return draw_tinted(f);
+        return draw_tinted(f, error);
     if (!draw_visibility(f))
         return false;
     if (f->water.width == 0)
         return lom_skip_water(f, "the scene hides all of the water");
-    return draw_reflection(f, error) && draw_refraction(f, error) && draw_surface(f);
+    return draw_reflection(f, error) && draw_refraction(f, error) && draw_surface(f, error);
 }

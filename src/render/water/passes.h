@@ -28,7 +28,7 @@ bool lom_draw_caustics(struct frame *f, lom_error *error);
 /* Adds "left out" to the plan for every pass of the water, for this reason. True. */
 bool lom_skip_water(struct frame *f, const char *reason);
 /* Draws the surface over the finished scene, where water is seen: a step of the plan with this text. */
-bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface);
+bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface, lom_error *error);
 
 /* frame_waves.c: whether the scene's water has waves; of a sea its places, then the rest of it, with a step of the
  * plan. False: the error says why. */

@@ -130,6 +130,31 @@ static bool can_copy(const struct frame *f, const struct lom_scene_view *view, c
            step->height == f->height && lom_shows_terrain(f->renderer, view);
 }
 
+/* Liquids over a picture, which is larger by as much as their bent rays look. */
+struct over {
+    enum lom_target behind, length;
+    bool shows;
+};
+
+static struct over find_liquids(const struct frame *f, const struct lom_scene_view *view)
+{
+    const struct lom_culler culler = lom_culler_of(view, NULL);
+    struct over over = { LOM_TARGET_FLUID_REFRACTED, LOM_TARGET_FLUID_REFRACTED_LENGTH,
+                         lom_shows_fluids(f->renderer, &culler) };
+    if (view->mirrored) {
+        over.behind = LOM_TARGET_FLUID_REFLECTED;
+        over.length = LOM_TARGET_FLUID_REFLECTED_LENGTH;
+    }
+    return over;
+}
+
+static void grow_for_liquids(lom_pass_desc *pass)
+{
+    const int width = lom_texture_width(pass->color[0]), height = lom_texture_height(pass->color[0]);
+    lom_grow_range(&pass->scissor.x, &pass->scissor.width, width, lom_fluid_reach(height));
+    lom_grow_range(&pass->scissor.y, &pass->scissor.height, height, lom_fluid_reach(height));
+}
+
 /* The water bends the edges of what lies below it, which one sample finds well enough; a mirror shows its own. */
 static int count_samples(const lom_scene *scene, bool mirrored)
 {
@@ -156,6 +181,9 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     const bool smooths = f->smooths && view->mirrored;
     if (smooths)
         lom_begin_smooth_picture(f, &pass);
+    const struct over liquids = find_liquids(f, view);
+    if (liquids.shows)
+        grow_for_liquids(&pass);
     if (view->mirrored)
         r->water->mirrored = lom_count_watched_passes(r->device);
     lom_begin_pass(r->device, &pass);
@@ -167,7 +195,9 @@ bool lom_draw_picture(struct frame *f, lom_step *step, lom_texture *color, lom_t
     lom_draw_scene(r, &part);
     bool shows_clouds = r->clouds.set != NULL && view->mirrored && view->sky;
     size_t seen;
-    return lom_end_pass(r->device) && (!smooths || lom_smooth_picture(f, &pass, color, scissor)) &&
+    return lom_end_pass(r->device) &&
+           (!liquids.shows || lom_draw_fluids_over(f, view, &pass, liquids.behind, liquids.length, error)) &&
+           (!smooths || lom_smooth_picture(f, &pass, color, scissor)) &&
            (!shows_clouds || lom_draw_clouds_over(f, view, pass, depth, &seen, error)) &&
            lom_draw_transparent_over(f, &part, pass);
 }
@@ -180,14 +210,15 @@ bool lom_skip_water(struct frame *f, const char *reason)
     return true;
 }
 
-bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface)
+bool lom_draw_over_scene(struct frame *f, const char *text, const lom_draw_desc *surface, lom_error *error)
 {
     if (!f->shows_water) {
+        f->shows_water = true;
+        f->divided_by = f->turned;
         f->divided_at = f->scene->water.level;
-        if (!lom_draw_transparent_beyond(f))
+        if (!lom_draw_fluids_beyond(f, error) || !lom_draw_transparent_beyond(f))
             return false;
     }
-    f->shows_water = true;
     lom_step *step = lom_add_step(f, "water", true, "%s", text);
     step->width = f->crop.width;
     step->height = f->crop.height;

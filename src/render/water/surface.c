@@ -58,7 +58,7 @@ static bool draw_surface(struct surface *surface, struct frame *f, lom_error *er
         draw.count = 3;
         break;
     }
-    return lom_draw_over_scene(f, model->text, &draw);
+    return lom_draw_over_scene(f, model->text, &draw, error);
 }
 
 /* ---- the water between the eye and everything ---- */

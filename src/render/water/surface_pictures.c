@@ -36,17 +36,21 @@ static void set_picture(struct lom_picture_uniform *out, const struct frame *f, 
 static double longest_below(const struct frame *f)
 {
     const lom_renderer *r = f->renderer;
-    const double level = f->scene->water.level;
-    double most = 0;
+    double low = f->scene->water.level, high = low;
     for (int i = 0; i < r->ground.across * r->ground.down; i++) {
-        const lom_box *box = &r->ground.blocks[i].bounds;
-        most = lom_larger(most, f->below ? box->high.y - level : level - box->low.y);
+        low = lom_smaller(low, r->ground.blocks[i].bounds.low.y);
+        high = lom_larger(high, r->ground.blocks[i].bounds.high.y);
     }
     for (size_t i = 0; i < r->entities.count; i++) {
-        const lom_box *box = &r->entities.items[i].at->bounds;
-        most = lom_larger(most, f->below ? box->high.y - level : level - box->low.y);
+        low = lom_smaller(low, r->entities.items[i].at->bounds.low.y);
+        high = lom_larger(high, r->entities.items[i].at->bounds.high.y);
     }
-    return most;
+    for (size_t i = 0; i < f->scene->fluid_count; i++)
+        if (lom_shows_liquid(f->scene, i)) {
+            low = lom_smaller(low, f->scene->fluids[i].low[1]);
+            high = lom_larger(high, f->scene->fluids[i].high[1]);
+        }
+    return f->below ? high - f->scene->water.level : f->scene->water.level - low;
 }
 
 /* The ray at (x, y) in normalised device coordinates, bent at still water: where the picture would have to show it, as
@@ -130,7 +134,7 @@ static bool draw_mirrored(struct surface *surface, struct frame *f, lom_error *e
         return true;
     }
     lom_step *step =
-        lom_add_step(f, "reflection", true, "terrain and entities on the eye's side, mirrored in the level");
+        lom_add_step(f, "reflection", true, "terrain, entities and liquids on the eye's side, mirrored in the level");
     lom_mat4 mirrored = lom_mirror((lom_vec3){ 0, 1, 0 }, surface->level),
              clip = lom_multiply(&surface->clip_from_offset, &mirrored);
     set_picture(&surface->uniforms.mirrored, f, &lom_whole_view, &clip, r->targets.of[LOM_TARGET_REFLECTION],
@@ -159,7 +163,8 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
         lom_add_step(f, "refraction", false, "nothing but %s is behind the surface", f->below ? "the sky" : "water");
         return true;
     }
-    lom_step *step = lom_add_step(f, "refraction", true, "terrain and entities behind the surface, with their depth");
+    lom_step *step =
+        lom_add_step(f, "refraction", true, "terrain, entities and liquids behind the surface, with their depth");
     lom_mat4 clip = lom_clip_from_offset(&view.projection, &view.view);
     set_picture(&surface->uniforms.behind, f, &window, &clip, r->targets.of[LOM_TARGET_REFRACTION],
                 r->targets.of[LOM_TARGET_REFRACTION_DEPTH]);

@@ -95,7 +95,7 @@ void lom_look_at_surface(struct surface *surface, const struct frame *f)
     u->clip_from_offset = lom_round_matrix(&surface->clip_from_offset);
     set_optics(u, f->scene);
     u->light = lom_renderer_light(f->renderer, f->view.eye);
-    u->entity_shadow = lom_entity_shadow_uniform(&f->renderer->entities, f->view.eye);
+    u->entity_shadow = lom_sun_shadow_of(f->renderer, f->view.eye);
     lom_set_sky(&u->sky, f->renderer);
     set_foam(&u->foam, f);
     set_rays(u->ray, &f->view);
