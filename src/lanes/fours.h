@@ -28,6 +28,31 @@ LOM_INLINE lom_int lom_load_fours(const int32_t *const from[LOM_LANES / 4])
 #endif
 }
 
+/* Word k of `count` in every lane of x[k]. */
+LOM_INLINE void lom_defined_spread(const int32_t *from, int count, lom_int *x)
+{
+    for (int k = 0; k < count; k++)
+        x[k] = lom_splat_int(from[k]);
+}
+
+/* The same of words that were just computed, a multiple of 4: vectors are filled from memory while the arithmetic goes on;
+ * with 4 lanes by shuffles. */
+LOM_INLINE void lom_spread(int32_t *from, int count, lom_int *x)
+{
+#if LOM_LANES == 4 && defined __x86_64__ && !defined LOM_NO_OVERRIDES
+    for (int k = 0; k < count; k += 4) {
+        __m128i four = _mm_loadu_si128((const __m128i *)(const void *)(from + k));
+        x[k] = (lom_int)_mm_shuffle_epi32(four, 0x00);
+        x[k + 1] = (lom_int)_mm_shuffle_epi32(four, 0x55);
+        x[k + 2] = (lom_int)_mm_shuffle_epi32(four, 0xaa);
+        x[k + 3] = (lom_int)_mm_shuffle_epi32(four, 0xff);
+    }
+#else
+    __asm__("" : "+m"(*(int32_t(*)[count])from)); /* gcc would take them out of registers one by one */
+    lom_defined_spread(from, count, x);
+#endif
+}
+
 /* Lanes which[i] of low and, counted on, of high; 0 <= which[i] < 2 LOM_LANES. */
 LOM_INLINE lom_int lom_defined_permute_two(lom_int low, lom_int high, lom_int which)
 {

@@ -1,7 +1,8 @@
-/* What volumes, media, noise and grids of light hold at a place, filtered in fixed point (lom/fixed.h). In: a cell and
- * the weights of its upper corners, found in float as ever. Out: numbers in [0, 1], multiples of 1/32640 (of bytes) or
- * 1/32767. Order: along z, then x (of words with both, y), then the rest; bytes count as 128 times themselves, 16 bits
- * as their upper 15. Invariant: where the corners are 0 the result is 0, so that what is empty can be left out.
+/* What media, noise and grids of light hold at a place, and volumes where they are not marched (fixed_volume.h), filtered
+ * in fixed point (lom/fixed.h). In: a cell and the weights of its upper corners, found in float as ever. Out: numbers in
+ * [0, 1], multiples of 1/32640 (of bytes) or 1/32767. Order: along z, then x (of words with both, y), then the rest;
+ * bytes count as 128 times themselves, 16 bits as their upper 15. Invariant: where the corners are 0 the result is 0, so
+ * that what is empty can be left out.
  *
  * Three mixes: within 3 2^-15 + 2^-20 of the float filter, of 16 bits within 2^-16 more. */
 #ifndef LOM_MARCH_FIXED_CELLS_H
@@ -35,13 +36,6 @@ LOM_INLINE lom_float fixed_corners(lom_int low, lom_int high, const struct fixed
     return fixed_mix_halves(lom_mix_pairs(left, right, at->x), at->y) * (1 / LOM_FIXED_BYTE);
 }
 
-LOM_INLINE lom_float fixed_density(const lom_volume *volume, const struct fixed_place *at)
-{
-    lom_int low, high;
-    lom_gather_pairs(volume->density, at->index + at->index, &low, &high);
-    return fixed_corners(low, high, at);
-}
-
 /* The eight corners c[4 z + 2 y + x] of numbers in pairs. */
 LOM_INLINE lom_pairs fixed_cell(const lom_pairs c[8], const struct fixed_place *at)
 {
@@ -51,9 +45,11 @@ LOM_INLINE lom_pairs fixed_cell(const lom_pairs c[8], const struct fixed_place *
     return lom_mix_pairs(lom_mix_pairs(row[0], row[1], at->x), lom_mix_pairs(row[2], row[3], at->x), at->y);
 }
 
-/* Colour of the eight corners, and the density by the operations of fixed_density. */
-LOM_INLINE lom_float3 fixed_mix_all(const lom_int corner[8], const struct fixed_place *at, lom_float *density)
+/* Colour of the eight corners, and the density by the operations of fixed_corners. */
+LOM_INLINE lom_float3 fixed_volume_all(const lom_volume *volume, const struct fixed_place *at, lom_float *density)
 {
+    lom_int corner[8];
+    lom_load_volume_corners(volume, (lom_volume_place){ .index = at->index }, corner);
     lom_pairs even[8], odd[8];
     for (int i = 0; i < 8; i++) {
         even[i] = lom_even_bytes(corner[i]);
@@ -63,13 +59,6 @@ LOM_INLINE lom_float3 fixed_mix_all(const lom_int corner[8], const struct fixed_
     const float byte = 1 / LOM_FIXED_BYTE;
     *density = lom_upper_of_pairs(ga) * byte;
     return (lom_float3){ lom_lower_of_pairs(rb) * byte, lom_lower_of_pairs(ga) * byte, lom_upper_of_pairs(rb) * byte };
-}
-
-LOM_INLINE lom_float3 fixed_volume_all(const lom_volume *volume, const struct fixed_place *at, lom_float *density)
-{
-    lom_int corner[8];
-    lom_load_volume_corners(volume, (lom_volume_place){ .index = at->index }, corner);
-    return fixed_mix_all(corner, at, density);
 }
 
 /* The upper 15 bits of two numbers of 16. */

@@ -112,6 +112,11 @@ static void fours_are_loaded_and_picked(void)
         lom_int low = lom_load_fours(from), high = lom_defined_load_fours(from);
         CHECK(same_int(low, high), "load_fours %d", index[0]);
         CHECK(low[LOM_LANES - 1] == from[LOM_LANES / 4 - 1][3], "the last is the fourth of the last place");
+        lom_int spread[8], defined[8];
+        lom_spread(table + index[1], 8, spread);
+        lom_defined_spread(table + index[1], 8, defined);
+        for (int i = 0; i < 8; i++)
+            CHECK(same_int(spread[i], defined[i]) && spread[i][0] == table[index[1] + i], "spread %d", i);
         high = pattern(16, n);
         CHECK(same_int(lom_permute_two(low, high, which), lom_defined_permute_two(low, high, which)), "permute_two %d",
               which[0]);

@@ -108,7 +108,9 @@ static void free_all(struct all *all)
 static void sample_fixed(const struct all *all, lom_float3 p, lom_float out[NUMBERS])
 {
     struct fixed_place at = fix_place(lom_find_in_volume(&all->volume, p));
-    out[0] = fixed_density(&all->volume, &at);
+    lom_int low, high;
+    lom_gather_pairs(all->volume.density, at.index + at.index, &low, &high);
+    out[0] = out[9] = fixed_corners(low, high, &at);
     lom_float3 color = fixed_volume_all(&all->volume, &at, &out[4]);
     out[1] = color.x;
     out[2] = color.y;
@@ -118,9 +120,6 @@ static void sample_fixed(const struct all *all, lom_float3 p, lom_float out[NUMB
     out[6] = light.sun;
     out[7] = light.sky;
     out[8] = light.ground;
-    lom_int low, high;
-    lom_gather_pairs(all->volume.density, at.index + at.index, &low, &high);
-    out[9] = fixed_corners(low, high, &at);
 }
 
 static void sample_float(const struct all *all, lom_float3 p, lom_float out[NUMBERS])
