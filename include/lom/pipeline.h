@@ -129,7 +129,8 @@ typedef struct lom_varyings {
     lom_float dx[2], dy[2];
     lom_float delta[2][LOM_MAX_VARYINGS];
     lom_float st[2]; /* only with sprites and points: where on them, -1 to 1 along their axes; dx and dy are theirs */
-    lom_float target_depth; /* only with reads_depth: what the attachment holds at the pixel */
+    lom_float target_depth;          /* only with reads_depth: what the attachment holds at the pixel */
+    struct lom_known_levels *levels; /* the library's: where all of these derivatives are those of the whole triangle */
 } lom_varyings;
 
 /* What it gives. discard is clear and depth is z when the shader starts. */
@@ -183,10 +184,16 @@ LOM_INLINE lom_float lom_dy(const lom_varyings *in, int v)
     return in->dy[0] * in->delta[0][v] + in->dy[1] * in->delta[1][v];
 }
 
-/* Level of detail of a texture for coordinates that are the varyings s and t, both in differentiates. */
+/* What lom_lod calls. */
+void LOM_WIDE(lom_find_level)(const lom_texture *texture, const lom_varyings *in, int s, int t, lom_float *lod);
+
+/* Level of detail of a texture for coordinates that are the varyings s and t, both in differentiates: lom_lod_of of their
+ * derivatives. */
 LOM_INLINE lom_float lom_lod(const lom_texture *texture, const lom_varyings *in, int s, int t)
 {
-    return lom_lod_of(texture, lom_dx(in, s), lom_dx(in, t), lom_dy(in, s), lom_dy(in, t));
+    lom_float lod;
+    LOM_WIDE(lom_find_level)(texture, in, s, t, &lod);
+    return lod;
 }
 
 /* Level of detail of a texture of which a sprite shows `width` x `height`, in texture coordinates: s + width st[0] / 2,

@@ -379,9 +379,7 @@ void lom_run_chunk(struct lom_pass *pass, struct lom_chunk *chunk, struct lom_as
     if (chunk->failed || !draw->rasterizes)
         return;
     chunk->row_count = chunk->vertex_count;
-    if (chunk->parts != NULL)
-        lom_shade_parts(pass, chunk);
-    else if (!draw->expands)
+    if (!draw->expands)
         lom_stages_of(draw->variant)->shade_vertices(pass, chunk);
     if (draw->sprites)
         lom_set_up_sprites(pass, chunk);

@@ -263,6 +263,7 @@ static __attribute__((noinline)) void shade_plainly(struct lom_tile *tile, const
     const struct lom_chunk *chunk = tile->chunk;
     const lom_shader *shader = tile->draw->desc.shader;
     lom_varyings in;
+    in.levels = NULL;
     LOM_RECORD_HOOK(lom_record_packet, tile, packet);
     if (shader->reads != 0 || shader->reads_position) {
         struct rows rows;

@@ -18,7 +18,7 @@ enum { VALUE = 0, DELTA1, DELTA2, LOWEST, HIGHEST, VALUE_WORDS = LIST_VALUE };
 struct values {
     const float *words;
     lom_int which;
-    const struct lom_facet *facet; /* NULL: slots */
+    struct lom_facet *facet; /* NULL: slots */
 };
 
 LOM_INLINE lom_float load_value(const struct values *v, int word)
@@ -41,15 +41,18 @@ LOM_INLINE bool is_whole(const struct values *v, lom_float sum)
 LOM_INLINE struct weights find_weights(const struct values *v, const lom_float l[3], bool quads)
 {
     struct weights w;
-    for (int k = 0; k < 3; k++)
-        w.one_over_w[k] = load_value(v, ONE_OVER_W + k);
-    lom_float p1 = l[1] * w.one_over_w[1], p2 = l[2] * w.one_over_w[2];
-    w.sum = l[0] * w.one_over_w[0] + p1 + p2;
+    bool level = v->facet != NULL && v->facet->level; /* 1/w is 1 */
+    lom_float p[3];
+    for (int k = 0; k < 3; k++) {
+        w.one_over_w[k] = level ? lom_splat(1.0f) : load_value(v, ONE_OVER_W + k);
+        p[k] = level ? l[k] : l[k] * w.one_over_w[k];
+    }
+    w.sum = p[0] + p[1] + p[2];
     if (quads) /* helpers lie outside the triangle, where 1/w may pass through 0 */
         w.sum = lom_max(w.sum, lom_min(w.one_over_w[0], lom_min(w.one_over_w[1], w.one_over_w[2])));
     w.whole = is_whole(v, w.sum);
-    w.b1 = w.whole ? p1 : p1 / w.sum;
-    w.b2 = w.whole ? p2 : p2 / w.sum;
+    w.b1 = w.whole ? p[1] : p[1] / w.sum;
+    w.b2 = w.whole ? p[2] : p[2] / w.sum;
     return w;
 }
 
@@ -127,6 +130,7 @@ LOM_INLINE void find_varyings(const struct values *v, const lom_shader *shader, 
     if (shader->differentiates != 0 && v->facet != NULL) {
         find_slope_of_facet(v->facet, 0, &w, in->dx);
         find_slope_of_facet(v->facet, 1, &w, in->dy);
+        in->levels = w.whole ? &v->facet->levels : NULL;
     } else if (shader->differentiates != 0) {
         find_slope(load_value(v, STEPS), load_value(v, STEPS + 2), &w, in->dx);
         find_slope(load_value(v, STEPS + 1), load_value(v, STEPS + 3), &w, in->dy);
@@ -165,9 +169,7 @@ static float greater(float a, float b)
 
 static bool is_negative_zero(float x)
 {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits == UINT32_C(1) << 31;
+    return x == 0 && __builtin_signbit(x);
 }
 
 /* What the slopes of the weights are made of. Where all 1/w are 1 the sums are 0, and k - b 0 is k: b is finite where a
@@ -225,6 +227,8 @@ static __attribute__((noinline)) void fill_facet(struct lom_tile *tile, const lo
     lom_find_triangle(tile->chunk, p, &t);
     facet->primitive = p;
     facet->varies = 0;
+    facet->levels.count = 0;
+    in->levels = NULL;
     for (int k = 0; k < 3; k++) {
         row[k] = tile->chunk->rows + p->row[k] + ROW_HEADER;
         to[ONE_OVER_W + k] = row[k][-1];
@@ -381,6 +385,7 @@ void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, co
     const lom_shader *shader = tile->draw->desc.shader;
     const struct values values = { tile->list.value + p->first, p->which, NULL };
     lom_varyings in;
+    in.levels = NULL;
     find_varyings(&values, shader, packet, false, &in);
     if (shader->reads_position) {
         in.x = lom_to_float((p->code >> CODE_X & 63) + tile->x) + 0.5f;

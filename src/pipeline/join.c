@@ -112,19 +112,13 @@ bool lom_choose_parts(const struct lom_room *room, struct lom_chunk *chunk)
     return true;
 }
 
-/* In their order: packets write past the rows of the part at hand. */
-void lom_shade_parts(const struct lom_pass *pass, struct lom_chunk *chunk)
+void lom_begin_part(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i)
 {
-    const size_t rows = chunk->vertex_count;
-    for (size_t i = 0; i < chunk->part_count; i++) {
-        const struct lom_part *part = &chunk->parts[i];
-        chunk->uniforms = lom_uniforms_of_part(pass, chunk, i);
-        chunk->vertex_base = part->base;
-        chunk->vertex_count = part->vertices;
-        chunk->first_row = part->row;
-        lom_stages_of(chunk->draw->variant)->shade_vertices(pass, chunk);
-    }
-    chunk->vertex_count = rows;
+    const struct lom_part *part = &chunk->parts[i];
+    chunk->uniforms = lom_uniforms_of_part(pass, chunk, i);
+    chunk->vertex_base = part->base;
+    chunk->vertex_count = part->vertices;
+    chunk->first_row = part->row;
 }
 
 void lom_end_parts(struct lom_chunk *chunk)

@@ -40,6 +40,8 @@ struct large {
     struct lom_edges edges;
     struct tile_edge k[3];
     lom_double offset[2][PARTS]; /* edge functions 1 and 2 of a window's pixels less that of its first, exact */
+    lom_int steps[2][PARTS];     /* the same in int32, where that holds the area */
+    bool narrow;
     bool needs_weights;
     bool shades; /* whole windows are packets of which nothing is tested */
     bool fills;  /* whole windows can be filled with the draw's constant colour */
@@ -106,6 +108,16 @@ LOM_INLINE void weigh(const struct large *g, const struct window_edges *w, int p
     l[2] = __builtin_convertvector(e2, lom_float) * g->triangle->inverse_area;
 }
 
+/* The same of a whole window of a narrow triangle: inside of it no edge function is above the area. Turned to float an
+ * exact integer is rounded once, whether by int32 or by double. */
+LOM_INLINE void weigh_narrow(const struct large *g, const lom_int start[2], int part, lom_float l[3])
+{
+    lom_int e1 = g->steps[0][part] + start[0], e2 = g->steps[1][part] + start[1];
+    l[0] = lom_to_float((int32_t)g->edges.area - e1 - e2) * g->triangle->inverse_area;
+    l[1] = lom_to_float(e1) * g->triangle->inverse_area;
+    l[2] = lom_to_float(e2) * g->triangle->inverse_area;
+}
+
 /* The window at (x, y) of the tile. */
 static void raster_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y, bool full)
 {
@@ -136,11 +148,19 @@ static void raster_large_window(struct lom_tile *tile, const struct large *g, in
 /* What raster_large_window does of a whole window with g->shades. */
 static void shade_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y)
 {
-    struct window_edges w = edges_of_window(&g->edges, x, y);
+    const struct lom_edges *e = &g->edges;
     lom_float l[PARTS][3];
     tile->fragments += 16;
-    for (int part = 0; part < PARTS; part++)
-        weigh(g, &w, part, l[part]);
+    if (g->narrow) {
+        const lom_int start[2] = { lom_splat_int((int32_t)(e->start[1] + e->dx[1] * x + e->dy[1] * y)),
+                                   lom_splat_int((int32_t)(e->start[2] + e->dx[2] * x + e->dy[2] * y)) };
+        for (int part = 0; part < PARTS; part++)
+            weigh_narrow(g, start, part, l[part]);
+    } else {
+        struct window_edges w = edges_of_window(e, x, y);
+        for (int part = 0; part < PARTS; part++)
+            weigh(g, &w, part, l[part]);
+    }
     LOM_WIDE(lom_shade_window)(tile, number, memory_index(tile, x, y), l);
 }
 
@@ -158,6 +178,15 @@ static bool shades(const struct lom_tile *tile, const lom_primitive *p)
            !draw->queues_depth && !draw->biased && p->state >> TRIANGLE_CLIP == 0 && !tile->pass->one_by_one;
 }
 
+/* Whether int32 holds the area and three steps, which a window has, of edge functions 1 and 2. */
+static bool is_narrow(const struct lom_edges *e)
+{
+    bool fits = e->area <= INT32_MAX;
+    for (int i = 1; i < 3; i++)
+        fits &= e->dx[i] < 1 << 28 && e->dx[i] > -(1 << 28) && e->dy[i] < 1 << 28 && e->dy[i] > -(1 << 28);
+    return fits;
+}
+
 /* False when the triangle does not touch the tile. */
 static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struct large *g)
 {
@@ -173,10 +202,13 @@ static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struc
     g->needs_weights = t->primitive.state >> TRIANGLE_CLIP != 0 || tile->depth != NULL || !draw->constant;
     g->fills = fills(tile, &t->primitive);
     g->shades = shades(tile, &t->primitive);
+    g->narrow = is_narrow(&g->edges);
     for (int part = 0; part < PARTS && g->needs_weights; part++) {
         lom_double x = lom_to_double(lane_x(part)), y = lom_to_double(lane_y(part));
         g->offset[0][part] = x * (double)g->edges.dx[1] + y * (double)g->edges.dy[1];
         g->offset[1][part] = x * (double)g->edges.dx[2] + y * (double)g->edges.dy[2];
+        for (int i = 0; i < 2 && g->narrow; i++)
+            g->steps[i][part] = lane_x(part) * (int32_t)g->edges.dx[i + 1] + lane_y(part) * (int32_t)g->edges.dy[i + 1];
     }
     return true;
 }

@@ -47,6 +47,7 @@ static void begin_sprite(const struct lom_tile *tile, const lom_primitive *p, st
     const lom_triangle *t = &sprite->record;
     lom_varyings *in = &sprite->in;
     int32_t middle[2];
+    in->levels = NULL;
     memcpy(middle, row, sizeof middle);
     lom_find_sprite(tile->chunk, p, &sprite->record);
     sprite->shape = shape_of(tile->draw);

@@ -307,10 +307,11 @@ void lom_raise_room(struct lom_room *room, const struct lom_pass *pass, const st
 size_t lom_triangles_of_run(const lom_clusters *clusters, const struct lom_run *run);
 bool lom_gather_clusters(struct lom_chunk *chunk, uint32_t *low, uint32_t *high);
 
-/* The vertices of a chunk of several calls, as lom_choose_vertices chooses those of one; shades them; finds where the calls'
- * primitives end, of which none was clipped. The uniforms of part i. */
+/* The vertices of a chunk of several calls, as lom_choose_vertices chooses those of one; makes those of part i the ones at
+ * hand, in order, since packets write past their rows; finds where the calls' primitives end, of which none was clipped.
+ * The uniforms of part i. */
 bool lom_choose_parts(const struct lom_room *room, struct lom_chunk *chunk);
-void lom_shade_parts(const struct lom_pass *pass, struct lom_chunk *chunk);
+void lom_begin_part(const struct lom_pass *pass, struct lom_chunk *chunk, size_t i);
 void lom_end_parts(struct lom_chunk *chunk);
 const void *lom_uniforms_of_part(const struct lom_pass *pass, const struct lom_chunk *chunk, size_t i);
 

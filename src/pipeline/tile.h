@@ -62,6 +62,18 @@ struct lom_strips {
     int32_t end[LIST_TRIANGLES];
 };
 
+/* Levels of detail that were found for a packet of a triangle and hold for its others: of a texture by two varyings, one
+ * number for all lanes. */
+enum { KNOWN_LEVELS = 4 };
+struct lom_known_levels {
+    int count;
+    struct lom_known_level {
+        const lom_texture *texture;
+        int s, t;
+        float lod;
+    } of[KNOWN_LEVELS];
+};
+
 /* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). What is the same for all of
  * them waits in the varyings that its packets give to shaders: those which do not vary, and all differences. */
 enum { LARGEST_VARYINGS = 64 * (3 * LOM_MAX_VARYINGS + 16) }; /* bytes of lom_varyings at 16 lanes, at most */
@@ -70,6 +82,7 @@ struct lom_facet {
     uint32_t varies;                /* varyings that are not the same at all vertices, a bit each */
     bool level;                     /* 1/w is 1 at all vertices: slopes are the steps over the sum of the weights */
     float slope[2][3];              /* along x and y: of l1 / w1, of l2 / w2, of the sum */
+    struct lom_known_levels levels; /* with slopes that are those alone */
     float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
     _Alignas(64) unsigned char varyings[LARGEST_VARYINGS];
 };

@@ -258,10 +258,36 @@ __attribute__((noinline)) static void keep(const struct lom_chunk *chunk, size_t
     store_vertex(chunk->draw, chunk->kept_rows + first * (size_t)chunk->draw->stage_pitch, vertex);
 }
 
-void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk)
+/* The vertices at hand. */
+static void shade_range(const struct lom_pass *pass, struct lom_chunk *chunk, const lom_attribute *attributes,
+                        lom_attributes *in, lom_vertex *vertex)
 {
     const struct lom_draw *draw = chunk->draw;
     lom_vertex_function *shade = draw->desc.shader->vertex[draw->variant];
+    for (size_t first = 0; first < chunk->vertex_count; first += LOM_LANES) {
+        if (chunk->needed != NULL && !chunk->needed[first / NEEDED_VERTICES])
+            continue;
+        if (__builtin_expect(chunk->made_rows != NULL, 0))
+            take_made(chunk, first, vertex);
+        else {
+            chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
+            struct numbers n = find_numbers(chunk, first);
+            memcpy(&in->vertex, n.number, sizeof n.number);
+            fetch(attributes, draw->desc.shader->attributes, &n, in);
+            vertex->point_size = lom_splat(1);
+            LOM_RECORD_HOOK(lom_record_attributes, in, draw->desc.shader->attributes);
+            shade(vertex, in, chunk->uniforms);
+        }
+        if (__builtin_expect(chunk->kept_rows != NULL, 0))
+            keep(chunk, first, vertex);
+        else
+            write_packet(pass, chunk, chunk->first_row + first, vertex);
+    }
+}
+
+void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk *chunk)
+{
+    const struct lom_draw *draw = chunk->draw;
     lom_vertex vertex;
     lom_attributes in;
     lom_attribute own[LOM_MAX_ATTRIBUTES];
@@ -271,23 +297,10 @@ void LOM_WIDE(lom_shade_vertices)(const struct lom_pass *pass, struct lom_chunk 
     memset(&vertex, 0, sizeof vertex);
     memset(&in, 0, sizeof in);
     in.instance = lom_splat_int(chunk->instance);
-    for (size_t first = 0; first < chunk->vertex_count; first += LOM_LANES) {
-        if (chunk->needed != NULL && !chunk->needed[first / NEEDED_VERTICES])
-            continue;
-        if (__builtin_expect(chunk->made_rows != NULL, 0))
-            take_made(chunk, first, &vertex);
-        else {
-            chunk->vertices_shaded += chunk->vertex_count - first < LOM_LANES ? chunk->vertex_count - first : LOM_LANES;
-            struct numbers n = find_numbers(chunk, first);
-            memcpy(&in.vertex, n.number, sizeof n.number);
-            fetch(attributes, draw->desc.shader->attributes, &n, &in);
-            vertex.point_size = lom_splat(1);
-            LOM_RECORD_HOOK(lom_record_attributes, &in, draw->desc.shader->attributes);
-            shade(&vertex, &in, chunk->uniforms);
-        }
-        if (__builtin_expect(chunk->kept_rows != NULL, 0))
-            keep(chunk, first, &vertex);
-        else
-            write_packet(pass, chunk, chunk->first_row + first, &vertex);
+    const size_t parts = chunk->parts != NULL ? chunk->part_count : 1;
+    for (size_t part = 0; part < parts; part++) {
+        if (chunk->parts != NULL)
+            lom_begin_part(pass, chunk, part);
+        shade_range(pass, chunk, attributes, &in, &vertex);
     }
 }

@@ -29,6 +29,18 @@ static void show_quads(lom_fragment *out, const lom_varyings *in, const void *un
     out->color[0] = (lom_float4){ x + in->w * 0x1p-4f, y + in->varying[1], in->z, in->varying[4] };
 }
 
+/* Levels of more pairs of varyings than a triangle keeps, one twice, and of two textures. */
+static void show_levels(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    lom_texture *const *texture = uniforms;
+    lom_float sum = lom_lod(texture[0], in, 0, 1) + lom_lod(texture[1], in, 0, 1) + lom_lod(texture[0], in, 1, 0) +
+                    lom_lod(texture[0], in, 2, 3) + lom_lod(texture[0], in, 0, 3) + lom_lod(texture[1], in, 3, 1);
+    lom_float4 texel = lom_sample(texture[0], in->varying[0], in->varying[1], lom_lod(texture[0], in, 0, 1));
+    out->color[0] = (lom_float4){ texel.x, sum * 0x1p-6f, lom_lod(texture[1], in, 3, 1) * 0x1p-3f, texel.w };
+}
+
+LOM_SHADER(levels, place_values, show_levels, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
+           .differentiates = LOM_VARYINGS(0, 4), .colors = 1, .uniforms_size = 2 * sizeof(lom_texture *))
 LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 LOM_SHADER(everything, place, show_all, .attributes = 4, .varyings = 5, .clip_distances = 1,
            .reads = LOM_VARYINGS(0, 5), .differentiates = 1u << 1, .flat = 1u << 4, .reads_position = true,
@@ -73,20 +85,36 @@ static uint64_t draw_heap(stage *s, const lom_draw_desc *draw, int samples)
     return lom_device_counters(s->device).fragments - before;
 }
 
+static lom_texture *make_texture(int size)
+{
+    static uint8_t pixels[64 * 64 * 4];
+    for (size_t i = 0; i < sizeof pixels; i++)
+        pixels[i] = (uint8_t)random_whole(0, 255);
+    const lom_texture_desc desc = { .width = size,
+                                    .height = size,
+                                    .format = LOM_FORMAT_RGBA8,
+                                    .pixels = pixels,
+                                    .mips = LOM_MIPS_ALL,
+                                    .sampler = { .filtering = LOM_FILTERING_FIXED } };
+    return lom_create_texture(&desc, NULL);
+}
+
 static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth, int samples)
 {
-    static const lom_shader *const shaders[] = { &values, &everything, &early, &depth_only, &quads };
+    static const lom_shader *const shaders[] = { &values, &everything, &early, &depth_only, &quads, &levels };
+    lom_texture *const textures[2] = { make_texture(64), make_texture(16) };
     stage alone = open_stage(desc, WIDTH, HEIGHT, color, depth), packed = open_stage(desc, WIDTH, HEIGHT, color, depth);
     alone.device->one_by_one = true;
     for (int compare = LOM_COMPARE_DEFAULT; compare <= LOM_COMPARE_ALWAYS; compare++)
-        for (int kind = 0; kind < 10; kind++) {
+        for (int kind = 0; kind < 12; kind++) {
             make_heap();
-            lom_draw_desc draw = draw_of(shaders[kind % 5], vertices, 3 * TRIANGLES);
+            lom_draw_desc draw = draw_of(shaders[kind % 6], vertices, 3 * TRIANGLES);
             draw.depth_compare = (lom_compare)compare;
-            draw.depth_write_off = compare % 3 == 0 && kind >= 5;
-            draw.blend[0] = kind >= 5 ? adding() : (lom_blend){ .enabled = false };
+            draw.uniforms = textures;
+            draw.depth_write_off = compare % 3 == 0 && kind >= 6;
+            draw.blend[0] = kind >= 6 ? adding() : (lom_blend){ .enabled = false };
             draw.cull = (lom_cull)(compare % 3);
-            if (kind == 6)
+            if (kind == 7)
                 draw.scissor = (lom_rect){ 31, 17, 83, 54 };
             uint64_t fragments[2] = { draw_heap(&alone, &draw, samples), draw_heap(&packed, &draw, samples) };
             CHECK(same_images(alone.image, packed.image), "compare %d, kind %d, tile %d, format %d", compare, kind,
@@ -98,6 +126,8 @@ static void heaps_in(lom_device_desc desc, lom_format color, lom_format depth, i
         }
     close_stage(&alone);
     close_stage(&packed);
+    lom_free_texture(textures[0]);
+    lom_free_texture(textures[1]);
 }
 
 static void packed_triangles_end_as_those_drawn_one_by_one(void)
