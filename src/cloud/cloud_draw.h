@@ -72,11 +72,11 @@ struct lom_cloud_set {
     float *jitter;                        /* LOM_BLUE_NOISE^2 numbers in ]0, 1[ */
 };
 
-/* Makes or reads the volumes of the visible clouds. *loaded is NULL when there are none, or the model is off. What the
+/* Makes or reads the volumes of the visible clouds, by all workers of the device (NULL: by the caller). *loaded is NULL when there are none, or the model is off. What the
  * set before (NULL: none), whose scene is still there and has the same filtering, holds of what is needed is shared with
  * it: until lom_part_cloud_sets neither may be drawn or freed. */
 bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                        const struct lom_cloud_quality *quality, const struct lom_cloud_set *before,
+                        const struct lom_cloud_quality *quality, const struct lom_cloud_set *before, lom_device *device,
                         struct lom_cloud_set **loaded, lom_error *error);
 void lom_free_cloud_set(struct lom_cloud_set *set);
 /* The points of a cloud's transfer function; how many. */

@@ -1,10 +1,12 @@
 /* The clouds of a scene, loaded. In: the [[cloud]] tables. Out: a medium for each different volume, a grid of light for
  * each cloud, the noise and the jitter they share; what a set that was loaded before has of it is taken from there.
  * Invariant: clouds of one kind, seed and size of volume share one density. */
+#include "base/pass_error.h"
 #include "cloud/cloud_draw.h"
 #include "cloud/cloud_layers.h"
 #include "cloud/cloud_sprites.h"
 #include "cloud/detail_noise.h"
+#include "pipeline/share_work.h"
 
 #include <string.h>
 
@@ -62,23 +64,55 @@ static struct lom_cloud_density *held_density(const struct lom_cloud_set *set, c
     return NULL;
 }
 
-static const struct lom_cloud_density *find_density(struct lom_cloud_set *set, const struct lom_cloud_set *before,
-                                                    const lom_cloud *cloud, lom_error *error)
+/* What workers make of a set, a density or a light each, and what became of them. */
+struct making {
+    struct lom_cloud_set *set;
+    lom_error *failed;
+};
+
+/* By all workers of the device; NULL: by the caller. The first that failed counts. */
+static bool make_all(struct lom_cloud_set *set, size_t count, lom_device *device, lom_range_work *work,
+                     lom_error *error)
 {
-    struct lom_cloud_density *density = held_density(set, cloud);
-    const struct lom_cloud_density *shared = held_density(before, cloud);
-    if (density != NULL)
-        return density;
-    density = &set->densities[set->density_count++];
-    if (shared != NULL)
-        *density = *shared;
-    density->source = cloud;
-    if (shared != NULL)
-        return density;
-    density->image = load_image(cloud, error);
-    if (density->image != NULL)
-        density->medium = lom_create_medium(density->image, error);
-    return density->medium != NULL ? density : NULL;
+    struct making m = { set, lom_allocate(count, sizeof *m.failed, error) };
+    bool done = m.failed != NULL;
+    if (done && device != NULL)
+        lom_share_work(device, count, 1, work, &m);
+    else if (done)
+        work(&m, 0, count);
+    for (size_t i = 0; done && i < count; i++)
+        done = lom_pass_error(&m.failed[i], error);
+    lom_release(m.failed);
+    return done;
+}
+
+static void make_densities(void *context, size_t first, size_t end)
+{
+    const struct making *m = context;
+    for (size_t i = first; i < end; i++) {
+        struct lom_cloud_density *density = &m->set->densities[i];
+        if (density->image != NULL)
+            continue;
+        density->image = load_image(density->source, &m->failed[i]);
+        if (density->image != NULL)
+            density->medium = lom_create_medium(density->image, &m->failed[i]);
+    }
+}
+
+/* Each different one, or that of the set before. */
+static bool load_densities(struct lom_cloud_set *set, const struct lom_cloud_set *before, const lom_cloud *clouds,
+                           size_t count, lom_device *device, lom_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!clouds[i].visible || held_density(set, &clouds[i]) != NULL)
+            continue;
+        const struct lom_cloud_density *shared = held_density(before, &clouds[i]);
+        struct lom_cloud_density *density = &set->densities[set->density_count++];
+        if (shared != NULL)
+            *density = *shared;
+        density->source = &clouds[i];
+    }
+    return make_all(set, set->density_count, device, make_densities, error);
 }
 
 /* What marching makes of a density on average: the mean of the noise eats into it, and a transfer function thins it. */
@@ -132,17 +166,24 @@ static lom_light_grid *share_light(const struct lom_cloud_set *set, const struct
     return NULL;
 }
 
-static bool make_light(const struct lom_cloud_set *set, struct lom_placed_cloud *placed, lom_error *error)
+static void make_light(const struct lom_cloud_set *set, struct lom_placed_cloud *placed, lom_error *error)
 {
     const lom_cloud *cloud = placed->cloud;
     float eroded[256];
     fill_erosion(set, placed, eroded);
     placed->light = lom_create_light_grid(placed->density->image, set->quality.light_scale, eroded, error);
     if (placed->light == NULL)
-        return false;
+        return;
     const float size[3] = { (float)cloud->size[0], (float)cloud->size[1], (float)cloud->size[2] };
     lom_sweep_sky(placed->light, size, extinction_of(cloud));
-    return true;
+}
+
+static void make_lights(void *context, size_t first, size_t end)
+{
+    const struct making *m = context;
+    for (size_t i = first; i < end; i++)
+        if (m->set->clouds[i].light == NULL)
+            make_light(m->set, &m->set->clouds[i], &m->failed[i]);
 }
 
 size_t lom_cloud_transfer_points(const lom_cloud *cloud, lom_transfer_point points[LOM_MAX_TRANSFER])
@@ -173,12 +214,14 @@ static bool place_cloud(struct lom_cloud_set *set, const struct lom_cloud_set *b
                                          .detail = cloud->detail,
                                          .axes = { { c, 0, -s }, { 0, 1, 0 }, { s, 0, c } } };
     placed->middle.y += cloud->size[1] / 2;
-    placed->density = find_density(set, before, cloud, error);
-    if (placed->density == NULL || !make_transfer(placed, error))
-        return false;
+    placed->density = held_density(set, cloud);
     placed->light = share_light(set, before, placed);
-    if (placed->light == NULL && !make_light(set, placed, error))
-        return false;
+    return make_transfer(placed, error);
+}
+
+/* What the model shows of it in place of its volume. */
+static bool make_pictures(const struct lom_cloud_set *set, struct lom_placed_cloud *placed, lom_error *error)
+{
     if (set->quality.model == LOM_CLOUDS_LAYERS) {
         placed->sheet = lom_make_cloud_sheet(placed, error);
         return placed->sheet != NULL;
@@ -186,6 +229,19 @@ static bool place_cloud(struct lom_cloud_set *set, const struct lom_cloud_set *b
     if (lom_has_cloud_sprites(set->quality.model))
         placed->sprites = lom_make_cloud_sprites(placed, set->quality.model, set->mean_opacity, error);
     return placed->sprites != NULL || !lom_has_cloud_sprites(set->quality.model);
+}
+
+static bool load_clouds(struct lom_cloud_set *set, const struct lom_cloud_set *before, const lom_cloud *clouds,
+                        size_t count, lom_device *device, lom_error *error)
+{
+    bool done = load_densities(set, before, clouds, count, device, error);
+    for (size_t i = 0; done && i < count; i++)
+        if (clouds[i].visible)
+            done = place_cloud(set, before, &clouds[i], error);
+    done = done && make_all(set, set->count, device, make_lights, error);
+    for (size_t i = 0; done && i < set->count; i++)
+        done = make_pictures(set, &set->clouds[i], error);
+    return done;
 }
 
 /* The mean of a picture's last channel, in parts of 255. */
@@ -289,7 +345,7 @@ void lom_part_cloud_sets(const struct lom_cloud_set *owner, struct lom_cloud_set
 }
 
 bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds *params,
-                        const struct lom_cloud_quality *quality, const struct lom_cloud_set *before,
+                        const struct lom_cloud_quality *quality, const struct lom_cloud_set *before, lom_device *device,
                         struct lom_cloud_set **loaded, lom_error *error)
 {
     size_t visible = 0;
@@ -308,10 +364,8 @@ bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds 
     set->sorting = lom_allocate(visible, 3 * sizeof *set->sorting, error);
     set->others = lom_allocate(visible, sizeof *set->others, error);
     bool done = set->densities != NULL && set->clouds != NULL && set->order != NULL && set->sorting != NULL &&
-                set->others != NULL && load_shared(set, before, error);
-    for (size_t i = 0; done && i < count; i++)
-        if (clouds[i].visible)
-            done = place_cloud(set, before, &clouds[i], error);
+                set->others != NULL && load_shared(set, before, error) &&
+                load_clouds(set, before, clouds, count, device, error);
     if (done) {
         *loaded = set;
         return true;

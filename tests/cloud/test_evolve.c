@@ -27,7 +27,7 @@ static void load_set(void)
                                  .detail_size = 50,
                                  .visible = true };
     const struct lom_cloud_quality quality = { .error = 0.05, .stop = 0.004, .light_scale = 0.5, .octaves = 4 };
-    CHECK(lom_load_cloud_set(clouds, CLOUDS, &params, &quality, NULL, &set, &error) && set->count == CLOUDS, "%s",
+    CHECK(lom_load_cloud_set(clouds, CLOUDS, &params, &quality, NULL, NULL, &set, &error) && set->count == CLOUDS, "%s",
           error.text);
 }
 

@@ -374,7 +374,7 @@ static struct lom_cloud_set *load(lom_cloud clouds[], size_t count, const lom_cl
     }
     lom_error error = { 0 };
     struct lom_cloud_set *set;
-    CHECK(lom_load_cloud_set(clouds, count, params, &quality, NULL, &set, &error), "%s", error.text);
+    CHECK(lom_load_cloud_set(clouds, count, params, &quality, NULL, NULL, &set, &error), "%s", error.text);
     return set;
 }
 

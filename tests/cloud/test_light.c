@@ -67,7 +67,7 @@ static void clouds_shadow_what_lies_behind_them(void)
         beside[(axis + 1) % 3] = 130;
         lom_cloud clouds[3] = { cloud_at(0, 0, 0), cloud_at(behind[0], behind[1], behind[2]),
                                 cloud_at(beside[0], beside[1], beside[2]) };
-        CHECK(lom_load_cloud_set(clouds, 3, &params, &quality, NULL, &set, &error) && set->count == 3, "%s",
+        CHECK(lom_load_cloud_set(clouds, 3, &params, &quality, NULL, NULL, &set, &error) && set->count == 3, "%s",
               error.text);
         CHECK(lom_light_clouds(set, light, &swept, &error) && swept == 3, "%d were swept: %s", swept, error.text);
         double shadowed = share(set, 0) / share(set, 1), depth = 0.05 * 100;
@@ -91,7 +91,8 @@ static void files_are_read_once(void)
     clouds[2].file = solid[1];
     clouds[3].file = NULL;
     clouds[3].kind = "cumulus_humilis";
-    CHECK(lom_load_cloud_set(clouds, 4, &params, &quality, NULL, &set, &error) && set->count == 4, "%s", error.text);
+    CHECK(lom_load_cloud_set(clouds, 4, &params, &quality, NULL, NULL, &set, &error) && set->count == 4, "%s",
+          error.text);
     CHECK(set->density_count == 3 && set->clouds[0].density == set->clouds[1].density &&
               set->clouds[0].density != set->clouds[2].density && set->clouds[0].density != set->clouds[3].density,
           "%zu densities", set->density_count);

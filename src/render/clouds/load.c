@@ -19,8 +19,8 @@ bool lom_load_clouds(lom_renderer *renderer, lom_error *error)
     const lom_scene *scene = renderer->scene;
     const struct lom_cloud_quality quality = quality_of(&scene->quality);
     const struct lom_cloud_set *before = renderer->before != NULL ? renderer->before->clouds.set : NULL;
-    return lom_load_cloud_set(scene->cloud, scene->cloud_count, &scene->clouds, &quality, before, &renderer->clouds.set,
-                              error);
+    return lom_load_cloud_set(scene->cloud, scene->cloud_count, &scene->clouds, &quality, before, renderer->device,
+                              &renderer->clouds.set, error);
 }
 
 void lom_free_clouds(lom_renderer *renderer)
