@@ -1,5 +1,5 @@
 /* Maps of surf. In: depths, a period, a height, a direction. Out: phases, wave vectors, heights, shapes. Invariant: a
- * function of the description alone: sweeps of fixed order and number. */
+ * function of the description alone: sweeps of a fixed order, until one changes nothing, and no more than a fixed number. */
 #include "base/numbers.h"
 #include "waves/surf_work.h"
 
@@ -23,11 +23,17 @@ double lom_wave_number(double frequency, double depth)
     return x / depth;
 }
 
-double lom_group_velocity(double frequency, double depth)
+/* Of a known wave number. */
+static double group_velocity_of(double frequency, double k, double depth)
 {
-    double k = lom_wave_number(frequency, depth), x = 2 * k * depth;
+    double x = 2 * k * depth;
     double ratio = x > 600 ? 0 : x < 1e-8 ? 1 : x / lom_double_sinh(x);
     return frequency / k * (1 + ratio) / 2;
+}
+
+double lom_group_velocity(double frequency, double depth)
+{
+    return group_velocity_of(frequency, lom_wave_number(frequency, depth), depth);
 }
 
 /* ---- depths ---- */
@@ -52,7 +58,7 @@ static void find_numbers(struct surf *s)
     for (int i = 0; i < s->width * s->height; i++) {
         double depth = lom_larger(s->depth[i], s->shallowest);
         s->number[i] = lom_wave_number(s->frequency, depth);
-        s->speed[i] = lom_group_velocity(s->frequency, depth);
+        s->speed[i] = group_velocity_of(s->frequency, s->number[i], depth);
     }
 }
 
@@ -113,7 +119,7 @@ static bool is_beside(const struct surf *s, int x, int y)
 
 /* There the bed goes on outside as it is inside: the phase keeps its run along the edge (Snell's law), the rest of k is
  * across. */
-static void solve_beside(struct surf *s, int x, int y)
+static bool solve_beside(struct surf *s, int x, int y)
 {
     const int i = y * s->width + x, main = s->edge < 2 ? 0 : 1;
     const int at = main == 0 ? x : y, last = (main == 0 ? s->width : s->height) - 1;
@@ -122,24 +128,23 @@ static void solve_beside(struct surf *s, int x, int y)
     double rest = 1 - part * part, across = lom_double_sqrt(rest > 0.01 ? rest : 0.01);
     double t = before + across * s->number[i] * s->desc->spacing[main];
     if (!(t < s->phase[i]))
-        return;
+        return false;
     s->phase[i] = t;
     s->from[i][main] = side;
     s->from[i][1 - main] = 0;
     s->normal[i][main] = -side * across;
     s->normal[i][1 - main] = part;
+    return true;
 }
 
 /* Godunov's scheme: ((t - a) / hx)^2 + ((t - b) / hz)^2 = k^2 where both differences are positive, else one of them. */
-static void solve_phase(struct surf *s, int x, int y)
+static bool solve_phase(struct surf *s, int x, int y)
 {
     const double hx = s->desc->spacing[0], hz = s->desc->spacing[1];
     const int i = y * s->width + x;
     int8_t side[2];
-    if (is_beside(s, x, y)) {
-        solve_beside(s, x, y);
-        return;
-    }
+    if (is_beside(s, x, y))
+        return solve_beside(s, x, y);
     double a = upwind(s, x, s->width - 1, i, 1, &side[0]), b = upwind(s, y, s->height - 1, i, s->width, &side[1]);
     double k = s->number[i], t = a + k * hx < b + k * hz ? a + k * hx : b + k * hz;
     if (t > a && t > b) {
@@ -149,7 +154,7 @@ static void solve_phase(struct surf *s, int x, int y)
             t = (sum + lom_double_sqrt(root)) / (p + q);
     }
     if (!(t < s->phase[i]))
-        return;
+        return false;
     s->phase[i] = t;
     double nx = t > a ? (t - a) / hx : 0, nz = t > b ? (t - b) / hz : 0;
     double length = lom_double_sqrt(nx * nx + nz * nz);
@@ -157,6 +162,7 @@ static void solve_phase(struct surf *s, int x, int y)
     s->from[i][1] = nz > 0 ? side[1] : 0;
     s->normal[i][0] = -side[0] * nx / length;
     s->normal[i][1] = -side[1] * nz / length;
+    return true;
 }
 
 /* ---- energy ---- */
@@ -179,9 +185,11 @@ struct lom_surf_inflow lom_surf_inflow_of(const struct surf *s, int i)
 }
 
 /* What flows in from the cells that the wave comes from flows out again, less what breaking takes. */
-static void solve_flux(struct surf *s, int x, int y)
+static bool solve_flux(struct surf *s, int x, int y)
 {
     const int i = y * s->width + x;
+    const bool breaks = s->breaks[i];
+    const double before = s->flux[i];
     const struct lom_surf_inflow f = lom_surf_inflow_of(s, i);
     double depth = lom_larger(s->depth[i], s->shallowest), c = s->speed[i];
     double flux = f.out > 0 ? f.in / f.out : 0, stable = stable_ratio * depth, height = lom_double_sqrt(flux / c);
@@ -189,19 +197,29 @@ static void solve_flux(struct surf *s, int x, int y)
     if (s->breaks[i] && f.out > 0)
         flux = (f.in + decay / depth * stable * stable * c) / (f.out + decay / depth);
     s->flux[i] = s->depth[i] > -2 * s->shallowest ? flux : 0;
+    return s->breaks[i] != breaks || s->flux[i] != before;
 }
 
-void lom_sweep_surf(struct surf *s, void (*solve)(struct surf *s, int x, int y))
+/* One way over the grid; whether it changed anything. */
+static bool sweep(struct surf *s, int round, bool (*solve)(struct surf *s, int x, int y))
+{
+    bool changed = false;
+    for (int n = 0; n < s->height; n++) {
+        int y = round & 2 ? s->height - 1 - n : n;
+        for (int m = 0; m < s->width; m++) {
+            int x = round & 1 ? s->width - 1 - m : m;
+            if (!is_on_edge(s, x, y) && solve(s, x, y))
+                changed = true;
+        }
+    }
+    return changed;
+}
+
+void lom_sweep_surf(struct surf *s, bool (*solve)(struct surf *s, int x, int y))
 {
     for (int round = 0; round < 4 * ROUNDS; round++)
-        for (int n = 0; n < s->height; n++) {
-            int y = round & 2 ? s->height - 1 - n : n;
-            for (int m = 0; m < s->width; m++) {
-                int x = round & 1 ? s->width - 1 - m : m;
-                if (!is_on_edge(s, x, y))
-                    solve(s, x, y);
-            }
-        }
+        if (!sweep(s, round, solve))
+            return;
 }
 
 /* ---- shapes ---- */

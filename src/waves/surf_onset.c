@@ -79,27 +79,38 @@ static void mix_onsets(struct surf *s, int i, const int *neighbour, const double
     s->onset[i] = mean;
 }
 
+static bool are_same(const struct lom_surf_onset *a, const struct lom_surf_onset *b)
+{
+    bool same = a->known == b->known;
+    for (int v = 0; same && v < VALUES; v++)
+        same = a->value[v] == b->value[v];
+    return same;
+}
+
 /* On from where waves begin to break, the way they go. */
-static void solve_after(struct surf *s, int x, int y)
+static bool solve_after(struct surf *s, int x, int y)
 {
     const int i = y * s->width + x;
+    const struct lom_surf_onset before = s->onset[i];
     const struct lom_surf_inflow f = lom_surf_inflow_of(s, i);
     const int most = f.neighbour[f.part[1] > f.part[0] ? 1 : 0];
     if (s->breaks[i] && !f.breaks && f.out > 0 && f.in > 0)
         begin_breaking(s, x, y, &f);
     else if (s->onset[most].known == ON_THE_WAY) /* what breaks beside a ray does not break on it */
         mix_onsets(s, i, f.neighbour, f.part, 2, ON_THE_WAY);
+    return !are_same(&before, &s->onset[i]);
 }
 
 /* And back from there: from the neighbours to which a wave goes. */
-static void solve_before(struct surf *s, int x, int y)
+static bool solve_before(struct surf *s, int x, int y)
 {
+    const struct lom_surf_onset before = s->onset[y * s->width + x];
     const int i = y * s->width + x, at[2] = { x, y }, last[2] = { s->width - 1, s->height - 1 };
     const int step[2] = { 1, s->width };
     int neighbour[4], count = 0;
     double share[4];
     if (s->onset[i].known == ON_THE_WAY)
-        return;
+        return false;
     for (int a = 0; a < 2; a++)
         for (int side = -1; side <= 1; side += 2) {
             if (at[a] + side < 0 || at[a] + side > last[a])
@@ -110,6 +121,7 @@ static void solve_before(struct surf *s, int x, int y)
             count++;
         }
     mix_onsets(s, i, neighbour, share, count, AHEAD);
+    return !are_same(&before, &s->onset[i]);
 }
 
 /* ---- how much they plunge ---- */

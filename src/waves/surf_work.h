@@ -32,8 +32,9 @@ struct lom_surf_inflow lom_surf_inflow_of(const struct surf *s, int i);
 
 /* Waves do not feel what is much shorter than they are: [1 2 1] / 4 along both axes, twice. */
 void lom_smooth_surf(const struct surf *s, double *grid, double *scratch);
-/* Solves each cell but those of the edge, over and over, from each corner. */
-void lom_sweep_surf(struct surf *s, void (*solve)(struct surf *s, int x, int y));
+/* Solves each cell but those of the edge, over and over, from each corner, until none changes. `solve` says whether it
+ * changed its cell. */
+void lom_sweep_surf(struct surf *s, bool (*solve)(struct surf *s, int x, int y));
 
 /* surf_onset.c: fills map->curls from fluxes and phases that are solved. False when memory runs out. */
 bool lom_fill_surf_curls(struct surf *s, struct lom_surf_map *map, lom_error *error);
