@@ -183,13 +183,11 @@ void *lom_texel(const lom_texture *texture, int level, int x, int y, int layer)
 
 /* ---- what it holds ---- */
 
-static void store_pixels(lom_texture *texture, const lom_texture_desc *desc)
+const void *lom_pixels_of_level(const lom_texture_desc *desc, int level)
 {
-    if (desc->pixels != NULL)
-        lom_store_level(texture, 0, desc->pixels);
-    for (int i = 1; i < texture->level_count && desc->mips == LOM_MIPS_SUPPLIED; i++)
-        if (desc->level_pixels[i - 1] != NULL)
-            lom_store_level(texture, i, desc->level_pixels[i - 1]);
+    if (level == 0)
+        return desc->pixels;
+    return desc->mips == LOM_MIPS_SUPPLIED ? desc->level_pixels[level - 1] : NULL;
 }
 
 /* Room for decoded texels, which halve the time of a sample (bench/results/sampling.md): for textures made from pixels;
@@ -235,7 +233,6 @@ lom_texture *lom_begin_texture(const lom_texture_desc *asked, lom_error *error)
         lom_free_texture(texture);
         return NULL;
     }
-    store_pixels(texture, desc);
     prepare_decoded(texture, desc);
     return texture;
 }
@@ -245,6 +242,9 @@ lom_texture *lom_create_texture(const lom_texture_desc *desc, lom_error *error)
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_texture *texture = lom_begin_texture(desc, error);
+    for (int i = 0; texture != NULL && i < texture->level_count; i++)
+        if (lom_pixels_of_level(desc, i) != NULL)
+            lom_store_level(texture, i, lom_pixels_of_level(desc, i));
     if (texture != NULL)
         lom_finish_texture(texture);
     lom_leave_float_state(&state);

@@ -100,7 +100,9 @@ void lom_fill_face(lom_texture *texture, int level, int face);
 void lom_fill_slices(lom_texture *texture, int level);
 /* Texels `first` to `end` of texels[], of all levels and aprons, into `decoded`. */
 void lom_decode_texels(const lom_texture *texture, size_t first, size_t end);
-/* lom_create_texture without its last step, what is made of the pixels it was given: lom_finish_texture is still to come. */
+/* lom_create_texture without its last steps: the pixels that it is given for its levels, if any, are still to be stored,
+ * and then lom_finish_texture to come. */
 lom_texture *lom_begin_texture(const lom_texture_desc *desc, lom_error *error);
+const void *lom_pixels_of_level(const lom_texture_desc *desc, int level);
 
 #endif

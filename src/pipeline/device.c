@@ -172,6 +172,27 @@ lom_counters lom_device_counters(const lom_device *device)
     return device != NULL ? device->counters : (lom_counters){ .passes = 0 };
 }
 
+enum { ROWS = 64 }; /* of a texture that a worker stores at a time */
+
+struct update {
+    lom_texture *texture;
+    const void *pixels;
+    int level;
+};
+
+static void store_rows(void *context, size_t first, size_t end)
+{
+    const struct update *u = context;
+    lom_store_rows(u->texture, u->level, u->pixels, (int)first, (int)end);
+}
+
+static void store_level(lom_device *device, lom_texture *texture, int level, const void *pixels)
+{
+    struct update update = { texture, pixels, level };
+    size_t rows = (size_t)texture->level[level].height * (size_t)lom_level_layers(texture, level);
+    lom_share_work(device, rows, ROWS, store_rows, &update);
+}
+
 lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
 {
     if (!lom_check_device(device, NULL))
@@ -188,6 +209,9 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
     lom_float_state state;
     lom_enter_float_state(&state);
     lom_texture *texture = lom_begin_texture(&made, &device->error);
+    for (int i = 0; texture != NULL && i < texture->level_count; i++)
+        if (lom_pixels_of_level(&made, i) != NULL)
+            store_level(device, texture, i, lom_pixels_of_level(&made, i));
     if (texture != NULL)
         lom_finish_attachment(device, texture);
     lom_leave_float_state(&state);
@@ -196,19 +220,6 @@ lom_texture *lom_make_texture(lom_device *device, const lom_texture_desc *desc)
     texture->owner = device;
     device->textures[device->texture_count++] = texture;
     return texture;
-}
-
-enum { ROWS = 64 }; /* of a texture that a worker stores at a time */
-
-struct update {
-    lom_texture *texture;
-    const void *pixels;
-};
-
-static void store_rows(void *context, size_t first, size_t end)
-{
-    const struct update *u = context;
-    lom_store_rows(u->texture, 0, u->pixels, (int)first, (int)end);
 }
 
 bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pixels, size_t size)
@@ -223,8 +234,7 @@ bool lom_update_texture(lom_device *device, lom_texture *texture, const void *pi
         return false;
     lom_float_state state;
     lom_enter_float_state(&state);
-    size_t rows = (size_t)texture->level[0].height * (size_t)lom_level_layers(texture, 0);
-    lom_share_work(device, rows, ROWS, store_rows, &(struct update){ texture, pixels });
+    store_level(device, texture, 0, pixels);
     lom_forget_samples(texture);
     lom_finish_attachment(device, texture);
     lom_leave_float_state(&state);

@@ -5,10 +5,16 @@
 #include "pipeline/device.h"
 
 enum {
-    SHARED = 256 * 128, /* texels of a level that are worth a barrier */
-    PIECE = 1 << 14,    /* texels that a worker takes at a time */
+    SHARED = 1 << 16, /* instructions that are worth a barrier */
+    PIECE = 1 << 14,  /* texels that a worker decodes at a time */
     FACES = 6
 };
+
+/* About how many a texel of a level takes, of the one before. */
+static size_t cost_of(const lom_texture *texture)
+{
+    return texture->srgb ? 256 : texture->storage == LOM_STORAGE_RGBA8 ? 16 : 32;
+}
 
 /* A level and its slices from `layer` on. */
 struct finish {
@@ -44,12 +50,13 @@ static void finish_faces(void *context, size_t first, size_t end)
 static void finish_level(lom_device *device, struct finish *f, int count)
 {
     const lom_level *l = &f->texture->level[f->level];
-    const size_t rows = (size_t)l->height * (size_t)count, texels = (size_t)l->width * rows;
-    const bool is_cube = f->texture->kind == LOM_TEXTURE_CUBE, shares = texels >= SHARED;
+    const size_t rows = (size_t)l->height * (size_t)count, row = (size_t)l->width * cost_of(f->texture);
+    const bool is_cube = f->texture->kind == LOM_TEXTURE_CUBE;
     if (f->shrinks || !is_cube)
-        lom_share_out(device->pool, rows, shares && f->shrinks ? PIECE / (size_t)l->width + 1 : rows, finish_rows, f);
+        lom_share_out(device->pool, rows, f->shrinks && rows * row >= SHARED ? SHARED / 4 / row + 1 : rows, finish_rows,
+                      f);
     if (is_cube) {
-        lom_share_out(device->pool, FACES, shares ? 1 : FACES, finish_faces, f);
+        lom_share_out(device->pool, FACES, (size_t)l->width * FACES * 64 >= SHARED ? 1 : FACES, finish_faces, f);
         return;
     }
     for (int i = 0; i < count; i++)
