@@ -5,6 +5,7 @@
 
 enum { STEPS = 100 };
 static const float step_length = 0.0154f, most_cloud = 70; /* of the unit cube; of the reference's units */
+static const float most_opacity = 0.9f;                    /* where a ray stops */
 
 /* dynamicLight: the length of the way from a place to the box's face towards the light: of the six planes the nearest
  * one that lies ahead. */
@@ -44,6 +45,8 @@ static lom_float sample_gray(const struct lom_cloud_uniforms *cloud, lom_float3 
     return fixed_volume_all(cloud->original, &at, density).x;
 }
 
+/* Grays are averaged by what is left to the stop, or the mean would jump where one ray stops before the white of empty
+ * voxels and its neighbour does not. */
 static void original_fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_cloud_uniforms *cloud = uniforms;
@@ -64,13 +67,15 @@ static void original_fragment(lom_fragment *out, const lom_varyings *in, const v
         lom_float density, gray = sample_gray(cloud, p, &density);
         if (cloud->is_real_time)
             gray = dynamic_light(cloud, p, gray, before);
+        lom_float weight =
+            lom_as_float(lom_as_int(lom_max(1.0f - alpha * (1 / most_opacity), (lom_float){ 0 })) & counts);
+        color += gray * weight;
+        samples += weight;
         alpha += lom_as_float(lom_as_int(density * (5 / 100.0f)) & counts);
-        color += lom_as_float(lom_as_int(gray) & counts);
-        samples += lom_as_float(lom_as_int(lom_splat(1.0f)) & counts);
         before = lom_select(counts, density, before);
-        alive &= ~(alpha > 0.90f);
+        alive &= ~(alpha > most_opacity);
     }
-    lom_float gray = lom_saturate(color / lom_max(samples, lom_splat(1.0f))), opacity = lom_saturate(alpha);
+    lom_float gray = lom_saturate(color / lom_max(samples, lom_splat(1e-6f))), opacity = lom_saturate(alpha);
     lom_float3 seen = lom_scale3(lom_uniform3(cloud->sun), gray * opacity);
     out->color[0] = (lom_float4){ seen.x, seen.y, seen.z, opacity };
 }
