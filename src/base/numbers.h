@@ -34,6 +34,13 @@ static inline __attribute__((unused)) int lom_magnitude_int(int x)
     return x < 0 ? -x : x;
 }
 
+/* x, or 0 below 2^-100: products of floats that small, with shares of 2^-26 and more, may be denormal, and there are
+ * processors that take a hundred times as long for those. What scenes and meshes say comes through here. */
+static inline __attribute__((unused)) double lom_without_denormals(double x)
+{
+    return lom_magnitude(x) < 0x1p-100 ? 0 : x;
+}
+
 /* To floats, as uniforms hold colours and coefficients. */
 static inline __attribute__((unused)) void lom_round_three(float out[3], const double in[3])
 {

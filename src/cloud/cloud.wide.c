@@ -81,7 +81,7 @@ static void shadow_fragment(lom_fragment *out, const lom_varyings *in, const voi
         LOM_WIDE(lom_transfer_depth)(&depth, &rays, &shadow->march, shadow->transfer, shadow->steps);
     else
         LOM_WIDE(lom_medium_depth)(&depth, &rays, &shadow->march, shadow->steps);
-    lom_float through = lom_exp(-depth);
+    lom_float through = lom_fade(-depth);
     out->color[0] = (lom_float4){ through, through, through, lom_splat(1.0f) };
 }
 

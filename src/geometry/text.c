@@ -2,6 +2,8 @@
  * on the locale. */
 #include "text.h"
 
+#include "base/numbers.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -164,6 +166,7 @@ bool lom_text_number(struct lom_text *text, struct lom_word word, double *value)
 {
     *value = 0;
     size_t used = lom_parse_double(word.start, word.length, value);
+    *value = lom_without_denormals(*value);
     return check_number(text, word, used, __builtin_fabsf((float)*value) < __builtin_inff());
 }
 
@@ -179,6 +182,7 @@ int lom_text_floats(struct lom_text *text, float *values, int limit)
         size_t used = lom_parse_float(word.start, word.length, &values[count]);
         if (!check_number(text, word, used, __builtin_fabsf(values[count]) < __builtin_inff()))
             return -1;
+        values[count] = (float)lom_without_denormals((double)values[count]);
         count++;
     }
     return count;

@@ -51,7 +51,7 @@ static void store_shares(const struct lom_slice *s, int y, const float *low, con
         lom_float a = lom_mix(lom_load(high + x + 1), lom_load(low + x + 1), lom_splat(s->part_y));
         lom_float b = lom_mix(lom_load(high + x), lom_load(low + x), lom_splat(s->part_y));
         lom_float depth = lom_mix(a, b, lom_splat(s->part_x));
-        lom_int share = lom_to_int(lom_exp(depth * (-1.0f / LOM_LIGHT_DEPTH)) * 65535.0f + 0.5f);
+        lom_int share = lom_to_int(lom_fade(depth * (-1.0f / LOM_LIGHT_DEPTH)) * 65535.0f + 0.5f);
         share_lanes narrow = __builtin_convertvector(share, share_lanes);
         memcpy(shares + x, &narrow, sizeof narrow);
     }

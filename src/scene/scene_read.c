@@ -74,9 +74,10 @@ static bool read_number(lom_reader *reader, const lom_key *key, const lom_toml_v
 {
     if (value->type != LOM_TOML_INTEGER && value->type != LOM_TOML_FLOAT)
         return fail_type(reader, key, value, value_count(key) == 1 ? "a number" : "made of numbers");
-    double number = value->type == LOM_TOML_INTEGER ? (double)value->integer : value->number;
+    const double given = value->type == LOM_TOML_INTEGER ? (double)value->integer : value->number;
+    const double number = lom_without_denormals(given);
     if (!in_range(key, number))
-        return fail_range(reader, key, value, number);
+        return fail_range(reader, key, value, given);
     *target = to_member(key, number);
     return true;
 }

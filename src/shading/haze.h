@@ -30,7 +30,7 @@ struct lom_haze_uniform {
 LOM_INLINE lom_float lom_haze_integral(const struct lom_haze_uniform *haze, lom_float y)
 {
     lom_float above = lom_max(y - haze->base, (lom_float){ 0 }), below = lom_min(y - haze->base, (lom_float){ 0 });
-    return below + haze->height * (1.0f - lom_exp(-above * haze->inverse_height));
+    return below + haze->height * (1.0f - lom_fade(-above * haze->inverse_height));
 }
 
 /* The mean of the profile over the path from the eye to a surface that much higher. Where the path is nearly level the
@@ -42,7 +42,7 @@ LOM_INLINE lom_float lom_haze_mean(const struct lom_haze_uniform *haze, lom_floa
     lom_mask level = lom_abs(rise) < haze->height * 0x1p-9f;
     lom_float quotient = (lom_haze_integral(haze, rise) - haze->start) / lom_select(level, lom_splat(1.0f), rise);
     lom_float middle = lom_max(0.5f * rise - haze->base, (lom_float){ 0 });
-    return lom_select(level, lom_exp(-middle * haze->inverse_height), quotient);
+    return lom_select(level, lom_fade(-middle * haze->inverse_height), quotient);
 }
 
 /* The same where paths of parallel rays, that much higher at their ends, end at the height y over the eye. */
@@ -59,7 +59,7 @@ LOM_INLINE lom_float lom_haze_mean_below(const struct lom_haze_uniform *haze, lo
     lom_mask level = lom_abs(rise) < haze->height * 0x1p-9f;
     lom_float quotient = (lom_haze_integral(haze, y) - start) / lom_select(level, lom_splat(1.0f), rise);
     lom_float middle = lom_max(y - 0.5f * rise - haze->base, (lom_float){ 0 });
-    return lom_select(level, lom_exp(-middle * haze->inverse_height), quotient);
+    return lom_select(level, lom_fade(-middle * haze->inverse_height), quotient);
 }
 
 /* A colour at an offset, the end of a path from the eye, as it sees it: color T + air (1 - T), T = exp(-optical
@@ -74,9 +74,9 @@ LOM_INLINE lom_float3 lom_apply_haze(const struct lom_haze_uniform *haze, const 
     lom_float mean = eye->parallel ? lom_haze_mean_below(haze, offset.y, path.y) : lom_haze_mean(haze, path.y);
     lom_float amount = length * mean;
     lom_float3 clear;
-    clear.x = lom_exp(-amount * haze->density[0]);
-    clear.y = haze->gray ? clear.x : lom_exp(-amount * haze->density[1]);
-    clear.z = haze->gray ? clear.x : lom_exp(-amount * haze->density[2]);
+    clear.x = lom_fade(-amount * haze->density[0]);
+    clear.y = haze->gray ? clear.x : lom_fade(-amount * haze->density[1]);
+    clear.z = haze->gray ? clear.x : lom_fade(-amount * haze->density[2]);
     lom_float3 air = lom_uniform3(haze->color);
     if (haze->glow[0] != 0 || haze->glow[1] != 0 || haze->glow[2] != 0) {
         lom_float cosine = lom_dot3(path, lom_uniform3(to_light)) / lom_max(length, lom_splat(1e-30f));

@@ -70,7 +70,7 @@ LOM_INLINE bool lom_facets_mirror(const struct lom_surface_uniforms *u, const st
     lom_mask bright = square < 40.0f;
     if (!lom_any(bright))
         return false;
-    lom_float density = lom_exp(-0.5f * square) / ((float)lom_two_pi * lom_sqrt(determinant));
+    lom_float density = lom_fade(-0.5f * square) / ((float)lom_two_pi * lom_sqrt(determinant));
     lom_float variance = 0.5f * (vxx + vzz);
     lom_float seen = lom_max(lom_dot3(p->normal, p->to_eye), lom_splat(0.02f));
     lom_float lit = lom_max(lom_dot3(p->normal, to_light), lom_splat(1e-3f));

@@ -38,8 +38,8 @@ LOM_INLINE lom_float lom_fresnel_exact(lom_float cosine, lom_float eta)
 /* Beer and Lambert: e^(-a l) of each colour after l metres. */
 LOM_INLINE lom_float3 lom_transmittance(const float absorption[3], lom_float length)
 {
-    return (lom_float3){ lom_exp(-absorption[0] * length), lom_exp(-absorption[1] * length),
-                         lom_exp(-absorption[2] * length) };
+    return (lom_float3){ lom_fade(-absorption[0] * length), lom_fade(-absorption[1] * length),
+                         lom_fade(-absorption[2] * length) };
 }
 
 /* ---- the same in double ---- */

@@ -19,12 +19,12 @@
 /* Phi(x), within 2e-4 (Page 1977). */
 LOM_INLINE lom_float lom_normal_area(lom_float x)
 {
-    return 1.0f / (1.0f + lom_exp(-x * (1.5976f + 0.07056f * (x * x))));
+    return 1.0f / (1.0f + lom_fade(-x * (1.5976f + 0.07056f * (x * x))));
 }
 
 LOM_INLINE lom_float lom_normal_density(lom_float x)
 {
-    return 0.39894228f * lom_exp(-0.5f * (x * x));
+    return 0.39894228f * lom_fade(-0.5f * (x * x));
 }
 
 /* The density (x + a)+ phi(a): its integral Z, its mean, and the nodes a with their weights. */

@@ -222,11 +222,11 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
 LOM_INLINE lom_float lom_through_water(float a, float source, float slant, lom_float beyond, lom_float length,
                                        lom_float depth, lom_float down)
 {
-    lom_float sun = lom_exp(-a * slant * depth), rate = 1.0f + slant * down;
+    lom_float sun = lom_fade(-a * slant * depth), rate = 1.0f + slant * down;
     lom_float exponent = a * length * rate;
     lom_float inner = lom_select(lom_abs(exponent) > 1e-4f, -lom_expm1(-exponent) / rate, a * length);
     lom_float bed = lom_max(depth + down * length, (lom_float){ 0 });
-    return beyond * lom_exp(-a * (length + slant * bed)) + source * sun * inner;
+    return beyond * lom_fade(-a * (length + slant * bed)) + source * sun * inner;
 }
 
 LOM_INLINE lom_float3 lom_cross_water(const struct lom_medium_uniform *m, lom_float3 beyond, lom_float length,

@@ -63,7 +63,7 @@ static lom_float surf_weight(const struct surf_wave *w, const struct lom_footpri
 static lom_float surf_foam(const struct lom_surf_uniform *u, const struct surf_wave *w, float window)
 {
     lom_float turns = (w->lean_angle + 0.5f) * 0.15915494f, part = turns - lom_floor(turns);
-    lom_float behind = lom_exp(part * (-(float)lom_two_pi / (u->rate * window)));
+    lom_float behind = lom_fade(part * (-(float)lom_two_pi / (u->rate * window)));
     lom_float ahead = lom_saturate(1.0f - (1.0f - part) * 20.0f);
     return w->breaking * lom_max(behind, ahead);
 }

@@ -91,6 +91,31 @@ static void random_pairs_are_within_1_ulp(void)
     printf("  pow   %.4f ulp\n  atan2 %.4f ulp\n", worst_pow, worst_atan2);
 }
 
+static __attribute__((noinline)) void lanes_fade(lom_float *result, const lom_float *x)
+{
+    *result = lom_fade(*x);
+}
+
+/* e^x down to -87, then 0: never a denormal; a NaN stays one. */
+static void what_fades_is_never_denormal(void)
+{
+    for (uint64_t i = 0; i < 200000; i += LOM_LANES) {
+        lom_float x, e, faded;
+        for (uint64_t k = 0; k < LOM_LANES; k++)
+            x[k] = i < 100000 ? random_float(5, i + k, -110, 5) : float_of((uint32_t)lom_random_bits(6, i + k));
+        lanes_exp(&e, &x);
+        lanes_fade(&faded, &x);
+        for (int k = 0; k < LOM_LANES; k++)
+            CHECK(bits_of(faded[k]) == (x[k] <= -87.0f ? 0 : bits_of(e[k])), "%a: %a, not %a", (double)x[k],
+                  (double)faded[k], (double)e[k]);
+    }
+    lom_float ends = lom_splat(-87.0f), next = lom_splat(-0x1.5bfffep+6f), faded;
+    lanes_fade(&faded, &ends);
+    CHECK(bits_of(faded[0]) == 0);
+    lanes_fade(&faded, &next);
+    CHECK(faded[0] >= 0x1p-126f, "%a", (double)faded[0]);
+}
+
 static void remarkable_pairs_follow_annex_f(void)
 {
     static const float number[] = {
@@ -196,6 +221,7 @@ int main(int argc, char **argv)
 {
     RUN(a_grid_of_pairs_is_within_1_ulp);
     RUN(random_pairs_are_within_1_ulp);
+    RUN(what_fades_is_never_denormal);
     RUN(remarkable_pairs_follow_annex_f);
     RUN(integer_powers_by_squaring);
     RUN(lanes_do_not_see_each_other);

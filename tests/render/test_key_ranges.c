@@ -5,6 +5,8 @@
  * LOM_EXHAUSTIVE=1, one element of an array at a time, too. */
 #include "check.h"
 #include "key_bases.h"
+#include "key_walk.h"
+#include "sanitized.h"
 #include "scene/scene_keys.h"
 #include "small_scene.h"
 
@@ -15,14 +17,6 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || defined __SANITIZE_UNDEFINED__
-#define SANITIZED 1
-#elif defined __has_feature
-#if __has_feature(address_sanitizer) || __has_feature(undefined_behavior_sanitizer) || __has_feature(memory_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
 
 #ifdef SANITIZED
 const char *__asan_default_options(void);
@@ -176,18 +170,6 @@ static void try_numbers(struct cases *cases, const char *path, const lom_key *ke
     }
 }
 
-/* Whether the path is one of the names, or below one. */
-static bool is_tried(const char *names, const char *path)
-{
-    while (*names != 0) {
-        size_t length = strcspn(names, " ");
-        if (strncmp(names, path, length) == 0 && (path[length] == 0 || path[length] == '.'))
-            return true;
-        names += length + (names[length] == ' ');
-    }
-    return false;
-}
-
 static void try_key(struct cases *cases, const char *path, const lom_key *key, const void *member)
 {
     int before = cases->drawn;
@@ -211,41 +193,10 @@ static void try_key(struct cases *cases, const char *path, const lom_key *key, c
 
 /* ---- all keys ---- */
 
-typedef void visit_key(void *context, const char *path, const lom_key *key, const void *member);
-
-enum { LONGEST_PATH = 200 };
-
-/* Every key that holds numbers, truths or choices: its path, of the first element of an array of tables, and its place
- * in the scene, NULL where the scene has no such element. path: that of the table, `length` bytes. */
-static void walk(const lom_key_table *table, char path[LONGEST_PATH], size_t length, const void *at, visit_key *visit,
-                 void *context)
-{
-    for (int i = 0; i < table->key_count; i++) {
-        const lom_key *key = &table->keys[i];
-        const char *member = at != NULL ? (const char *)at + key->offset : NULL;
-        bool array = key->type == LOM_KEY_TABLES;
-        size_t longer = length + (size_t)snprintf(path + length, LONGEST_PATH - length, "%s%s%s", length > 0 ? "." : "",
-                                                  key->name, array ? ".0" : "");
-        if (longer >= LONGEST_PATH) {
-            CHECK(false, "%s... is too long", path);
-        } else if (array) {
-            size_t there = 0;
-            if (at != NULL)
-                memcpy(&there, (const char *)at + key->length_offset, sizeof there);
-            walk(key->table, path, longer, there > 0 ? *(const void *const *)(const void *)member : NULL, visit,
-                 context);
-        } else if (key->type == LOM_KEY_TABLE) {
-            walk(key->table, path, longer, member, visit, context);
-        } else if (key->type != LOM_KEY_STRING && key->type != LOM_KEY_FILE) {
-            visit(context, path, key, member);
-        }
-    }
-}
-
 static void walk_all(const lom_scene *scene, visit_key *visit, void *context)
 {
     char path[LONGEST_PATH];
-    walk(&lom_scene_keys, path, 0, scene, visit, context);
+    walk_keys(&lom_scene_keys, path, 0, scene, visit, context);
 }
 
 static void try_if_named(void *context, const char *path, const lom_key *key, const void *member)
