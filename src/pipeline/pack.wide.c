@@ -5,6 +5,19 @@
  * fragments at one pixel are tested in their order. */
 #include "pipeline/packed.h"
 
+/* Numbers as lanes, in registers: by memory the load of all would wait for the stores of each. */
+LOM_INLINE lom_float join_lanes(const float x[LOM_LANES])
+{
+#if LOM_LANES == 16
+    return (lom_float){ x[0], x[1], x[2],  x[3],  x[4],  x[5],  x[6],  x[7],
+                        x[8], x[9], x[10], x[11], x[12], x[13], x[14], x[15] };
+#elif LOM_LANES == 8
+    return (lom_float){ x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7] };
+#else
+    return (lom_float){ x[0], x[1], x[2], x[3] };
+#endif
+}
+
 /* Leaves depths in memory, one after the other, since two may go to one place; gives what was there before. */
 LOM_INLINE lom_float exchange(float *memory, lom_int place, lom_float depth, depth_rule rule)
 {
@@ -19,29 +32,33 @@ LOM_INLINE lom_float exchange(float *memory, lom_int place, lom_float depth, dep
                  : rule == DEPTH_GREATER ? z[i] > old[i] ? z[i] : old[i]
                                          : z[i];
     }
-    return lom_load(old);
+    return join_lanes(old);
 }
 
 /* The lanes that pass; lanes that are no entries repeat the last one that is, and change nothing. */
-LOM_INLINE lom_mask test_depths(struct lom_tile *tile, lom_int place, lom_float depth, depth_rule rule)
+LOM_INLINE lom_mask test_depths(float *memory, lom_compare compare, lom_int place, lom_float units, depth_rule rule)
 {
-    lom_float units = lom_depth_units(tile->pass, depth), old;
+    lom_float old;
     if (rule == DEPTH_STAYS)
-        old = lom_gather(tile->depth, place);
+        old = lom_gather(memory, place);
     else
-        old = exchange(tile->depth, place, units, rule);
-    return lom_compare_depth(tile->draw->compare, units, old);
+        old = exchange(memory, place, units, rule);
+    return lom_compare_depth(compare, units, old);
 }
 
 LOM_INLINE void test_by_rule(struct lom_tile *tile, depth_rule rule)
 {
     struct lom_list *list = &tile->list;
+    float *memory = tile->depth;
+    const float scale = (float)tile->pass->depth_scale;
+    const lom_compare compare = tile->draw->compare;
     int passed = list->tested;
     for (int at = list->tested, step; at < list->count; at += step) {
         struct packed p = take(list, at, list->count);
         lom_float l[3];
         weigh(list, &p, l);
-        lom_mask covered = test_depths(tile, pixel_of(p.code), find_depth_lanes(list, &p, l), rule);
+        lom_float units = lom_scale_depth(scale, find_depth_lanes(list, &p, l));
+        lom_mask covered = test_depths(memory, compare, pixel_of(p.code), units, rule);
         covered &= lom_lane_index() < p.count;
         step = p.count;
         lom_int next = lom_load_int(list->code + at + step); /* the store of a whole packet may reach them */

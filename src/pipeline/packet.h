@@ -146,10 +146,15 @@ LOM_INLINE void lom_find_position(const struct lom_tile *tile, const struct lom_
     in->y = lom_to_float(by * 2 + (place >> 1 & 1) + tile->y) + 0.5f;
 }
 
-/* Depth in the attachment's units: the float itself, or a whole number for DEPTH16 and DEPTH24. */
+/* Depth in units of an attachment with such a depth_scale: the float itself, or a whole number for DEPTH16 and DEPTH24. */
+LOM_INLINE lom_float lom_scale_depth(float scale, lom_float z)
+{
+    return scale == 0 ? z : lom_to_float(lom_unorm_of_lanes(z, scale));
+}
+
 LOM_INLINE lom_float lom_depth_units(const struct lom_pass *pass, lom_float z)
 {
-    return pass->depth_scale == 0 ? z : lom_to_float(lom_unorm_of_lanes(z, (float)pass->depth_scale));
+    return lom_scale_depth((float)pass->depth_scale, z);
 }
 
 /* A stored depth as the attachment's texture reads it. */

@@ -156,16 +156,13 @@ static void list_all(struct lom_tile *tile, const uint32_t *from, size_t count)
 void LOM_WIDE(lom_turn_to_call)(struct lom_tile *tile, uint32_t number)
 {
     const struct lom_chunk *chunk = tile->chunk;
-    size_t low = 0, high = chunk->part_count - 1; /* the first part that ends behind it is one of these */
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (chunk->parts[middle].end > number)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    tile->uniforms = lom_uniforms_of_part(tile->pass, chunk, low);
-    tile->call_end = chunk->parts[low].end;
+    size_t part = number * chunk->part_count / chunk->triangle_count; /* near it: calls have about as many primitives */
+    while (part > 0 && chunk->parts[part - 1].end > number)
+        part--;
+    while (chunk->parts[part].end <= number)
+        part++;
+    tile->uniforms = lom_uniforms_of_part(tile->pass, chunk, part);
+    tile->call_end = chunk->parts[part].end;
 }
 
 void LOM_WIDE(lom_raster)(struct lom_tile *tile, const struct lom_chunk *chunk, const uint32_t *list, size_t count)
