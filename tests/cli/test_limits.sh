@@ -1,7 +1,7 @@
 #!/bin/sh
 # Proves the limits whose figures are in bench/results/limits.md: how large the stripped program is, how much memory the
-# lake takes, and that an empty scene is done at once (with room for a machine that is slower or busy). Sanitized or
-# unoptimised builds have other limits and are not measured.
+# lake takes, that an empty scene is done at once (with room for a machine that is slower or busy), and that a small stack
+# is enough. Sanitized or unoptimised builds have other limits and are not measured.
 . "$(dirname "$0")/cli.sh"
 
 # The peak of the resident memory of a command, in KiB; what it prints is lost.
@@ -45,6 +45,15 @@ empty_scene_at_once() {
         below "ms" "$(least "$lom" render "$folder/empty.toml" --size 160x90 -o "$folder/empty.png")" 20
 }
 
+# Workers' stacks are as large as the first one's.
+small_stack() {
+    for scene in lake swell; do
+        wanted=$("$lom" render assets/scenes/$scene.toml --size 160x90 --threads 4 --hash) || return 1
+        got=$(ulimit -s 256 && "$lom" render assets/scenes/$scene.toml --size 160x90 --threads 4 --hash) || return 1
+        [ "$got" = "$wanted" ] || { echo "$scene: $got, not $wanted" && return 1; }
+    done
+}
+
 if ! command -v python3 >/dev/null || ! command -v strip >/dev/null; then
     echo "SKIP limits: needs python3 and strip"
     exit 0
@@ -56,4 +65,5 @@ fi
 check the_stripped_program_is_small small_program
 check the_lake_fits_in_256_megabytes lake_in_memory
 check an_empty_scene_is_done_at_once empty_scene_at_once
+check a_stack_of_256_kilobytes_is_enough small_stack
 exit $failures

@@ -1,7 +1,11 @@
-/* Proves what varyings are at this width (A2..A6): constants stay constants, wild values stay inside their hull, flat
- * ones are the last vertex's in every topology, far ends of long edges keep the bound, helpers outside stay finite;
- * and what every kind of attribute reads. */
+/* Proves what varyings are at this width (A2..A6, A9): constants stay constants, wild values stay inside their hull, flat
+ * ones are the last vertex's in every topology, far ends of long edges keep the bound, helpers outside stay finite,
+ * derivatives are the oracle's; and what every kind of attribute reads. */
 #include "stage.h"
+
+#include "oracle/interpolation.h"
+
+#include <math.h>
 
 enum { SIZE = 64, UNITS = SIZE * 256 };
 
@@ -24,6 +28,16 @@ LOM_SHADER(flats, place_values, show_values, .attributes = 2, .varyings = 4, .re
            .flat = LOM_VARYINGS(0, 4), .colors = 1)
 LOM_SHADER(helpers, place_values, examine, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4),
            .differentiates = 1u << 0, .quads = true, .colors = 1)
+
+/* Two varyings' analytic derivatives. */
+static void show_changes(lom_fragment *out, const lom_varyings *in, const void *uniforms)
+{
+    (void)uniforms;
+    out->color[0] = (lom_float4){ lom_dx(in, 0), lom_dy(in, 0), lom_dx(in, 1), lom_dy(in, 1) };
+}
+
+LOM_SHADER(changes, place_values, show_changes, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 2),
+           .differentiates = LOM_VARYINGS(0, 2), .colors = 1)
 
 static vertex vertices[64];
 
@@ -218,6 +232,61 @@ static void kinds_are_their_numbers(void)
     close_stage(&s);
 }
 
+/* By how much the three parts of which a derivative is the sum could be off: units of 2^-24 of what they are before they
+ * cancel. */
+static double size_of_change(const snapped v[3], const double w[3], const double value[3], double x, double y, int axis)
+{
+    double weight[3], sum = 0, parts = 0, largest = 0;
+    weights_at(v, w, x, y, weight);
+    for (int i = 0; i < 3; i++) {
+        const snapped *p = &v[(i + 1) % 3], *q = &v[(i + 2) % 3];
+        sum += edge_value(p, q, x, y) / w[i];
+        parts += 256 * fabs((double)(axis == 0 ? q->y - p->y : q->x - p->x)) / w[i];
+        largest = fmax(largest, fabs(value[i]));
+    }
+    return 2 * parts * largest / fabs(sum);
+}
+
+/* A9: derivatives of varyings are those of the interpolation in double, wherever a triangle is covered. */
+static void a9_derivatives_are_the_oracles(void)
+{
+    static const float ratios[] = { 1, 10, 1e3f, 1e5f };
+    stage s = open_floats();
+    double worst = 0;
+    int pixels = 0;
+    for (int round = 0; round < 400; round++) {
+        snapped at[3];
+        double w[3], value[2][3];
+        put_triangle(ratios[round % 4], round % 8 < 4);
+        for (int k = 0; k < 3; k++) {
+            for (int i = 0; i < 2; i++)
+                value[i][k] = (double)(vertices[k].value[i] = random_float(-9, 9));
+            at[k] = snap(vertices[k].position, SIZE, SIZE);
+            w[k] = (double)vertices[k].position[3];
+        }
+        draw_values(&s, &changes, 3, LOM_TRIANGLES);
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            const float *got = floats_at(&s, p % SIZE, p / SIZE);
+            if (memcmp(got, (float[4]){ -2, -2, -2, -2 }, 16) == 0)
+                continue;
+            const double x = 256 * (p % SIZE) + 128, y = 256 * (p / SIZE) + 128;
+            for (int i = 0; i < 4; i++) {
+                double want[2];
+                change_at(at, w, value[i / 2], x, y, want);
+                const double units =
+                    fabs((double)got[i] - want[i % 2]) * 0x1p24 / size_of_change(at, w, value[i / 2], x, y, i % 2);
+                CHECK(units <= 8, "round %d, pixel %d: %g, not %g: %g units", round, p, (double)got[i], want[i % 2],
+                      units);
+                worst = fmax(worst, units);
+            }
+            pixels++;
+        }
+    }
+    CHECK(pixels > 10000, "%d pixels", pixels);
+    printf("  derivatives within %.1f units of 2^-24\n", worst);
+    close_stage(&s);
+}
+
 int main(int argc, char **argv)
 {
     RUN(a2_constants_stay_constant);
@@ -225,6 +294,7 @@ int main(int argc, char **argv)
     RUN(a4_flat_values_are_the_last_vertex_s);
     RUN(a5_far_ends_of_long_edges_keep_the_bound);
     RUN(a6_helpers_outside_the_triangle_stay_finite);
+    RUN(a9_derivatives_are_the_oracles);
     RUN(kinds_are_their_numbers);
     return check_result();
 }
