@@ -59,6 +59,10 @@ typedef struct lom_fluid_desc {
     size_t block_count;           /* 1..LOM_FLUID_BODIES */
     const lom_fluid_body *solids; /* obstacles: cells whose middles lie in them */
     size_t solid_count;           /* 0..LOM_FLUID_BODIES */
+    double (*ground)(const void *context, double x, double z); /* the height (y) of the ground under x and z, metres: a
+                                                                   floor that cuts cells; NULL: none. Asked for at the
+                                                                   corners of cells, while the fluid is created */
+    const void *ground_context;
 } lom_fluid_desc;
 
 /* ---- [[fluid]] ---- */
@@ -74,6 +78,7 @@ typedef struct lom_fluid_params {
         conductivity; /* as of lom_fluid_desc */
     lom_fluid_body *blocks, *solids;
     size_t block_count, solid_count;
+    bool ground;          /* the terrain is a floor */
     double index;         /* of refraction */
     double absorption[3]; /* 1/m of red, green and blue */
     double color[3];      /* linear: what its matter sends back of the light where none comes through */

@@ -101,7 +101,18 @@ static const lom_fluid_body *find_body(const lom_fluid_body *bodies, size_t coun
 
 /* ---- particles at first ---- */
 
-/* Of a cell: two along each side, at a quarter and three quarters, where a block is and no solid; counted, and put at
+static double corner_place(const int cell[3], int corner, int axis)
+{
+    return cell[axis] + (corner >> axis & 1 ? 0.75 : 0.25);
+}
+
+static bool is_below_floor(const struct lom_fluid *f, const int cell[3], int corner)
+{
+    return !(corner_place(cell, corner, 1) >
+             lom_fluid_floor_at(f, corner_place(cell, corner, 0), corner_place(cell, corner, 2)));
+}
+
+/* Of a cell: two along each side, at a quarter and three quarters, where a block is and neither a solid nor the ground; counted, and put at
  * `out` unless it is NULL. */
 static size_t fill_cell(const struct lom_fluid *f, const int cell[3], struct lom_fluid_point *out)
 {
@@ -109,19 +120,20 @@ static size_t fill_cell(const struct lom_fluid *f, const int cell[3], struct lom
     double middle[3], place[3];
     for (int i = 0; i < 3; i++)
         middle[i] = f->desc.low[i] + (cell[i] + 0.5) * f->cell;
-    if (find_body(f->desc.solids, f->desc.solid_count, middle) != NULL)
+    const size_t at[3] = { (size_t)cell[0], (size_t)cell[1], (size_t)cell[2] };
+    if (find_body(f->desc.solids, f->desc.solid_count, middle) != NULL || (f->floor != NULL && lom_floor_fills(f, at)))
         return 0;
     for (int corner = 0; corner < LOM_FLUID_REST; corner++) {
         for (int i = 0; i < 3; i++)
             place[i] = middle[i] + (corner >> i & 1 ? 0.25 : -0.25) * f->cell;
         const lom_fluid_body *block = find_body(f->desc.blocks, f->desc.block_count, place);
-        if (block == NULL)
+        if (block == NULL || (f->floor != NULL && is_below_floor(f, cell, corner)))
             continue;
         if (out != NULL) {
             struct lom_fluid_point *point = &out[count];
             point->heat = lom_fluid_heat(&f->desc, block->temperature);
             for (int i = 0; i < 3; i++) {
-                point->at[i] = cell[i] + (corner >> i & 1 ? 0.75 : 0.25);
+                point->at[i] = corner_place(cell, corner, i);
                 point->velocity[i] = block->velocity[i] / f->cell;
             }
         }
@@ -155,7 +167,8 @@ static void mark_solids(struct lom_fluid *f)
             middle[i] = f->desc.low[i] + ((double)at[i] + 0.5) * f->cell;
         }
         const lom_fluid_body *body = inside ? find_body(f->desc.solids, f->desc.solid_count, middle) : NULL;
-        f->kind[n] = !inside || body != NULL ? LOM_FLUID_SOLID : LOM_FLUID_AIR;
+        const bool filled = inside && f->floor != NULL && lom_floor_fills(f, at);
+        f->kind[n] = !inside || body != NULL || filled ? LOM_FLUID_SOLID : LOM_FLUID_AIR;
         if (f->solid_temperature != NULL)
             f->solid_temperature[n] = body != NULL && body->heats ? body->temperature : __builtin_nan("");
         for (int axis = 0; axis < 3; axis++)
@@ -200,6 +213,8 @@ static bool allocate_system(struct lom_fluid *f, lom_error *error)
         *arrays[i] = lom_allocate(most + 1, sizeof **arrays[i], error);
         done = done && *arrays[i] != NULL;
     }
+    if (f->floor != NULL && (s->share = lom_allocate(most, sizeof *s->share, error)) == NULL)
+        return false;
     return done && f->cell_of != NULL && s->neighbour != NULL && s->partial != NULL;
 }
 
@@ -217,6 +232,9 @@ static bool fill_fluid(struct lom_fluid *f, lom_error *error)
     mark_solids(f);
     fill_blocks(f, f->points);
     f->desc.blocks = NULL;
+    f->desc.ground = NULL;
+    if (f->floor != NULL && !lom_cut_cells(f, error))
+        return false;
     return (f->desc.viscosity == 0 && f->desc.solid_viscosity == 0) || lom_open_strain(f, error);
 }
 
@@ -231,17 +249,25 @@ lom_fluid *lom_create_fluid(const lom_fluid_desc *desc, lom_error *error)
     whole.stride[1] = (size_t)whole.cells[0] + 1;
     whole.stride[2] = whole.stride[1] * ((size_t)whole.cells[1] + 1);
     whole.count = whole.stride[2] * ((size_t)whole.cells[2] + 1);
+    if (!lom_open_floor(&whole, error)) {
+        lom_close_floor(&whole);
+        return NULL;
+    }
     whole.point_count = fill_blocks(&whole, NULL);
     if (whole.point_count == 0 || whole.point_count > LOM_FLUID_PARTICLES) {
         lom_fail(error, LOM_ERROR_LIMIT,
-                 "The blocks of a fluid have %llu particles between low and high of the basin, a spacing apart; 1 to "
+                 "The blocks of a fluid have %llu particles between low and high of the basin and over the ground, a "
+                 "spacing apart; 1 to "
                  "%d are possible.",
                  (unsigned long long)whole.point_count, LOM_FLUID_PARTICLES);
+        lom_close_floor(&whole);
         return NULL;
     }
     struct lom_fluid *f = lom_allocate(1, sizeof *f, error);
-    if (f == NULL)
+    if (f == NULL) {
+        lom_close_floor(&whole);
         return NULL;
+    }
     *f = whole;
     if (fill_fluid(f, error))
         return f;
@@ -257,8 +283,10 @@ void lom_free_fluid(lom_fluid *f)
     void *const arrays[] = { f->points,   f->sorted,  f->solids,    f->first,    f->face[0],   f->face[1],
                              f->face[2],  f->density, f->kind,      f->open,     f->unknown,   f->pressure,
                              f->push,     f->cell_of, s->neighbour, s->diagonal, s->right,     s->x,
-                             s->residual, s->way,     s->product,   s->partial,  f->cell_heat, f->solid_temperature };
+                             s->residual, s->way,     s->product,   s->partial,  f->cell_heat, f->solid_temperature,
+                             s->share };
     lom_close_strain(f);
+    lom_close_floor(f);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         lom_release(arrays[i]);
     lom_release(f);

@@ -16,6 +16,7 @@ struct lom_fluid_point {
 };
 
 enum lom_fluid_kind { LOM_FLUID_AIR, LOM_FLUID_LIQUID, LOM_FLUID_SOLID };
+enum { LOM_FLUID_GROUND = 8 };
 
 /* What particles leave at a face. */
 struct lom_fluid_face {
@@ -34,6 +35,14 @@ struct lom_fluid_system {
     double *diagonal, *right, *x;
     double *residual, *way, *product; /* scratch */
     double *partial;                  /* sums of pieces */
+    double (*share)[6];               /* of each neighbour: the factor of its x; NULL: 1 */
+};
+
+/* The ground (fluid_floor.c); heights in cells. */
+struct lom_fluid_floor {
+    double *height;        /* at the corners of columns: i + k stride[1] */
+    double *volume, *rest; /* of a cell: what is open of it, and the density it has when it is full */
+    double *area[3];       /* of a face: what is open of it */
 };
 
 struct lom_fluid {
@@ -49,11 +58,13 @@ struct lom_fluid {
     size_t point_count;
     uint32_t *first; /* of the points of a cell, count + 1 */
     struct lom_fluid_face *face[3];
-    double *density;           /* particles a cell, weighted by their distance */
-    double *cell_heat;         /* of a cell's particles, their mean */
-    uint8_t *kind;             /* of cells */
-    uint8_t *open;             /* of faces: bit of an axis where it is no wall */
-    double *solid_temperature; /* of solids that heat, else NAN; NULL: none does */
+    double *density;   /* particles a cell, weighted by their distance */
+    double *cell_heat; /* of a cell's particles, their mean */
+    uint8_t *kind;     /* of cells */
+    uint8_t *open;     /* of faces: bit of an axis where it is no wall, LOM_FLUID_GROUND << axis where that is the
+                                  ground's */
+    struct lom_fluid_floor *floor; /* NULL: no ground reaches into the basin */
+    double *solid_temperature;     /* of solids that heat, else NAN; NULL: none does */
 
     size_t wet;
     uint32_t *cell_of; /* an unknown's cell */
@@ -72,11 +83,31 @@ void lom_share_fluid(const struct lom_fluid *f, size_t count, size_t piece, lom_
 void lom_sort_fluid(struct lom_fluid *f);
 void lom_gather_fluid(struct lom_fluid *f);
 void lom_move_fluid(struct lom_fluid *f);
+/* A particle's weight, added to the densities around a place in cells. */
+void lom_add_density(struct lom_fluid *f, const double at[3], double weight);
 
 /* fluid_cells.c: which cells are wet, and the rows of the system that their pressures solve. */
 void lom_find_wet_cells(struct lom_fluid *f);
 /* The part of a cell's side from the middle of a wet cell to the surface, towards a neighbour with air. */
 double lom_fluid_surface_at(const struct lom_fluid *f, size_t wet, size_t air);
+/* What has been added to solids' cells goes to those beside them. */
+void lom_return_density(struct lom_fluid *f);
+/* The density of a cell at rest. */
+static inline double lom_fluid_rest(const struct lom_fluid *f, size_t n)
+{
+    return f->floor == NULL ? LOM_FLUID_REST : f->floor->rest[n];
+}
+
+/* fluid_floor.c: the ground's heights, where there is one; then, of cells that are marked, what it leaves open. Whether a
+ * cell is the ground's; and a particle put onto it where it would be below: false: it cannot be. */
+bool lom_open_floor(struct lom_fluid *f, lom_error *error);
+bool lom_cut_cells(struct lom_fluid *f, lom_error *error);
+void lom_close_floor(struct lom_fluid *f);
+double lom_fluid_floor_at(const struct lom_fluid *f, double x, double z);
+double lom_fluid_open_volume(const struct lom_fluid *f, const size_t at[3]);
+bool lom_floor_fills(const struct lom_fluid *f, const size_t at[3]);
+bool lom_is_ground(const struct lom_fluid *f, size_t n);
+bool lom_put_on_ground(const struct lom_fluid *f, double at[3]);
 
 /* fluid_pressure.c: faces without divergence; and the potential that pushes particles apart. */
 void lom_project_fluid(struct lom_fluid *f);

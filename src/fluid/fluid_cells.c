@@ -13,16 +13,18 @@ static const double nearest_surface = 0.25; /* theta at least: what is nearer ma
 
 double lom_fluid_surface_at(const struct lom_fluid *f, size_t wet, size_t air)
 {
-    const double half = 0.5 * LOM_FLUID_REST, inner = f->density[wet] - half, outer = f->density[air] - half;
+    const double inner = f->density[wet] - 0.5 * lom_fluid_rest(f, wet);
+    const double outer = f->density[air] - 0.5 * lom_fluid_rest(f, air);
     if (!(inner > 0))
         return nearest_surface;
     return outer < 0 ? lom_larger(nearest_surface, inner / (inner - outer)) : 1;
 }
 
 /* What has been added to a solid's cells lies before it: it is shared by the cells beside it that are none. */
-static void return_density(struct lom_fluid *f)
+void lom_return_density(struct lom_fluid *f)
 {
-    for (size_t n = 0; f->desc.solid_count > 0 && n < f->count; n++) {
+    const bool has_solids = f->desc.solid_count > 0 || f->floor != NULL;
+    for (size_t n = 0; has_solids && n < f->count; n++) {
         if (f->kind[n] != LOM_FLUID_SOLID || !(f->density[n] > 0))
             continue;
         size_t beside[6];
@@ -50,12 +52,17 @@ static void connect(void *context, size_t first, size_t end)
         for (int side = 0; side < 6; side++) {
             const size_t step = f->stride[side >> 1], face = side & 1 ? n + step : n;
             s->neighbour[i][side] = (uint32_t)s->count;
+            if (s->share != NULL)
+                s->share[i][side] = 0;
             if (!(f->open[face] >> (side >> 1) & 1))
                 continue;
             const size_t other = side & 1 ? n + step : n - step;
             if (f->kind[other] == LOM_FLUID_LIQUID)
                 s->neighbour[i][side] = (uint32_t)f->unknown[other];
-            diagonal += f->kind[other] == LOM_FLUID_LIQUID ? 1 : 1 / lom_fluid_surface_at(f, n, other);
+            const double slope = f->kind[other] == LOM_FLUID_LIQUID ? 1 : 1 / lom_fluid_surface_at(f, n, other);
+            if (s->share != NULL)
+                s->share[i][side] = f->floor->area[side >> 1][face];
+            diagonal += s->share != NULL ? s->share[i][side] * slope : slope;
         }
         s->diagonal[i] = diagonal;
     }
@@ -64,7 +71,7 @@ static void connect(void *context, size_t first, size_t end)
 void lom_find_wet_cells(struct lom_fluid *f)
 {
     size_t wet = 0;
-    return_density(f);
+    lom_return_density(f);
     for (size_t n = 0; n < f->count; n++) {
         f->unknown[n] = LOM_FLUID_NONE;
         if (f->kind[n] == LOM_FLUID_SOLID)

@@ -83,6 +83,12 @@ static int find_hot_sides(const struct lom_fluid *f, size_t n, double *sum)
     return count;
 }
 
+/* Heat passes through what is open of a face. */
+static inline double share_of(const struct lom_fluid_system *s, size_t i, int side)
+{
+    return s->share != NULL ? s->share[i][side] : 1;
+}
+
 static void begin_cells(void *context, size_t first, size_t end)
 {
     struct lom_fluid *f = context;
@@ -106,7 +112,7 @@ static void fill_rows(void *context, size_t first, size_t end)
         const double heat = heat_and_slope(&f->desc, s->x[i], &slope);
         double diagonal = capacity * slope;
         for (int side = 0; side < 6; side++)
-            diagonal += s->neighbour[i][side] != s->count;
+            diagonal += s->neighbour[i][side] != s->count ? share_of(s, i, side) : 0;
         diagonal += 2 * find_hot_sides(f, n, &hot);
         s->diagonal[i] = diagonal;
         s->right[i] = capacity * (f->cell_heat[n] + (slope * s->x[i] - heat)) + 2 * hot;
@@ -120,7 +126,7 @@ static double inflow(const struct lom_fluid *f, size_t i)
     double sum = 0, hot;
     for (int side = 0; side < 6; side++)
         if (s->neighbour[i][side] != s->count)
-            sum += s->x[s->neighbour[i][side]] - s->x[i];
+            sum += share_of(s, i, side) * (s->x[s->neighbour[i][side]] - s->x[i]);
     const int sides = find_hot_sides(f, f->cell_of[i], &hot);
     return sum + 2 * (hot - sides * s->x[i]);
 }

@@ -99,6 +99,8 @@ static const lom_key keys[] = {
       .text = "Liquid at the beginning." },
     { "solid", LOM_KEY_TABLES, AT(solids), .table = &solid_table, .length_offset = AT(solid_count),
       .text = "Obstacles." },
+    { "ground", LOM_KEY_BOOL, AT(ground), .initial = { 1 },
+      .text = "The terrain is a floor of the basin where it reaches into it; else it is only seen." },
     { "index", LOM_KEY_NUMBER, AT(index), .minimum = 1, .maximum = 4, .initial = { 1.333 },
       .text = "Of refraction: how much it bends light and mirrors." },
     { "absorption", LOM_KEY_NUMBER, AT(absorption), 3, .flags = LOM_KEY_SPREAD, .maximum = 1e5,

@@ -102,6 +102,14 @@ static inline void add_point(struct lom_fluid *f, const struct lom_fluid_point *
         f->density[node_of(f, &r, corner)] += weight_of(&r, corner);
 }
 
+void lom_add_density(struct lom_fluid *f, const double at[3], double weight)
+{
+    struct reach r;
+    find_reach(f, at, 3, &r);
+    for (int corner = 0; corner < 8; corner++)
+        f->density[node_of(f, &r, corner)] += weight * weight_of(&r, corner);
+}
+
 /* Slabs of cells across z that are three apart share no face. */
 struct gathering {
     struct lom_fluid *f;
@@ -190,7 +198,15 @@ static inline double take_axis(const struct lom_fluid *f, struct lom_fluid_point
     return velocity * f->desc.step + interpolate(pushes, &r, unused);
 }
 
-/* A particle that would be in a solid stays along the axes that lead there. */
+/* Whether an obstacle is there; the ground is none, onto which particles are put. */
+static inline bool is_obstacle(const struct lom_fluid *f, const double at[3])
+{
+    const size_t n = cell_at(f, at);
+    return f->kind[n] == LOM_FLUID_SOLID && (f->floor == NULL || !lom_is_ground(f, n));
+}
+
+/* A particle that would be in a solid stays along the axes that lead there; one that would be in the ground comes onto
+ * it, or stays. */
 static inline void move_point(const struct lom_fluid *f, struct lom_fluid_point *point)
 {
     const double edge = 1e-3;
@@ -201,9 +217,11 @@ static inline void move_point(const struct lom_fluid *f, struct lom_fluid_point 
     for (int axis = 0; axis < 3; axis++) {
         const double from = point->at[axis], to = from + way[axis];
         point->at[axis] = lom_larger(edge, lom_smaller(to, f->cells[axis] - edge));
-        if (f->kind[cell_at(f, point->at)] == LOM_FLUID_SOLID)
+        if (is_obstacle(f, point->at))
             point->at[axis] = from;
     }
+    if (f->floor != NULL && (!lom_put_on_ground(f, point->at) || is_obstacle(f, point->at)))
+        memcpy(point->at, at, sizeof at);
 }
 
 static void move_points(void *context, size_t first, size_t end)

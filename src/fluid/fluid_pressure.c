@@ -10,6 +10,12 @@
 
 #include <string.h>
 
+/* What of a face is open. */
+static inline double area_of(const struct lom_fluid *f, int axis, size_t n)
+{
+    return f->floor == NULL ? 1 : f->floor->area[axis][n];
+}
+
 static void find_divergence(void *context, size_t first, size_t end)
 {
     struct lom_fluid *f = context;
@@ -17,7 +23,8 @@ static void find_divergence(void *context, size_t first, size_t end)
         const size_t n = f->cell_of[i];
         double sum = 0;
         for (int axis = 0; axis < 3; axis++)
-            sum += f->face[axis][n + f->stride[axis]].velocity - f->face[axis][n].velocity;
+            sum += area_of(f, axis, n + f->stride[axis]) * f->face[axis][n + f->stride[axis]].velocity -
+                   area_of(f, axis, n) * f->face[axis][n].velocity;
         f->system.right[i] = -sum;
         f->system.x[i] = f->pressure[n];
     }
@@ -34,8 +41,10 @@ static void find_excess(void *context, size_t first, size_t end)
         for (int axis = 0; axis < 3; axis++)
             inner = inner && f->kind[n + f->stride[axis]] != LOM_FLUID_AIR &&
                     (n < f->stride[axis] || f->kind[n - f->stride[axis]] != LOM_FLUID_AIR);
-        const double excess = f->density[n] / LOM_FLUID_REST - 1;
+        const double excess = f->density[n] / lom_fluid_rest(f, n) - 1;
         f->system.right[i] = share * lom_larger(inner ? -most : 0, lom_smaller(excess, most));
+        if (f->floor != NULL)
+            f->system.right[i] *= f->floor->volume[n];
         f->system.x[i] = f->push[n];
     }
 }
@@ -98,6 +107,24 @@ static double mean_beside(const struct lom_fluid *f, int axis, size_t n, bool ho
     return count > 0 ? sum / count : 0;
 }
 
+/* Along the ground, which does not hold the liquid, faces that it closes have the mean of those around them. */
+static double mean_over_ground(const struct lom_fluid *f, int axis, size_t n)
+{
+    double sum = 0;
+    int count = 0;
+    for (int side = 0; side < 6; side++) {
+        const size_t step = f->stride[side >> 1];
+        if (side & 1 ? n + step >= f->count : n < step)
+            continue;
+        const size_t other = side & 1 ? n + step : n - step;
+        if (other < f->stride[axis] || !is_solved(f, axis, other))
+            continue;
+        sum += f->face[axis][other].velocity;
+        count++;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
 /* Faces that particles reach but nothing has been solved for have what those beside them have: within solids, and in
  * the air where the liquid has viscosity, which does not let its outermost layer fall alone. */
 static void extend(void *context, size_t first, size_t end)
@@ -109,7 +136,9 @@ static void extend(void *context, size_t first, size_t end)
             const size_t along = f->stride[axis];
             if (n < along || !(f->face[axis][n].mass > 0))
                 continue;
-            if (f->kind[n] == LOM_FLUID_SOLID && f->kind[n - along] == LOM_FLUID_SOLID)
+            if (!viscous && f->open[n] >> axis & LOM_FLUID_GROUND)
+                f->face[axis][n].velocity = mean_over_ground(f, axis, n);
+            else if (f->kind[n] == LOM_FLUID_SOLID && f->kind[n - along] == LOM_FLUID_SOLID)
                 f->face[axis][n].velocity = mean_beside(f, axis, n, viscous);
             else if (viscous && !is_wall(f, axis, n) && !is_solved(f, axis, n))
                 f->face[axis][n].velocity = mean_beside(f, axis, n, false);
@@ -139,7 +168,7 @@ void lom_project_fluid(struct lom_fluid *f)
     f->rounds[0] = lom_solve_fluid(f, 1e-4, 400);
     keep(f, f->pressure);
     lom_share_fluid(f, f->count, LOM_FLUID_PIECE, subtract_gradient, f);
-    if (f->desc.solid_count > 0 || f->strain != NULL)
+    if (f->desc.solid_count > 0 || f->floor != NULL || f->strain != NULL)
         lom_share_fluid(f, f->count, LOM_FLUID_PIECE, extend, f);
 }
 

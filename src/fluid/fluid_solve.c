@@ -21,6 +21,11 @@ static void add_pieces(const struct lom_fluid_system *s, double sum[2])
 static inline double row_times(const struct lom_fluid_system *s, size_t i, const double *x)
 {
     const uint32_t *n = s->neighbour[i];
+    if (s->share != NULL) {
+        const double *k = s->share[i];
+        return s->diagonal[i] * x[i] - (((k[0] * x[n[0]] + k[1] * x[n[1]]) + (k[2] * x[n[2]] + k[3] * x[n[3]])) +
+                                        (k[4] * x[n[4]] + k[5] * x[n[5]]));
+    }
     return s->diagonal[i] * x[i] - (((x[n[0]] + x[n[1]]) + (x[n[2]] + x[n[3]])) + (x[n[4]] + x[n[5]]));
 }
 

@@ -90,7 +90,7 @@ const struct lom_key_row lom_key_rows[] = {
     { LOM_PART_FLUIDS,
       "fluid.low fluid.high fluid.spacing fluid.step fluid.gravity fluid.viscosity "
       "fluid.solid_viscosity fluid.melting fluid.latent_heat fluid.conductivity fluid.block fluid.block.* fluid.solid "
-      "fluid.solid.*" },
+      "fluid.solid.* fluid.ground" },
     { each_frame, "fluid.name fluid.start fluid.index fluid.absorption fluid.color fluid.highlight "
                   "fluid.shininess" },
 
@@ -169,7 +169,7 @@ static unsigned add_made_from(unsigned parts)
     static const struct {
         unsigned part, makes;
     } chain[] = {
-        { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES },
+        { LOM_PART_HEIGHTS, LOM_PART_GROUND | LOM_PART_ENTITIES | LOM_PART_BED | LOM_PART_WAVES | LOM_PART_FLUIDS },
         { LOM_PART_WAVES, LOM_PART_SPRAY },
         { LOM_PART_TEXTURES, LOM_PART_SKY | LOM_PART_GROUND_MAPS | LOM_PART_ENTITIES | LOM_PART_WATER_MAPS },
         { LOM_PART_GROUND_MAPS, LOM_PART_GROUND_LAYERS },

@@ -7,12 +7,10 @@
 
 enum { MOST_STEPS = 10000000 };
 
-double lom_bed_over_level(const struct lom_wave_site *site, double x, double z)
+/* Between the bed's vertices, over its base. */
+static double height_over_base(const struct lom_bed *bed, double x, double z)
 {
-    const struct lom_bed *bed = &site->bed;
     const double *size = bed->size;
-    if (bed->heights == NULL)
-        return -100;
     double u = (x / size[0] + 0.5) * bed->columns, v = (z / size[1] + 0.5) * bed->rows;
     u = u < 0 ? 0 : u > bed->columns ? bed->columns : u;
     v = v < 0 ? 0 : v > bed->rows ? bed->rows : v;
@@ -21,8 +19,18 @@ double lom_bed_over_level(const struct lom_wave_site *site, double x, double z)
     const float *h = bed->heights + (size_t)row * ((size_t)bed->columns + 1) + column;
     const float *below = h + bed->columns + 1;
     double s = u - column, t = v - row;
-    return (h[0] + s * ((double)h[1] - h[0])) * (1 - t) + (below[0] + s * ((double)below[1] - below[0])) * t +
-           (bed->base - site->level);
+    return (h[0] + s * ((double)h[1] - h[0])) * (1 - t) + (below[0] + s * ((double)below[1] - below[0])) * t;
+}
+
+double lom_bed_over_level(const struct lom_wave_site *site, double x, double z)
+{
+    const struct lom_bed *bed = &site->bed;
+    return bed->heights == NULL ? -100 : height_over_base(bed, x, z) + (bed->base - site->level);
+}
+
+double lom_bed_height(const struct lom_bed *bed, double x, double z)
+{
+    return height_over_base(bed, x, z) + bed->base;
 }
 
 bool lom_open_shallow_region(struct lom_shallow_region *region, const struct lom_wave_site *site, lom_error *error)

@@ -34,6 +34,8 @@ struct lom_wave_site {
     const void *scene;
 };
 
+/* The height (y) of a bed that has heights, between its vertices; beyond its edge that of the edge. */
+double lom_bed_height(const struct lom_bed *bed, double x, double z);
 /* The height of the terrain between its vertices over the water's level; deep below it where there is none. */
 double lom_bed_over_level(const struct lom_wave_site *site, double x, double z);
 

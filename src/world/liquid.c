@@ -9,6 +9,11 @@ bool lom_shows_liquid(const lom_scene *scene, size_t number)
     return scene->quality.fluid && scene->fluids[number].visible;
 }
 
+static double ground_under(const void *bed, double x, double z)
+{
+    return lom_bed_height(bed, x, z);
+}
+
 lom_fluid *lom_begin_liquid(const struct lom_world *world, size_t number, lom_error *error)
 {
     const lom_fluid_params *p = &world->scene->fluids[number];
@@ -21,7 +26,9 @@ lom_fluid *lom_begin_liquid(const struct lom_world *world, size_t number, lom_er
                             .blocks = p->blocks,
                             .block_count = p->block_count,
                             .solids = p->solids,
-                            .solid_count = p->solid_count };
+                            .solid_count = p->solid_count,
+                            .ground = p->ground && world->bed.heights != NULL ? ground_under : NULL,
+                            .ground_context = &world->bed };
     for (int i = 0; i < 3; i++) {
         desc.low[i] = p->low[i];
         desc.high[i] = p->high[i];

@@ -216,11 +216,18 @@ static bool make_sea(const char *name, uint64_t *hash, lom_error *error)
     return moment != NULL;
 }
 
+static double slope(const void *context, double x, double z)
+{
+    (void)context;
+    return 0.1 + 0.3 * x + 0.1 * z;
+}
+
 static bool make_fluid(const char *name, uint64_t *hash, lom_error *error)
 {
     static const lom_fluid_body block = { .high = { 0.5, 0.5, 1 } }, plate = { .high = { 1, 0.2, 1 }, .heats = true };
     (void)name;
     lom_fluid *fluid = lom_create_fluid(&(lom_fluid_desc){ .high = { 1, 1, 1 },
+                                                           .ground = slope,
                                                            .spacing = 0.1,
                                                            .gravity = { 0, -9.8, 0 },
                                                            .viscosity = 0.01,

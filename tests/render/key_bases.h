@@ -179,7 +179,7 @@ static const struct base bases[] = {
       "fluid.0.visible fluid.0.low fluid.0.start fluid.0.step fluid.0.gravity fluid.0.viscosity "
       "fluid.0.solid_viscosity fluid.0.melting fluid.0.latent_heat fluid.0.conductivity fluid.0.block fluid.0.solid "
       "fluid.0.index "
-      "fluid.0.absorption fluid.0.color fluid.0.highlight fluid.0.shininess quality.fluid",
+      "fluid.0.absorption fluid.0.color fluid.0.highlight fluid.0.shininess fluid.0.ground quality.fluid terrain.base",
       VIEW TERRAIN "[[fluid]]\nlow = [-3, 0, -3]\nhigh = [3, 4, 3]\nspacing = 0.5\nviscosity = 0.1\n"
                    "solid_viscosity = 10\nmelting = [20, 80]\nconductivity = 0.1\nabsorption = 0.3\n"
                    "[[fluid.block]]\nlow = [-2, 1, -2]\nhigh = [1, 3, 2]\ntemperature = 50\n"
