@@ -41,6 +41,7 @@ struct lom_pool {
     lom_work *work;
     void *context;
     struct turn *turns;
+    lom_portion *portions;
     uint64_t shared; /* nanoseconds in which two were at work, or more */
 };
 
@@ -180,6 +181,7 @@ static void free_memory(lom_pool *pool)
 {
     lom_release(pool->threads);
     lom_release(pool->turns);
+    lom_release(pool->portions);
     lom_release(pool);
 }
 
@@ -190,7 +192,8 @@ lom_pool *lom_create_pool(int threads, lom_error *error)
         return NULL;
     pool->threads = lom_allocate((size_t)threads, sizeof *pool->threads, error);
     pool->turns = lom_allocate((size_t)threads, sizeof *pool->turns, error);
-    if (pool->threads == NULL || pool->turns == NULL) {
+    pool->portions = lom_allocate((size_t)threads, sizeof *pool->portions, error);
+    if (pool->threads == NULL || pool->turns == NULL || pool->portions == NULL) {
         free_memory(pool);
         return NULL;
     }
@@ -228,6 +231,11 @@ void lom_free_pool(lom_pool *pool)
         pthread_mutex_destroy(&pool->mutex);
     }
     free_memory(pool);
+}
+
+lom_portion *lom_pool_portions(lom_pool *pool)
+{
+    return pool->portions;
 }
 
 uint64_t lom_pool_shared(const lom_pool *pool)

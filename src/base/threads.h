@@ -2,7 +2,7 @@
 #ifndef LOM_BASE_THREADS_H
 #define LOM_BASE_THREADS_H
 
-#include <lom/base.h>
+#include "base/portions.h"
 
 typedef struct lom_pool lom_pool;
 typedef void lom_work(void *context, int worker);
@@ -16,13 +16,15 @@ lom_pool *lom_create_pool(int threads, lom_error *error);
 void lom_free_pool(lom_pool *pool);
 /* Workers of the pool, the caller included. */
 int lom_pool_size(const lom_pool *pool);
+/* One for each worker, for what is handed out by portions: by one caller at a time. */
+lom_portion *lom_pool_portions(lom_pool *pool);
 /* Nanoseconds by the clock in which two workers or more were at work, since the pool was made. */
 uint64_t lom_pool_shared(const lom_pool *pool);
 /* Runs work(context, worker) on every worker; returns when all have returned. What they wrote is visible to the caller.
  */
 void lom_run_pool(lom_pool *pool, lom_work *work, void *context);
 
-/* The same for work that its callers take from one another by a counter until none is left: a worker who comes when the
+/* The same for work that its callers take from one another until none is left: a worker who comes when the
  * caller has found none left, as one that slept may, is not waited for. */
 void lom_offer_work(lom_pool *pool, lom_work *work, void *context);
 

@@ -2,7 +2,7 @@
 #include "base/threads.h"
 
 struct lom_pool {
-    char none; /* a structure has a member */
+    lom_portion portion;
 };
 
 lom_pool *lom_create_pool(int threads, lom_error *error)
@@ -20,6 +20,11 @@ int lom_pool_size(const lom_pool *pool)
 {
     (void)pool;
     return 1;
+}
+
+lom_portion *lom_pool_portions(lom_pool *pool)
+{
+    return &pool->portion;
 }
 
 uint64_t lom_pool_shared(const lom_pool *pool)

@@ -54,7 +54,6 @@ lom_device *lom_open_device(const lom_device_desc *desc)
     if (!check_desc(desc, &device->error) || !resolve_desc(device, desc))
         return device;
     device->pool = lom_create_pool(device->desc.threads, &device->error);
-    device->portions = lom_allocate((size_t)device->desc.threads, sizeof *device->portions, &device->error);
     device->worker_tiles = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_tile), &device->error);
     device->assemblies = lom_allocate((size_t)device->desc.threads, sizeof(struct lom_assembly), &device->error);
     return device;
@@ -107,7 +106,6 @@ void lom_close_device(lom_device *device)
     lom_release(device->reached);
     lom_release(device->assemblies);
     lom_release(device->worker_tiles);
-    lom_release(device->portions);
     lom_release(device->sampled);
     lom_release(device->tile_memory);
     lom_release(device->tile_touched);

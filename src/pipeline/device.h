@@ -2,7 +2,6 @@
 #ifndef LOM_PIPELINE_DEVICE_H
 #define LOM_PIPELINE_DEVICE_H
 
-#include "base/portions.h"
 #include "pipeline/clusters.h"
 #include "pipeline/stages.h"
 
@@ -23,7 +22,6 @@ struct lom_device {
     int variant;
     size_t cache_bytes; /* of the last level; 0: unknown */
     lom_pool *pool;
-    lom_portion *portions; /* of each worker: chunks, or tiles */
     lom_counters counters;
     lom_texture **textures;
     size_t texture_count, texture_capacity;

@@ -1,6 +1,6 @@
 /* The end of a pass, of an update, and of making a texture: what lies around and above level 0, and its texels decoded.
  * In: its texels, after a pass most often with the apron's columns, which tiles fill (resolve.c). Out: the aprons, the
- * other levels where it has them, what samplers read. Rows, faces and ranges are handed out by a counter, with a barrier
+ * other levels where it has them, what samplers read. Rows, faces and ranges are handed out, with a barrier
  * from level to level. Invariant: a texel is what lom_finish_texture makes it, whoever does. */
 #include "pipeline/device.h"
 

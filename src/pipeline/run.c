@@ -12,15 +12,16 @@ static void run_chunks(void *context, int worker)
     enum { TURNS = 32 };
     struct lom_pass *pass = context;
     const size_t count = pass->chunk_count, some = count / TURNS > 1 ? count / TURNS : 1;
+    lom_portion *portions = lom_pool_portions(pass->device->pool);
     size_t first, taken;
-    while ((taken = lom_take_portion(pass->device->portions, pass->device->desc.threads, worker, some, &first)) > 0)
+    while ((taken = lom_take_portion(portions, pass->device->desc.threads, worker, some, &first)) > 0)
         for (size_t i = first; i < first + taken; i++)
             lom_run_chunk(pass, &pass->chunks[i], &pass->device->assemblies[worker]);
 }
 
 static void run_all(lom_device *device, lom_work *work, size_t count)
 {
-    lom_lay_portions(device->portions, device->desc.threads, count);
+    lom_lay_portions(lom_pool_portions(device->pool), device->desc.threads, count);
     lom_offer_work(device->pool, work, &device->pass);
 }
 

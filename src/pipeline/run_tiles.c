@@ -132,8 +132,9 @@ void lom_run_tiles(void *context, int worker)
 {
     struct lom_pass *pass = context;
     struct lom_tile *tile = &pass->device->worker_tiles[worker];
+    lom_portion *portions = lom_pool_portions(pass->device->pool);
     size_t i;
-    while (lom_take_portion(pass->device->portions, pass->device->desc.threads, worker, 1, &i) > 0) {
+    while (lom_take_portion(portions, pass->device->desc.threads, worker, 1, &i) > 0) {
         uint8_t *memory = memory_of(pass, (int)i, worker);
         bool clocked = pass->tallier != NULL && pass->tallier->desc.clock;
         int64_t since = clocked ? lom_tally_clock() : 0;
