@@ -33,7 +33,7 @@ static const lom_option options[] = {
     { "filtering", 0, LOM_OPTION_CHOICE, offsetof(bench_options, filtering), "float|fixed", 0, 0,
       "arithmetic in which textures are filtered (fixed)" },
     { "march", 0, LOM_OPTION_CHOICE, offsetof(bench_options, march), "float|fixed", 0, 0,
-      "arithmetic of the march through the cloud (float)" },
+      "arithmetic of the march through the cloud (fixed)" },
     { "output", 'o', LOM_OPTION_TEXT, offsetof(bench_options, output), "OUT", 0, 0,
       "keep the last frame; with one workload only" },
     { "json", 0, LOM_OPTION_FLAG, offsetof(bench_options, json), NULL, 0, 0, "one JSON object a line" },
@@ -101,7 +101,7 @@ static bool run_one(const bench_options *o, const char *name, lom_device *device
     int width = o->size.given ? (int)o->size.value[0] : 1280, height = o->size.given ? (int)o->size.value[1] : 720;
     lom_timing timing;
     lom_workload *workload = lom_create_workload(name, width, height, filtering_of(o->filtering, LOM_FILTERING_FIXED),
-                                                 filtering_of(o->march, LOM_FILTERING_FLOAT), error);
+                                                 filtering_of(o->march, LOM_FILTERING_FIXED), error);
     if (workload != NULL)
         lom_set_workload_samples(workload, (int)lom_given_or(&o->samples, 1));
     bool done = workload != NULL && lom_time_workload(workload, device, (int)lom_given_or(&o->warm_up, 2),
