@@ -125,8 +125,12 @@ LOM_INLINE struct lom_seen_facets lom_see_facets(const struct lom_surface_unifor
                                  lom_facet_of_slope(&view, passing / lom_max(1.0f - share, lom_splat(1e-6f)), across) };
 }
 
-/* The least cosine of what is seen: that of the mean facet that an eye sees along the level, s sqrt(pi / 2), for Cox and
- * Munk's (1954) clean sea in a wind of 1 m/s, whose slopes have s^2 = 0.00406. */
+/* The least cosine of what is seen of a wave that is turned away: that of the mean facet that an eye sees along the level, s
+ * sqrt(pi / 2), for Cox and Munk's (1954) clean sea in a wind of 1 m/s, whose slopes have s^2 = 0.00406. Where waves hide
+ * their backs and where a sheet ends it stands for what a pixel shows beside them.
+ *
+ * Level water may face the eye less, as much as it does: an eye sees facets by the area that they show, so that those whose
+ * slopes are spread evenly about the level lean to it in the mean, and none of their means faces it less than the level. */
 #define LOM_LEAST_FACING 0.08f
 
 /* A normal turned to the eye's side of the water, and further where it points away from the eye: what is seen faces
@@ -135,7 +139,8 @@ LOM_INLINE lom_float3 lom_facing_eye(const struct lom_surface_uniforms *u, const
                                      lom_float3 normal)
 {
     lom_float3 n = lom_scale3(normal, lom_splat(u->side));
-    lom_float turn = lom_max(LOM_LEAST_FACING - lom_dot3(n, p->to_eye), (lom_float){ 0 });
+    lom_float least = lom_min(lom_abs(p->to_eye.y), lom_splat(LOM_LEAST_FACING));
+    lom_float turn = lom_max(least - lom_dot3(n, p->to_eye), (lom_float){ 0 });
     return lom_normalize3(lom_add3(n, lom_scale3(p->to_eye, turn)));
 }
 
