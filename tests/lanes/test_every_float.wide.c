@@ -218,9 +218,11 @@ static void every_float_is_within_its_bound(void)
     walk.stride = all ? 1 : 2039; /* a prime */
     walk.count = all ? 1 << 20 : 512;
     CHECK(pool != NULL);
-    if (all)
+    if (all) {
         printf("%d lanes\n\n| function | largest error, ulp | over | at | not nearest |\n|---|---|---|---|---|\n",
                LOM_LANES);
+        fflush(stdout);
+    }
     for (int f = 0; pool != NULL && f < COUNT; f++) {
         walk.unary = &functions[f];
         lom_share_out(pool, BLOCKS, 1, walk_blocks, &walk);

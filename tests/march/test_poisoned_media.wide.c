@@ -4,12 +4,12 @@
  * clean ones (the criterion of Embree's tests): processor time of this thread, in turn, the least of each. */
 #include "check.h"
 #include "media.h"
+#include "processor_time.h"
 
 #include "march/cells.h"
 
 #include <float.h>
 #include <math.h>
-#include <time.h>
 
 enum { SIDE = 40, VOXELS = SIDE * SIDE * SIDE, ROUNDS = 9 };
 static const double most = 2.5;
@@ -31,13 +31,6 @@ static lom_image *voxels_with(float value, int every)
     for (int i = 0; i < VOXELS; i++)
         at[i] = i % every == 0 ? value : (float)lom_random_uniform(5, (uint64_t)i);
     return image;
-}
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
 static lom_light_grid *light_of(const lom_image *image)

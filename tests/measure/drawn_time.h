@@ -6,20 +6,13 @@
 #include "check.h"
 #include "denormals.h"
 #include "measure/work.h"
+#include "processor_time.h"
 #include "small_scene.h"
 
 #include <math.h>
-#include <time.h>
 
 enum { WIDTH = 48, HEIGHT = 27, FRAMES = 3 };
 static const double most = 2.5;
-
-static inline double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
 
 struct drawn {
     lom_scene *scene;

@@ -1,13 +1,13 @@
 /* Time for a poisoned input is at most 2.5 times that for a clean one (the criterion of Embree's tests): NaN, infinities,
  * denormals and huge numbers in positions, texture coordinates, colours, texels, uniforms and densities. Processor time
  * of this thread, clean and poisoned in turn, the least of each: what else the machine does makes both longer. */
+#include "processor_time.h"
 #include "stage.h"
 
 #include <lom/lanes_components.h>
 
 #include <float.h>
 #include <math.h>
-#include <time.h>
 
 enum { SIZE = 256, QUADS = 64, VERTICES = 6 * QUADS * QUADS, ROUNDS = 7 };
 static const double most = 2.5;
@@ -55,13 +55,6 @@ static void make_plain(void)
         plain[i].value[2] = 0.5f;
         plain[i].value[3] = (float)(i % 7) / 7;
     }
-}
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
 struct scene {
