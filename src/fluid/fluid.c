@@ -209,21 +209,23 @@ static bool allocate_system(struct lom_fluid *f, lom_error *error)
     f->cell_of = lom_allocate(most, sizeof *f->cell_of, error);
     s->neighbour = lom_allocate(most, sizeof *s->neighbour, error);
     s->partial = lom_allocate(2 * (most / LOM_FLUID_PIECE + 1), sizeof *s->partial, error);
+    s->done = lom_allocate(most / LOM_FLUID_PART + 1, sizeof *s->done, error);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         *arrays[i] = lom_allocate(most + 1, sizeof **arrays[i], error);
         done = done && *arrays[i] != NULL;
     }
     if (f->floor != NULL && (s->share = lom_allocate(most, sizeof *s->share, error)) == NULL)
         return false;
-    return done && f->cell_of != NULL && s->neighbour != NULL && s->partial != NULL;
+    return done && f->cell_of != NULL && s->neighbour != NULL && s->partial != NULL && s->done != NULL;
 }
 
 static bool fill_fluid(struct lom_fluid *f, lom_error *error)
 {
     f->points = lom_allocate(f->point_count, sizeof *f->points, error);
     f->sorted = lom_allocate(f->point_count, sizeof *f->sorted, error);
+    f->place = lom_allocate(f->point_count, sizeof *f->place, error);
     f->solids = lom_allocate(f->desc.solid_count, sizeof *f->solids, error);
-    if (f->points == NULL || f->sorted == NULL || f->solids == NULL || !allocate_grid(f, error) ||
+    if (f->points == NULL || f->sorted == NULL || f->place == NULL || f->solids == NULL || !allocate_grid(f, error) ||
         !allocate_system(f, error))
         return false;
     if (f->desc.solid_count > 0)
@@ -284,7 +286,7 @@ void lom_free_fluid(lom_fluid *f)
                              f->face[2],  f->density, f->kind,      f->open,     f->unknown,   f->pressure,
                              f->push,     f->cell_of, s->neighbour, s->diagonal, s->right,     s->x,
                              s->residual, s->way,     s->product,   s->partial,  f->cell_heat, f->solid_temperature,
-                             s->share };
+                             s->share,    f->place,   s->done };
     lom_close_strain(f);
     lom_close_floor(f);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)

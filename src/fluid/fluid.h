@@ -8,6 +8,8 @@
 
 #include <lom/fluid.h>
 
+#include <stdatomic.h>
+
 struct lom_fluid_point {
     double at[3];
     double velocity[3];  /* cells/s */
@@ -36,6 +38,7 @@ struct lom_fluid_system {
     double *residual, *way, *product; /* scratch */
     double *partial;                  /* sums of pieces */
     double (*share)[6];               /* of each neighbour: the factor of its x; NULL: 1 */
+    atomic_uchar *done;               /* of parts of pieces (lom_sum_fluid) */
 };
 
 /* The ground (fluid_floor.c); heights in cells. */
@@ -56,6 +59,7 @@ struct lom_fluid {
 
     struct lom_fluid_point *points, *sorted;
     size_t point_count;
+    uint32_t *place; /* of each point while they are sorted */
     uint32_t *first; /* of the points of a cell, count + 1 */
     struct lom_fluid_face *face[3];
     double *density;   /* particles a cell, weighted by their distance */
@@ -126,7 +130,18 @@ double lom_fluid_heat(const lom_fluid_desc *d, double temperature);
 /* fluid_solve.c: conjugate gradients from the system's x on, until the residual is `tolerance` of the right side or
  * `most` rounds are done, which it returns. */
 int lom_solve_fluid(const struct lom_fluid *f, double tolerance, int most);
-/* The dot product of two arrays, in an order of its own; `partial` has room for count / LOM_FLUID_PIECE + 1. */
-enum { LOM_FLUID_PIECE = 4096 };
+enum { LOM_FLUID_PIECE = 4096, LOM_FLUID_PART = 512 };
+
+/* A sum whose terms workers make in parts of LOM_FLUID_PART, and which is taken in their order, by whoever has made the
+ * next of them: the sum of chains of `chain` terms, a multiple of the parts. `add` goes on with a chain by the terms first
+ * to end - 1. `done` has room for a flag a part. */
+struct lom_fluid_sum {
+    lom_range_work *work;
+    double (*add)(const void *context, size_t first, size_t end, double sum);
+    void *context;
+    size_t count, chain;
+    atomic_uchar *done;
+};
+double lom_sum_fluid(const struct lom_fluid *f, const struct lom_fluid_sum *sum);
 
 #endif

@@ -58,19 +58,36 @@ static size_t cell_at(const struct lom_fluid *f, const double at[3])
     return n;
 }
 
-/* By cell, of equal ones the first stays first. The counts are kept: they are where each cell's particles begin. */
+static void find_cells(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    for (size_t i = first; i < end; i++)
+        f->place[i] = (uint32_t)cell_at(f, f->points[i].at);
+}
+
+static void put_points(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    for (size_t i = first; i < end; i++)
+        f->sorted[f->place[i]] = f->points[i];
+}
+
+/* By cell, of equal ones the first stays first. The counts are kept: they are where each cell's particles begin. One
+ * worker counts; all find cells and move particles, which is most of it. */
 void lom_sort_fluid(struct lom_fluid *f)
 {
     uint32_t *first = f->first;
+    lom_share_fluid(f, f->point_count, LOM_FLUID_PIECE / 4, find_cells, f);
     memset(first, 0, (f->count + 1) * sizeof *first);
     for (size_t i = 0; i < f->point_count; i++)
-        first[cell_at(f, f->points[i].at) + 1]++;
+        first[f->place[i] + 1]++;
     for (size_t n = 0; n < f->count; n++)
         first[n + 1] += first[n];
     for (size_t i = 0; i < f->point_count; i++)
-        f->sorted[first[cell_at(f, f->points[i].at)]++] = f->points[i];
+        f->place[i] = first[f->place[i]]++;
     memmove(first + 1, first, f->count * sizeof *first);
     first[0] = 0;
+    lom_share_fluid(f, f->point_count, LOM_FLUID_PIECE / 4, put_points, f);
     struct lom_fluid_point *points = f->points;
     f->points = f->sorted;
     f->sorted = points;

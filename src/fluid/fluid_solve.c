@@ -3,6 +3,62 @@
  * Invariant: sums are taken piece by piece, and the pieces' in their order: by whom makes no difference. */
 #include "fluid/fluid.h"
 
+/* ---- sums ---- */
+
+/* The sum as far as it is taken: by one at a time. */
+struct summing {
+    const struct lom_fluid_sum *sum;
+    atomic_flag is_taken;
+    size_t next; /* term */
+    double chain, whole;
+};
+
+static bool is_ready(const struct summing *s)
+{
+    const struct lom_fluid_sum *sum = s->sum;
+    return s->next < sum->count && atomic_load(&sum->done[s->next / LOM_FLUID_PART]) != 0;
+}
+
+/* Whoever finds the sum taken has set a flag before, which the other one looks at once more when it has let go. */
+static void take_parts(struct summing *s)
+{
+    const struct lom_fluid_sum *sum = s->sum;
+    for (bool more = true; more && !atomic_flag_test_and_set(&s->is_taken);) {
+        while (is_ready(s)) {
+            const size_t end = s->next + LOM_FLUID_PART < sum->count ? s->next + LOM_FLUID_PART : sum->count;
+            s->chain = sum->add(sum->context, s->next, end, s->chain);
+            s->next = end;
+            if (end % sum->chain == 0 || end == sum->count) {
+                s->whole += s->chain;
+                s->chain = 0;
+            }
+        }
+        const size_t next = s->next;
+        atomic_flag_clear(&s->is_taken);
+        more = next < sum->count && atomic_load(&sum->done[next / LOM_FLUID_PART]) != 0;
+    }
+}
+
+static void make_parts(void *context, size_t first, size_t end)
+{
+    struct summing *s = context;
+    s->sum->work(s->sum->context, first, end);
+    for (size_t i = first; i < end; i += LOM_FLUID_PART)
+        atomic_store(&s->sum->done[i / LOM_FLUID_PART], 1);
+    take_parts(s);
+}
+
+double lom_sum_fluid(const struct lom_fluid *f, const struct lom_fluid_sum *sum)
+{
+    struct summing s = { .sum = sum, .is_taken = ATOMIC_FLAG_INIT };
+    for (size_t i = 0; i < sum->count; i += LOM_FLUID_PART)
+        atomic_store_explicit(&sum->done[i / LOM_FLUID_PART], 0, memory_order_relaxed);
+    lom_share_fluid(f, sum->count, LOM_FLUID_PART, make_parts, &s);
+    return s.whole;
+}
+
+/* ---- the solution ---- */
+
 struct solving {
     const struct lom_fluid *f;
     const struct lom_fluid_system *s;
@@ -54,27 +110,37 @@ static void multiply(void *context, size_t first, size_t end)
 {
     const struct solving *c = context;
     const struct lom_fluid_system *s = c->s;
-    double sum = 0;
-    for (size_t i = first; i < end; i++) {
+    for (size_t i = first; i < end; i++)
         s->product[i] = row_times(s, i, s->way);
-        sum += s->way[i] * s->product[i];
-    }
-    s->partial[2 * (first / LOM_FLUID_PIECE)] = sum;
-    s->partial[2 * (first / LOM_FLUID_PIECE) + 1] = 0;
 }
 
+static double add_steepness(const void *context, size_t first, size_t end, double sum)
+{
+    const struct solving *c = context;
+    const struct lom_fluid_system *s = c->s;
+    for (size_t i = first; i < end; i++)
+        sum += s->way[i] * s->product[i];
+    return sum;
+}
+
+/* The products become the errors that are left. */
 static void advance(void *context, size_t first, size_t end)
 {
     const struct solving *c = context;
     const struct lom_fluid_system *s = c->s;
-    double sum = 0;
     for (size_t i = first; i < end; i++) {
         s->x[i] += c->along * s->way[i];
         s->residual[i] -= c->along * s->product[i];
-        sum += s->diagonal[i] > 0 ? s->residual[i] * s->residual[i] / s->diagonal[i] : 0;
+        s->product[i] = s->diagonal[i] > 0 ? s->residual[i] * s->residual[i] / s->diagonal[i] : 0;
     }
-    s->partial[2 * (first / LOM_FLUID_PIECE)] = sum;
-    s->partial[2 * (first / LOM_FLUID_PIECE) + 1] = 0;
+}
+
+static double add_errors(const void *context, size_t first, size_t end, double sum)
+{
+    const struct solving *c = context;
+    for (size_t i = first; i < end; i++)
+        sum += c->s->product[i];
+    return sum;
 }
 
 static void turn(void *context, size_t first, size_t end)
@@ -97,18 +163,18 @@ int lom_solve_fluid(const struct lom_fluid *f, double tolerance, int most)
     add_pieces(s, sum);
     const double enough = tolerance * tolerance * sum[1];
     double error = sum[0];
+    const struct lom_fluid_sum steepness = { multiply, add_steepness, &c, s->count, LOM_FLUID_PIECE, s->done };
+    const struct lom_fluid_sum errors = { advance, add_errors, &c, s->count, LOM_FLUID_PIECE, s->done };
     int round = 0;
     for (; round < most && error > enough && error > 1e-300; round++) {
-        lom_share_fluid(f, s->count, LOM_FLUID_PIECE, multiply, &c);
-        add_pieces(s, sum);
-        if (!(sum[0] > 0))
+        const double steep = lom_sum_fluid(f, &steepness);
+        if (!(steep > 0))
             break;
-        c.along = error / sum[0];
-        lom_share_fluid(f, s->count, LOM_FLUID_PIECE, advance, &c);
-        add_pieces(s, sum);
-        c.along = sum[0] / error;
-        error = sum[0];
-        lom_share_fluid(f, s->count, LOM_FLUID_PIECE, turn, &c);
+        c.along = error / steep;
+        const double next = lom_sum_fluid(f, &errors);
+        c.along = next / error;
+        error = next;
+        lom_share_fluid(f, s->count, LOM_FLUID_PART, turn, &c);
     }
     return round;
 }

@@ -20,6 +20,9 @@ struct field {
     size_t nodes[3], stride[3], count;
     float *value, *smooth;
     uint32_t *number; /* of a cube's vertex, by its lowest node; UINT32_MAX: none */
+    struct slab {
+        size_t vertices, quads; /* of a slab of nodes across z: how many, then how many are before them */
+    } * slabs;
     size_t vertex_count, quad_count;
     lom_mesh *mesh;
     const double *origin;
@@ -131,22 +134,45 @@ static bool is_inside(const struct field *field, size_t n)
     return field->smooth[n] < 0;
 }
 
-/* Numbers the cubes with both signs, and counts the edges that cross. */
-static void number_cubes(struct field *field)
+/* Numbers the cubes with both signs from 0 in each slab, and counts the edges that cross. */
+static void count_slabs(void *context, size_t first, size_t end)
 {
-    for (size_t n = 0; n < field->count; n++) {
+    struct field *field = context;
+    for (size_t n = first * field->stride[2]; n < end * field->stride[2]; n++) {
         const size_t node[3] = { n % field->nodes[0], n / field->stride[1] % field->nodes[1], n / field->stride[2] };
+        struct slab *slab = &field->slabs[node[2]];
         bool is_cube = true;
         for (int i = 0; i < 3; i++) {
             const bool has = node[i] + 1 < field->nodes[i];
             is_cube = is_cube && has;
-            field->quad_count += has && is_inside(field, n) != is_inside(field, n + field->stride[i]);
+            slab->quads += has && is_inside(field, n) != is_inside(field, n + field->stride[i]);
         }
         int inside = 0;
         for (int corner = 0; is_cube && corner < 8; corner++)
             inside += is_inside(field, corner_of(field, n, corner));
-        field->number[n] = inside > 0 && inside < 8 ? (uint32_t)field->vertex_count++ : UINT32_MAX;
+        field->number[n] = inside > 0 && inside < 8 ? (uint32_t)slab->vertices++ : UINT32_MAX;
     }
+}
+
+static void number_slabs(void *context, size_t first, size_t end)
+{
+    struct field *field = context;
+    for (size_t k = first; k < end; k++)
+        for (size_t n = k * field->stride[2]; n < (k + 1) * field->stride[2]; n++)
+            if (field->number[n] != UINT32_MAX)
+                field->number[n] += (uint32_t)field->slabs[k].vertices;
+}
+
+static void number_cubes(struct field *field)
+{
+    lom_share_fluid(field->f, field->nodes[2], 1, count_slabs, field);
+    for (size_t k = 0; k < field->nodes[2]; k++) {
+        const struct slab counted = field->slabs[k];
+        field->slabs[k] = (struct slab){ field->vertex_count, field->quad_count };
+        field->vertex_count += counted.vertices;
+        field->quad_count += counted.quads;
+    }
+    lom_share_fluid(field->f, field->nodes[2], 1, number_slabs, field);
 }
 
 /* The field between nodes; places in nodes, within them. */
@@ -234,10 +260,11 @@ static uint32_t *add_quad(const struct field *field, size_t n, int axis, uint32_
     return out;
 }
 
-static void add_quads(const struct field *field)
+static void add_quads(void *context, size_t first, size_t end)
 {
-    uint32_t *out = field->mesh->indices;
-    for (size_t n = 0; n < field->count; n++) {
+    const struct field *field = context;
+    uint32_t *out = field->mesh->indices + 6 * field->slabs[first].quads;
+    for (size_t n = first * field->stride[2]; n < end * field->stride[2]; n++) {
         const size_t node[3] = { n % field->nodes[0], n / field->stride[1] % field->nodes[1], n / field->stride[2] };
         for (int axis = 0; axis < 3; axis++)
             if (node[axis] + 1 < field->nodes[axis] && is_inside(field, n) != is_inside(field, n + field->stride[axis]))
@@ -256,7 +283,7 @@ static bool build(struct field *field, lom_error *error)
     field->mesh->parts[0] = (lom_mesh_part){ 0, (uint32_t)(6 * field->quad_count), -1 };
     field->mesh->source_triangles = 2 * field->quad_count;
     lom_share_fluid(field->f, field->count, LOM_FLUID_PIECE, place_vertices, field);
-    add_quads(field);
+    lom_share_fluid(field->f, field->nodes[2], 1, add_quads, field);
     return true;
 }
 
@@ -272,8 +299,9 @@ lom_mesh *lom_make_fluid_mesh(lom_fluid *f, const double origin[3], lom_device *
     field.value = lom_allocate(field.count, sizeof *field.value, error);
     field.smooth = lom_allocate(field.count, sizeof *field.smooth, error);
     field.number = lom_allocate(field.count, sizeof *field.number, error);
+    field.slabs = lom_allocate(field.nodes[2], sizeof *field.slabs, error);
     f->device = device;
-    if (field.value != NULL && field.smooth != NULL && field.number != NULL) {
+    if (field.value != NULL && field.smooth != NULL && field.number != NULL && field.slabs != NULL) {
         lom_sort_fluid(f);
         build(&field, error);
     }
@@ -281,5 +309,6 @@ lom_mesh *lom_make_fluid_mesh(lom_fluid *f, const double origin[3], lom_device *
     lom_release(field.value);
     lom_release(field.smooth);
     lom_release(field.number);
+    lom_release(field.slabs);
     return field.mesh;
 }

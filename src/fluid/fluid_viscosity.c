@@ -9,27 +9,14 @@
  * out: nothing pulls at a free surface. Along a wall of solids the shear is that to the face's mirror image, 2 u over
  * half the volume: k = 2 nu of the face alone. Turning and moving as a whole have no strain, so that nothing brakes
  * them; one viscosity for what melts and what has melted is M. Carlson, P. Mucha, R. Van Horn, G. Turk: Melting and
- * flowing, SCA 2002. The least is found by conjugate gradients with the diagonal as preconditioner. */
-#include "fluid/fluid.h"
+ * flowing, SCA 2002. The least is found by conjugate gradients (fluid_strain.c). Slabs of cells across z are counted, then
+ * filled, each by one worker. */
+#include "fluid/fluid_strain.h"
 
 #include "base/numbers.h"
 #include "base/reserve.h"
 
-/* Differences of faces: number[1] - number[0] + number[3] - number[2]; unknown `count` is always 0. */
-struct sample {
-    uint32_t number[4];
-    double k; /* times dt over the cell's side squared */
-};
-
-struct lom_fluid_strain {
-    struct sample *samples;
-    size_t sample_count, sample_capacity;
-    size_t count, capacity; /* of unknowns: faces */
-    size_t *face;           /* count each: 3 times the number, and the axis */
-    double *x, *residual, *way, *product, *diagonal;
-    uint32_t *unknown; /* of a face, 3 times the number, and the axis; UINT32_MAX: none */
-    double *viscosity; /* of a cell, times dt over the side squared */
-};
+#include <string.h>
 
 bool lom_open_strain(struct lom_fluid *f, lom_error *error)
 {
@@ -38,7 +25,8 @@ bool lom_open_strain(struct lom_fluid *f, lom_error *error)
         return false;
     s->unknown = lom_allocate(3 * f->count, sizeof *s->unknown, error);
     s->viscosity = lom_allocate(f->count, sizeof *s->viscosity, error);
-    return s->unknown != NULL && s->viscosity != NULL;
+    s->slabs = lom_allocate((size_t)f->cells[2] + 2, sizeof *s->slabs, error);
+    return s->unknown != NULL && s->viscosity != NULL && s->slabs != NULL;
 }
 
 void lom_close_strain(struct lom_fluid *f)
@@ -46,8 +34,8 @@ void lom_close_strain(struct lom_fluid *f)
     struct lom_fluid_strain *s = f->strain;
     if (s == NULL)
         return;
-    void *const arrays[] = { s->samples, s->face,     s->x,       s->residual, s->way,
-                             s->product, s->diagonal, s->unknown, s->viscosity };
+    void *const arrays[] = { s->samples, s->face,      s->x,     s->residual, s->way,   s->product, s->diagonal,
+                             s->unknown, s->viscosity, s->slabs, s->pull,     s->first, s->touch,   s->done };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         lom_release(arrays[i]);
     lom_release(s);
@@ -82,59 +70,117 @@ static void find_viscosities(void *context, size_t first, size_t end)
 static bool reserve_unknowns(struct lom_fluid_strain *s, size_t count, lom_error *error)
 {
     double **const arrays[] = { &s->x, &s->residual, &s->way, &s->product, &s->diagonal };
-    size_t capacity = s->capacity;
+    size_t capacity = s->capacity, firsts = s->capacity, done = s->capacity;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         size_t own = s->capacity;
         if (!lom_renew(arrays[i], &own, count + 1, sizeof **arrays[i], error))
             return false;
     }
-    if (!lom_renew(&s->face, &capacity, count + 1, sizeof *s->face, error))
+    if (!lom_renew(&s->face, &capacity, count + 1, sizeof *s->face, error) ||
+        !lom_renew(&s->first, &firsts, count + 1, sizeof *s->first, error) ||
+        !lom_renew(&s->done, &done, count + 1, sizeof *s->done, error))
         return false;
     s->capacity = capacity;
     return true;
 }
 
-/* Faces that are no walls and have liquid on a side. */
-static bool number_faces(struct lom_fluid *f, lom_error *error)
+static bool reserve_samples(struct lom_fluid_strain *s, size_t count, lom_error *error)
 {
+    size_t pulls = s->sample_capacity, touches = s->sample_capacity, capacity = s->sample_capacity;
+    if (!lom_renew(&s->pull, &pulls, count + 1, sizeof *s->pull, error) ||
+        !lom_renew(&s->touch, &touches, count + 1, sizeof *s->touch, error) ||
+        !lom_renew(&s->samples, &capacity, count + 1, sizeof *s->samples, error))
+        return false;
+    s->sample_capacity = capacity;
+    return true;
+}
+
+/* ---- faces ---- */
+
+/* Numbers from 0 in each slab the faces that are no walls and have liquid on a side. */
+static void count_faces(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
     struct lom_fluid_strain *s = f->strain;
-    size_t count = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        if (pass == 1 && !reserve_unknowns(s, count, error))
-            return false;
-        count = 0;
-        for (size_t n = 0; n < f->count; n++)
+    for (size_t slab = first; slab < end; slab++) {
+        size_t count = 0;
+        for (size_t n = slab * f->stride[2]; n < (slab + 1) * f->stride[2]; n++)
             for (int axis = 0; axis < 3; axis++) {
-                const size_t number = 3 * n + (size_t)axis;
                 const bool is_there =
                     (f->open[n] >> axis & 1) != 0 && f->face[axis][n].mass > 0 &&
                     (f->kind[n] == LOM_FLUID_LIQUID || f->kind[n - f->stride[axis]] == LOM_FLUID_LIQUID);
-                s->unknown[number] = is_there ? (uint32_t)count : UINT32_MAX;
-                if (is_there && pass == 1)
-                    s->face[count] = number;
-                count += is_there;
+                s->unknown[3 * n + (size_t)axis] = is_there ? (uint32_t)count++ : UINT32_MAX;
             }
+        s->slabs[slab].faces = count;
     }
-    s->count = count;
+}
+
+static void number_faces(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    struct lom_fluid_strain *s = f->strain;
+    for (size_t i = 3 * first * f->stride[2]; i < 3 * end * f->stride[2]; i++)
+        if (s->unknown[i] != UINT32_MAX) {
+            s->unknown[i] += (uint32_t)s->slabs[i / (3 * f->stride[2])].faces;
+            s->face[s->unknown[i]] = i;
+        }
+}
+
+/* Counts of slabs become sums of those before them, and that of all the last one's. */
+static size_t sum_counts(struct lom_fluid *f, size_t *(*of)(struct lom_fluid_slab *slab))
+{
+    size_t sum = 0;
+    for (int k = 0; k <= f->cells[2] + 1; k++) {
+        size_t *at = of(&f->strain->slabs[k]), counted = *at;
+        *at = sum;
+        sum += counted;
+    }
+    return sum;
+}
+
+static size_t *faces_of(struct lom_fluid_slab *slab)
+{
+    return &slab->faces;
+}
+
+static size_t *samples_of(struct lom_fluid_slab *slab)
+{
+    return &slab->samples;
+}
+
+static bool find_faces(struct lom_fluid *f, lom_error *error)
+{
+    struct lom_fluid_strain *s = f->strain;
+    const size_t slabs = (size_t)f->cells[2] + 1;
+    memset(s->slabs, 0, (slabs + 1) * sizeof *s->slabs);
+    lom_share_fluid(f, slabs, 1, count_faces, f);
+    s->count = sum_counts(f, faces_of);
+    if (!reserve_unknowns(s, s->count, error))
+        return false;
+    lom_share_fluid(f, slabs, 1, number_faces, f);
     return true;
 }
 
 /* ---- samples ---- */
 
-static bool add_sample(struct lom_fluid_strain *s, const uint32_t number[4], double k, lom_error *error)
+/* Where samples of a slab go; NULL: they are counted. */
+struct listing {
+    const struct lom_fluid *f;
+    struct lom_fluid_sample *out;
+    size_t count;
+};
+
+static void add_sample(struct listing *list, const uint32_t number[4], double k)
 {
     if (!(k > 0))
-        return true;
-    if (!lom_reserve(&s->samples, &s->sample_capacity, s->sample_count + 1, sizeof *s->samples, error))
-        return false;
-    struct sample *sample = &s->samples[s->sample_count++];
-    sample->k = k;
-    for (int i = 0; i < 4; i++) {
-        sample->number[i] = number[i] == UINT32_MAX ? (uint32_t)s->count : number[i];
-        if (number[i] != UINT32_MAX)
-            s->diagonal[number[i]] += k;
+        return;
+    if (list->out != NULL) {
+        struct lom_fluid_sample *sample = &list->out[list->count];
+        sample->k = k;
+        for (int i = 0; i < 4; i++)
+            sample->number[i] = number[i] == UINT32_MAX ? (uint32_t)list->f->strain->count : number[i];
     }
-    return true;
+    list->count++;
 }
 
 static enum lom_fluid_kind kind_at(const struct lom_fluid *f, const int at[3], size_t n)
@@ -146,8 +192,9 @@ static enum lom_fluid_kind kind_at(const struct lom_fluid *f, const int at[3], s
 }
 
 /* The edge at the corner of low a and b of a cell. */
-static bool add_edge(struct lom_fluid *f, const int cell[3], size_t n, int a, int b, lom_error *error)
+static void add_edge(struct listing *list, const int cell[3], size_t n, int a, int b)
 {
+    const struct lom_fluid *f = list->f;
     const struct lom_fluid_strain *s = f->strain;
     double viscosity = 0;
     int liquid = 0, solid = 0, solid_at[2][2];
@@ -166,9 +213,9 @@ static bool add_edge(struct lom_fluid *f, const int cell[3], size_t n, int a, in
     const bool wall = solid == 2 && solid_at[0][0] != solid_at[1][1];
     if (wall ? liquid == 0 || f->desc.slides[solid_at[0][0] == solid_at[0][1] ? a : b]
              : liquid < 2 || liquid + solid < 4)
-        return true;
+        return;
     if (solid == 2 && !wall)
-        return true;
+        return;
     /* Faces of a lie below and above the edge along b, those of b before and behind it along a. */
     const size_t below = n - f->stride[b], before = n - f->stride[a];
     uint32_t number[4] = { UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX };
@@ -178,95 +225,88 @@ static bool add_edge(struct lom_fluid *f, const int cell[3], size_t n, int a, in
         if (has[i])
             number[i] = s->unknown[at[i]];
     /* Half of a wall's edge that air touches has nothing that rubs. */
-    return add_sample(f->strain, number, wall ? viscosity : viscosity / liquid, error);
+    add_sample(list, number, wall ? viscosity : viscosity / liquid);
 }
 
-static bool add_samples(struct lom_fluid *f, lom_error *error)
+/* Those of a slab, in the order of its cells. */
+static void add_samples(struct listing *list, int slab)
+{
+    const struct lom_fluid *f = list->f;
+    const struct lom_fluid_strain *s = f->strain;
+    int cell[3] = { 0, 0, slab };
+    for (cell[1] = 0; cell[1] <= f->cells[1]; cell[1]++)
+        for (cell[0] = 0; cell[0] <= f->cells[0]; cell[0]++) {
+            const size_t n = (size_t)cell[0] + (size_t)cell[1] * f->stride[1] + (size_t)cell[2] * f->stride[2];
+            for (int axis = 0; axis < 3; axis++) {
+                if (f->kind[n] == LOM_FLUID_LIQUID) {
+                    const uint32_t along[4] = { s->unknown[3 * n + (size_t)axis],
+                                                s->unknown[3 * (n + f->stride[axis]) + (size_t)axis], UINT32_MAX,
+                                                UINT32_MAX };
+                    add_sample(list, along, 2 * s->viscosity[n]);
+                }
+                add_edge(list, cell, n, axis, (axis + 1) % 3);
+            }
+        }
+}
+
+static void count_samples(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    for (size_t slab = first; slab < end; slab++) {
+        struct listing list = { .f = f };
+        add_samples(&list, (int)slab);
+        f->strain->slabs[slab].samples = list.count;
+    }
+}
+
+static void list_samples(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    struct lom_fluid_strain *s = f->strain;
+    for (size_t slab = first; slab < end; slab++) {
+        struct listing list = { .f = f, .out = s->samples + s->slabs[slab].samples };
+        add_samples(&list, (int)slab);
+    }
+}
+
+static bool find_samples(struct lom_fluid *f, lom_error *error)
 {
     struct lom_fluid_strain *s = f->strain;
-    s->sample_count = 0;
-    for (size_t i = 0; i < s->count; i++)
-        s->diagonal[i] = 1;
-    int cell[3];
-    for (cell[2] = 0; cell[2] <= f->cells[2]; cell[2]++)
-        for (cell[1] = 0; cell[1] <= f->cells[1]; cell[1]++)
-            for (cell[0] = 0; cell[0] <= f->cells[0]; cell[0]++) {
-                const size_t n = (size_t)cell[0] + (size_t)cell[1] * f->stride[1] + (size_t)cell[2] * f->stride[2];
-                for (int axis = 0; axis < 3; axis++) {
-                    if (f->kind[n] == LOM_FLUID_LIQUID) {
-                        const uint32_t along[4] = { s->unknown[3 * n + (size_t)axis],
-                                                    s->unknown[3 * (n + f->stride[axis]) + (size_t)axis], UINT32_MAX,
-                                                    UINT32_MAX };
-                        if (!add_sample(s, along, 2 * s->viscosity[n], error))
-                            return false;
-                    }
-                    if (!add_edge(f, cell, n, axis, (axis + 1) % 3, error))
-                        return false;
-                }
-            }
+    const size_t slabs = (size_t)f->cells[2] + 1;
+    lom_share_fluid(f, slabs, 1, count_samples, f);
+    s->sample_count = sum_counts(f, samples_of);
+    if (!reserve_samples(s, s->sample_count, error))
+        return false;
+    lom_share_fluid(f, slabs, 1, list_samples, f);
     return true;
 }
 
-/* ---- the solution ---- */
+/* ---- a step ---- */
 
-static void multiply(const struct lom_fluid_strain *s, double *x, double *out)
+static void take_velocities(void *context, size_t first, size_t end)
 {
-    x[s->count] = 0;
-    for (size_t i = 0; i < s->count; i++)
-        out[i] = x[i];
-    for (size_t i = 0; i < s->sample_count; i++) {
-        const struct sample *e = &s->samples[i];
-        const uint32_t *n = e->number;
-        const double pull = e->k * ((x[n[1]] - x[n[0]]) + (x[n[3]] - x[n[2]]));
-        out[n[0]] -= pull;
-        out[n[1]] += pull;
-        out[n[2]] -= pull;
-        out[n[3]] += pull;
-    }
+    struct lom_fluid *f = context;
+    struct lom_fluid_strain *s = f->strain;
+    for (size_t i = first; i < end; i++)
+        s->x[i] = f->face[s->face[i] % 3][s->face[i] / 3].velocity;
 }
 
-static int solve(struct lom_fluid_strain *s)
+static void return_velocities(void *context, size_t first, size_t end)
 {
-    enum { MOST = 1000 };
-    const double tolerance = 1e-5;
-    double error = 0, whole = 0;
-    multiply(s, s->x, s->product);
-    for (size_t i = 0; i < s->count; i++) {
-        whole += s->x[i] * s->x[i] / s->diagonal[i];
-        s->residual[i] = s->x[i] - s->product[i];
-        s->way[i] = s->residual[i] / s->diagonal[i];
-        error += s->residual[i] * s->way[i];
-    }
-    const double enough = tolerance * tolerance * whole;
-    int round = 0;
-    for (; round < MOST && error > enough && error > 1e-300; round++) {
-        double steep = 0, next = 0;
-        multiply(s, s->way, s->product);
-        for (size_t i = 0; i < s->count; i++)
-            steep += s->way[i] * s->product[i];
-        const double along = error / steep;
-        for (size_t i = 0; i < s->count; i++) {
-            s->x[i] += along * s->way[i];
-            s->residual[i] -= along * s->product[i];
-            next += s->residual[i] * s->residual[i] / s->diagonal[i];
-        }
-        for (size_t i = 0; i < s->count; i++)
-            s->way[i] = s->residual[i] / s->diagonal[i] + next / error * s->way[i];
-        error = next;
-    }
-    return round;
+    struct lom_fluid *f = context;
+    const struct lom_fluid_strain *s = f->strain;
+    for (size_t i = first; i < end; i++)
+        f->face[s->face[i] % 3][s->face[i] / 3].velocity = s->x[i];
 }
 
 bool lom_shear_fluid(struct lom_fluid *f, lom_error *error)
 {
     struct lom_fluid_strain *s = f->strain;
-    lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, find_viscosities, f);
-    if (!number_faces(f, error) || !add_samples(f, error))
+    lom_share_fluid(f, f->wet, LOM_FLUID_PART, find_viscosities, f);
+    if (!find_faces(f, error) || !find_samples(f, error))
         return false;
-    for (size_t i = 0; i < s->count; i++)
-        s->x[i] = f->face[s->face[i] % 3][s->face[i] / 3].velocity;
-    f->rounds[2] = solve(s);
-    for (size_t i = 0; i < s->count; i++)
-        f->face[s->face[i] % 3][s->face[i] / 3].velocity = s->x[i];
+    lom_share_fluid(f, s->count, LOM_FLUID_PART, take_velocities, f);
+    f->rounds[2] = lom_solve_strain(f);
+    lom_share_fluid(f, s->count, LOM_FLUID_PART, return_velocities, f);
     return true;
 }
