@@ -69,9 +69,9 @@ static bool is_caster(const struct face_view *v, const struct lom_drawn_entity *
 static const struct lom_ground_block *find_block(const struct lom_ground *ground, const struct face_view *v, int i,
                                                  lom_draw_desc *draw)
 {
-    uint32_t number;
-    if (lom_find_ground_draw(ground, i, &v->culler, draw, &number) == NULL ||
-        !is_in_range(v, ground->blocks[number].bounds))
+    uint32_t number = ground->order[i];
+    if (!(lom_distance_to_box(v->from.eye, ground->blocks[number].bounds) < v->reach) ||
+        lom_find_ground_draw(ground, i, &v->culler, draw, &number) == NULL)
         return NULL;
     return &ground->blocks[number];
 }

@@ -1,8 +1,11 @@
 /* Foam that shallow water carries. In: the foam before a step, the flow after it, the bodies at both. Out: the foam after
  * it. Method: each cell takes what was where its water comes from, between the four cells around that place (R. Courant,
  * E. Isaacson, M. Rees, Comm. Pure Appl. Math. 5, 1952), which is stable at any step and makes nothing above 1; it fades
- * by exp(-step / window). Invariant: a function of the steps before, in a fixed order. */
+ * by exp(-step / window). Invariant: a function of the steps before, in a fixed order, whoever takes which rows. Compiled
+ * for speed. */
 #include "base/numbers.h"
+#include "base/threads.h"
+#include "waves/shallow_state.h"
 #include "waves/shallow_surface.h"
 #include "waves/wave_site.h"
 
@@ -16,31 +19,50 @@ static size_t cell_of(const lom_shallow_view *v, int x, int z)
     return (size_t)z * (size_t)v->columns + (size_t)x;
 }
 
+enum { ROWS = 8 /* that a worker takes at a time */ };
+
+struct carrying {
+    const struct lom_shallow_region *region;
+    const lom_shallow_view *view;
+    double left; /* of foam, after a step */
+};
+
 /* Foam at a place in cells between middles; none comes from outside. */
 static double foam_at(const struct lom_shallow_region *region, const lom_shallow_view *v, double x, double z)
 {
-    const double column = lom_double_floor(x), row = lom_double_floor(z), u = x - column, w = z - row;
-    if (!(column >= 0 && row >= 0 && column <= v->columns - 1 && row <= v->rows - 1))
+    if (!(x >= 0 && z >= 0 && x < v->columns && z < v->rows))
         return 0;
-    const int i = lom_int_of(column), j = lom_int_of(row);
+    const int i = lom_int_of(x), j = lom_int_of(z);
+    const double u = x - i, w = z - j;
     const float *foam = region->foam;
     return ((double)foam[cell_of(v, i, j)] * (1 - u) + (double)foam[cell_of(v, i + 1, j)] * u) * (1 - w) +
            ((double)foam[cell_of(v, i, j + 1)] * (1 - u) + (double)foam[cell_of(v, i + 1, j + 1)] * u) * w;
 }
 
-static void carry(struct lom_shallow_region *region, const lom_shallow_view *v, double left)
+static void carry_rows(void *context, size_t first, size_t end)
 {
+    const struct carrying *c = context;
+    const lom_shallow_view *v = c->view;
     const size_t columns = (size_t)v->columns;
     const double least = shallowest * lom_shallow_film(v->cell);
-    for (int z = 0; z < v->rows; z++)
+    for (int z = (int)first; z < (int)end; z++)
         for (int x = 0; x < v->columns; x++) {
             const size_t at = cell_of(v, x, z), face = (size_t)z * (columns + 1) + (size_t)x;
             const double per_depth = v->step / (v->cell * lom_larger(v->depth[at], least));
             const double dx = (v->flow_x[face] + v->flow_x[face + 1]) / 2 * per_depth;
             const double dz = (v->flow_z[at] + v->flow_z[at + columns]) / 2 * per_depth;
             const double made = v->depth[at] > 0 ? lom_shallow_froude_foam(v, x, z) : 0;
-            region->foam_after[at] = (float)lom_larger(foam_at(region, v, x - dx, z - dz) * left, made);
+            c->region->foam_after[at] = (float)lom_larger(foam_at(c->region, v, x - dx, z - dz) * c->left, made);
         }
+}
+
+static void carry(struct lom_shallow_region *region, const lom_shallow_view *v, double left)
+{
+    struct carrying carrying = { region, v, left };
+    if (region->now->pool != NULL)
+        lom_share_out(region->now->pool, (size_t)v->rows, ROWS, carry_rows, &carrying);
+    else
+        carry_rows(&carrying, 0, (size_t)v->rows);
     float *before = region->foam;
     region->foam = region->foam_after;
     region->foam_after = before;

@@ -247,6 +247,13 @@ static void workers_make_what_one_makes(void)
  * h - d tan e over the vertices towards the sun. */
 static float hills[24 * 24], shadow[24 * 24];
 
+static void find_shadow(int threads, const double to_light[3])
+{
+    device = lom_open_device(&(lom_device_desc){ .threads = threads });
+    lom_find_ground_shadow(device, hills, 24, 24, (double[]){ 46, 46 }, to_light, shadow);
+    lom_close_device(device);
+}
+
 static float brute_shadow(int x, int z, int dx, int dz, double sink)
 {
     double highest = -1e30;
@@ -266,7 +273,7 @@ static void shadows_along_rows_and_diagonals(void)
         if (way == 4)
             continue;
         double to_light[3] = { dx * 0.5, 0.4, dz * 0.5 }; /* over cells of 2 m: 1.6 m down a step, any length */
-        CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, to_light, shadow, NULL), "no memory");
+        find_shadow(1, to_light);
         for (int i = 0; i < 24 * 24; i++) {
             float expected = brute_shadow(i % 24, i / 24, dx, dz, 1.6);
             bool none = expected < -1e29f;
@@ -287,7 +294,7 @@ static void shadows_of_planes(void)
             double rise = steep ? 0.8 : 0.3, longer; /* a metre towards the sun */
             for (int i = 0; i < 24 * 24; i++)
                 hills[i] = (float)(rise * (to_light[0] * 2 * (i % 24) + to_light[2] * 2 * (i / 24)));
-            CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, to_light, shadow, NULL), "no memory");
+            find_shadow(1, to_light);
             longer = to_light[0] * to_light[0] > 0.5 ? to_light[0] : to_light[2];
             double step = 2 / (longer < 0 ? -longer : longer),
                    at = (double)shadow[12 * 24 + 12] - (double)hills[12 * 24 + 12];
@@ -301,12 +308,29 @@ static void shadows_of_extreme_suns(void)
 {
     for (int i = 0; i < 24 * 24; i++)
         hills[i] = (float)(i % 5);
-    CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, (double[]){ 0.6, -0.1, 0.6 }, shadow, NULL) &&
-              shadow[77] > 1e29f,
-          "a sun below the horizon: %g", (double)shadow[77]);
-    CHECK(lom_find_ground_shadow(hills, 24, 24, (double[]){ 46, 46 }, (double[]){ 0, 1, 0 }, shadow, NULL) &&
-              shadow[77] < -1e29f,
-          "a sun in the zenith: %g", (double)shadow[77]);
+    find_shadow(1, (double[]){ 0.6, -0.1, 0.6 });
+    CHECK(shadow[77] > 1e29f, "a sun below the horizon: %g", (double)shadow[77]);
+    find_shadow(1, (double[]){ 0, 1, 0 });
+    CHECK(shadow[77] < -1e29f, "a sun in the zenith: %g", (double)shadow[77]);
+}
+
+/* Of a map that several workers share, from all sides, and steeply and flatly: rays that leave it early and late. */
+static void workers_shadow_as_one_does(void)
+{
+    enum { WIDTH = 700, HEIGHT = 500 };
+    static float heights[WIDTH * HEIGHT], shadows[2][WIDTH * HEIGHT];
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        heights[i] = (float)(40 * lom_random_uniform(8, (uint64_t)i));
+    for (int k = 0; k < 12; k++) {
+        const double angle = 0.5 * k + 0.1, up = k % 3 == 0 ? 0.02 : 0.4;
+        const double to_light[3] = { lom_double_cos(angle), up, lom_double_sin(angle) };
+        for (int i = 0; i < 2; i++) {
+            device = lom_open_device(&(lom_device_desc){ .threads = i == 0 ? 1 : 5 });
+            lom_find_ground_shadow(device, heights, WIDTH, HEIGHT, (double[]){ 1400, 900 }, to_light, shadows[i]);
+            lom_close_device(device);
+        }
+        CHECK(memcmp(shadows[0], shadows[1], sizeof shadows[0]) == 0, "the sun at %g, %g", angle, up);
+    }
 }
 
 int main(int argc, char **argv)
@@ -321,5 +345,6 @@ int main(int argc, char **argv)
     RUN(shadows_along_rows_and_diagonals);
     RUN(shadows_of_planes);
     RUN(shadows_of_extreme_suns);
+    RUN(workers_shadow_as_one_does);
     return check_result();
 }

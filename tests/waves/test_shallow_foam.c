@@ -4,6 +4,7 @@
 #include "check.h"
 
 #include "base/numbers.h"
+#include "base/threads.h"
 #include "waves/shallow_state.h"
 #include "waves/wave_site.h"
 
@@ -169,11 +170,32 @@ static void a_moment_alone_is_that_of_a_run(void)
     lom_close_shallow_region(&run);
 }
 
+/* Shared by the workers of a pool it is what the caller alone carries. */
+static void workers_carry_as_one_does(void)
+{
+    const struct lom_wave_site site = site_of(1);
+    struct lom_shallow_region regions[2];
+    lom_pool *pool = lom_create_pool(3, NULL);
+    lom_error error = { 0 };
+    speed = 3;
+    for (int i = 0; i < 2; i++) {
+        bool done = lom_open_shallow_region(&regions[i], &site, &error);
+        done = done && (i == 0 || lom_share_shallow(regions[i].first, pool, &error));
+        CHECK(done && lom_advance_shallow_region(&regions[i], &site, 2, &error), "%s", error.text);
+    }
+    const size_t cells = (size_t)regions[0].columns * (size_t)regions[0].rows;
+    CHECK(memcmp(regions[0].foam, regions[1].foam, cells * sizeof(float)) == 0, "three workers carry another foam");
+    for (int i = 0; i < 2; i++)
+        lom_close_shallow_region(&regions[i]);
+    lom_free_pool(pool);
+}
+
 int main(int argc, char **argv)
 {
     RUN(foam_at_rest_fades);
     RUN(foam_goes_with_the_water);
     RUN(a_body_leaves_it_on_its_way);
     RUN(a_moment_alone_is_that_of_a_run);
+    RUN(workers_carry_as_one_does);
     return check_result();
 }

@@ -137,8 +137,8 @@ bool lom_find_sky_visibility(lom_device *device, const float *heights, int width
 /* For each vertex of width x height heights the height up to which terrain shadows a place there: the largest
  * h - d tan e of the heights h at a distance d > 0 towards the light, which stands at the elevation e. Below -1e29
  * where nothing does. */
-bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
-                            float *shadow, lom_error *error);
+void lom_find_ground_shadow(lom_device *device, const float *heights, int width, int height, const double size[2],
+                            const double to_light[3], float *shadow);
 
 /* The patches of a terrain whose blocks are there. */
 bool lom_make_ground_patches(struct lom_ground *ground, lom_error *error);

@@ -5,13 +5,16 @@
 #include "render/frame.h"
 #include "render/seen.h"
 
-static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec3 to_light, lom_error *error)
+static bool make_shadow(lom_renderer *renderer, lom_vec3 to_light, lom_error *error)
 {
+    struct lom_ground *ground = &renderer->ground;
     int width = ground->columns + 1, height = ground->rows + 1;
     const double direction[3] = { to_light.x, to_light.y, to_light.z };
     lom_free_ground_shadow(ground);
     float *shadow = lom_allocate((size_t)width * (size_t)height, sizeof *shadow, error);
-    if (shadow != NULL && lom_find_ground_shadow(ground->heights, width, height, size, direction, shadow, error))
+    if (shadow != NULL) {
+        lom_find_ground_shadow(renderer->device, ground->heights, width, height, renderer->scene->terrain.size,
+                               direction, shadow);
         ground->shadow = lom_create_texture(
             &(lom_texture_desc){
                 .width = width,
@@ -21,6 +24,7 @@ static bool make_shadow(struct lom_ground *ground, const double size[2], lom_vec
                 .label = "terrain shadow",
                 .sampler = { .wrap_s = LOM_WRAP_BORDER, .wrap_t = LOM_WRAP_BORDER, .border = { -1e30f } } },
             error);
+    }
     ground->shadow_heights = shadow;
     ground->shadowed_from = to_light;
     return ground->shadow != NULL;
@@ -62,7 +66,7 @@ static bool cast_shadow(struct frame *f, lom_error *error)
                                     : "the sun is not above the horizon: it shines on nothing of the ground");
     step->width = ground->columns + 1;
     step->height = ground->rows + 1;
-    return make_shadow(ground, f->scene->terrain.size, to_light, error);
+    return make_shadow(f->renderer, to_light, error);
 }
 
 bool lom_prepare_ground(struct frame *f, lom_error *error)

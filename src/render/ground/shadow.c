@@ -5,10 +5,13 @@
  * with e the sun's elevation. So the shadow's height is S = max (h - d tan e) over d > 0. The grid is swept away from
  * the sun, one line (a column, or a row where the sun stands more along the columns) after the other: parallel rays
  * carry their S, which takes in the line's heights and sinks by tan e times the way to the next one. A ray moves by
- * `shift` vertices along each line; it never moves to another ray, so nothing is smeared on the way.
- * Compiled for speed. */
+ * `shift` vertices along each line; it never moves to another ray, so nothing is smeared on the way, and workers take rays
+ * of their own. Compiled for speed. */
 #include "base/numbers.h"
+#include "pipeline/share_work.h"
 #include "render/ground/ground.h"
+
+enum { RAYS = 128 /* that a worker takes at a time */ };
 
 struct sweep {
     int lines, places;           /* lines, and vertices on each */
@@ -48,46 +51,53 @@ static float height_between(const float *line, const struct sweep *s, int place,
 
 /* Rays are numbered by the vertex at which they cross the first line, from `lowest` on; ray r crosses line i at
  * r + i shift. */
-static void sweep_rays(const struct sweep *s, const float *heights, float *shadow, float *ray, int lowest, int count)
+struct sweeping {
+    struct sweep sweep;
+    const float *heights;
+    float *shadow;
+    int lowest;
+};
+
+/* Rays first to end - 1, and what lies between each of them and the one before. */
+static void sweep_rays(void *context, size_t first, size_t end)
 {
+    const struct sweeping *w = context;
+    const struct sweep *s = &w->sweep;
+    const int low = w->lowest + (int)first - 1, count = (int)(end - first) + 1;
+    float ray[RAYS + 1];
     for (int r = 0; r < count; r++)
         ray[r] = -1e30f;
     for (int i = 0; i < s->lines; i++) {
-        double moved = i * s->shift;
-        int whole = lom_int_of(lom_double_floor(moved));
-        float share = (float)(moved - whole);
-        const float *line = heights + s->first + i * s->line_step;
-        float *out = shadow + s->first + i * s->line_step;
-        for (int p = 0; p < s->places; p++) { /* between ray p - moved - 1 + share and the next */
-            const float *to = ray + (p - whole - lowest);
-            out[p * s->place_step] = to[0] + share * (to[-1] - to[0]);
+        const double moved = i * s->shift;
+        const int whole = lom_int_of(lom_double_floor(moved));
+        const float share = (float)(moved - whole);
+        const float *line = w->heights + s->first + i * s->line_step;
+        float *out = w->shadow + s->first + i * s->line_step;
+        const int from = lom_larger_int(0, low + whole + 1), to = lom_smaller_int(s->places, low + whole + count);
+        for (int p = from; p < to; p++) { /* between ray p - moved - 1 + share and the next */
+            const float *at = ray + (p - whole - low);
+            out[p * s->place_step] = at[0] + share * (at[-1] - at[0]);
         }
         for (int r = 0; r < count; r++) {
-            float h = height_between(line, s, r + lowest + whole, share);
+            const float h = height_between(line, s, r + low + whole, share);
             ray[r] = (h > ray[r] ? h : ray[r]) - s->sink;
         }
     }
 }
 
-bool lom_find_ground_shadow(const float *heights, int width, int height, const double size[2], const double to_light[3],
-                            float *shadow, lom_error *error)
+void lom_find_ground_shadow(lom_device *device, const float *heights, int width, int height, const double size[2],
+                            const double to_light[3], float *shadow)
 {
     size_t vertices = (size_t)width * (size_t)height;
     if (!(to_light[1] > 0) ||
         (to_light[0] == 0 && to_light[2] == 0)) { /* from below: all dark; from the zenith: none */
         for (size_t i = 0; i < vertices; i++)
             shadow[i] = to_light[1] > 0 ? -1e30f : 1e30f;
-        return true;
+        return;
     }
-    struct sweep s = lay_sweep(width, height, size, to_light);
-    double moved = (s.lines - 1) * s.shift;
-    int lowest = lom_int_of(lom_double_floor(moved > 0 ? -moved : 0)) - 2;
-    int highest = s.places + 2 + lom_int_of(lom_double_floor(moved > 0 ? 0 : -moved));
-    int count = highest - lowest + 1;
-    float *ray = lom_allocate((size_t)count, sizeof *ray, error);
-    if (ray == NULL)
-        return false;
-    sweep_rays(&s, heights, shadow, ray, lowest, count);
-    lom_release(ray);
-    return true;
+    struct sweeping w = { lay_sweep(width, height, size, to_light), heights, shadow, 0 };
+    double moved = (w.sweep.lines - 1) * w.sweep.shift;
+    w.lowest = lom_int_of(lom_double_floor(moved > 0 ? -moved : 0)) - 2;
+    int highest = w.sweep.places + 2 + lom_int_of(lom_double_floor(moved > 0 ? 0 : -moved));
+    lom_share_work(device, (size_t)(highest - w.lowest + 1), RAYS, sweep_rays, &w);
 }
