@@ -8,6 +8,7 @@
 /* The sum as far as it is taken: by one at a time. */
 struct summing {
     const struct lom_fluid_sum *sum;
+    atomic_size_t part; /* the next to be made: in their order, so that those to be added are there soon */
     atomic_flag is_taken;
     size_t next; /* term */
     double chain, whole;
@@ -39,21 +40,32 @@ static void take_parts(struct summing *s)
     }
 }
 
+enum { MAKERS = 16 };
+
+/* One of those who make parts, until there are no more. */
 static void make_parts(void *context, size_t first, size_t end)
 {
     struct summing *s = context;
-    s->sum->work(s->sum->context, first, end);
-    for (size_t i = first; i < end; i += LOM_FLUID_PART)
-        atomic_store(&s->sum->done[i / LOM_FLUID_PART], 1);
-    take_parts(s);
+    const struct lom_fluid_sum *sum = s->sum;
+    (void)first;
+    (void)end;
+    for (;;) {
+        const size_t part = atomic_fetch_add_explicit(&s->part, 1, memory_order_relaxed), at = part * LOM_FLUID_PART;
+        if (at >= sum->count)
+            return;
+        sum->work(sum->context, at, sum->count - at < LOM_FLUID_PART ? sum->count : at + LOM_FLUID_PART);
+        atomic_store(&sum->done[part], 1);
+        take_parts(s);
+    }
 }
 
 double lom_sum_fluid(const struct lom_fluid *f, const struct lom_fluid_sum *sum)
 {
     struct summing s = { .sum = sum, .is_taken = ATOMIC_FLAG_INIT };
-    for (size_t i = 0; i < sum->count; i += LOM_FLUID_PART)
-        atomic_store_explicit(&sum->done[i / LOM_FLUID_PART], 0, memory_order_relaxed);
-    lom_share_fluid(f, sum->count, LOM_FLUID_PART, make_parts, &s);
+    const size_t parts = (sum->count + LOM_FLUID_PART - 1) / LOM_FLUID_PART;
+    for (size_t i = 0; i < parts; i++)
+        atomic_store_explicit(&sum->done[i], 0, memory_order_relaxed);
+    lom_share_fluid(f, parts < MAKERS ? parts : MAKERS, 1, make_parts, &s);
     return s.whole;
 }
 
