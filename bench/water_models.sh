@@ -1,11 +1,12 @@
 #!/bin/sh
-# bench/water_models.sh [--size WxH] [--frames N] [--samples N] [--output FILE] [SCENE]...
+# bench/water_models.sh [--size WxH] [--frames N] [--samples N] [--output FILE] [--pictures DIR] [SCENE]...
 # Draws scenes of water with every model and with the reference (rays in double precision), and writes a Markdown table:
 # the least milliseconds of N frames on one thread, and how far the first frame is from the reference; and the models
 # side by side as docs/pictures/water-SCENE.png. Caustics, foam and drops are off: the reference lights the bed through a level
-# surface and has no foam and no drops. LOM names another program than build/lom.
+# surface and has no foam and no drops. With --pictures nothing is measured: DIR/water-SCENE.png alone are drawn. LOM names
+# another program than build/lom.
 cd "$(dirname "$0")/.." || exit 2
-lom=${LOM:-${BUILD:-build}/lom} size=320x180 frames=8 samples=32 output=bench/results/water-models.md scenes=''
+lom=${LOM:-${BUILD:-build}/lom} size=320x180 frames=8 samples=32 output=bench/results/water-models.md scenes='' pictures=''
 usage() { echo "bench/water_models.sh: $1" >&2; sed -n 2p "$0" >&2; exit 2; }
 while [ $# -gt 0 ]; do
     case $1 in
@@ -13,6 +14,7 @@ while [ $# -gt 0 ]; do
     --frames) frames=$2; shift 2 ;;
     --samples) samples=$2; shift 2 ;;
     --output) output=$2; shift 2 ;;
+    --pictures) pictures=$2; shift 2 ;;
     -*) usage "there is no option $1." ;;
     *) scenes="$scenes $1"; shift ;;
     esac
@@ -30,10 +32,13 @@ draw() { # model, picture, other arguments: a line of statistics for each frame
     "$lom" render "$scene" --size "$size" --set "quality.water=\"$model\"" --set quality.filtering=float --set water.optics.caustics=0 \
         --set water.foam.amount=0 --set water.foam.shore_depth=0 --set quality.spray=false --quiet --stats - -o "$picture" "$@"
 }
-# Pictures of one size (P6) in rows of three: the rows of pixels of each three are laid behind one another.
-side_by_side() { # output, pictures
+models='tinted planar normal_map displaced marched'
+# The first frames of all models and of the reference (P6) in rows of three: the rows of pixels of each three are laid
+# behind one another.
+side_by_side() { # output
     joined=$1
-    shift
+    set --
+    for model in $models reference; do set -- "$@" "$work/$model-0.ppm"; done
     width=${size%x*} height=${size#*x}
     printf 'P6\n%d %d\n255\n' $((3 * width)) $((height * $# / 3)) >"$work/joined.ppm"
     while [ $# -gt 0 ]; do
@@ -51,7 +56,15 @@ side_by_side() { # output, pictures
 }
 least() { field ms | sort -n | head -n 1 | awk '{ printf "%.1f", $1 }'; }
 
-
+if [ -n "$pictures" ]; then
+    for scene in $scenes; do
+        for model in $models reference; do
+            draw "$model" "$work/$model-0.ppm" --set "quality.reference.samples=$samples" >"$work/stats" || exit 2
+        done
+        side_by_side "$pictures/water-$(basename "$scene" .toml).png" || exit 2
+    done
+    exit 0
+fi
 {
     echo '# Water: every model against the reference'
     echo
@@ -65,12 +78,12 @@ for scene in $scenes; do
     name=$(basename "$scene" .toml)
     printf '\n## %s\n\n| model | ms | PSNR, dB | SSIM | FLIP |\n|---|---|---|---|---|\n' "$name" >>"$work/table"
     for water in true false; do
-        exact=$(draw reference "$work/reference.ppm" --set "quality.reference.samples=$samples" --set water.enabled=$water | least)
-        [ $water = true ] && models='tinted planar normal_map displaced marched' || models=planar
-        for model in $models; do
+        exact=$(draw reference "$work/reference-0.ppm" --set "quality.reference.samples=$samples" --set water.enabled=$water | least)
+        [ $water = true ] && measured=$models || measured=planar
+        for model in $measured; do
             draw "$model" "$work/$model-%d.ppm" --set water.enabled=$water --threads 1 --frames "0:$((frames - 1))" \
                 >"$work/stats" || exit 2
-            "$lom" compare "$work/reference.ppm" "$work/$model-0.ppm" --json --metrics >"$work/compared"
+            "$lom" compare "$work/reference-0.ppm" "$work/$model-0.ppm" --json --metrics >"$work/compared"
             for number in "$(least <"$work/stats")" "$(field psnr <"$work/compared")" "$(field ssim <"$work/compared")" \
                 "$(field flip <"$work/compared")"; do echo "$number"; done |
                 awk -v name="$([ $water = true ] && echo "$model" || echo 'no water')" 'NR == 1 { ms = $1 }
@@ -79,8 +92,7 @@ for scene in $scenes; do
         done
         [ $water = true ] || continue
         echo "| reference | $exact | | | |" >>"$work/table"
-        side_by_side "docs/pictures/water-$name.png" "$work/tinted-0.ppm" "$work/planar-0.ppm" "$work/normal_map-0.ppm" \
-            "$work/displaced-0.ppm" "$work/marched-0.ppm" "$work/reference.ppm" || exit 2
+        side_by_side "docs/pictures/water-$name.png" || exit 2
     done
 done
 cp "$work/table" "$output"

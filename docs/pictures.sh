@@ -1,8 +1,9 @@
 #!/bin/sh
 # docs/pictures.sh [--check | --list] [NAME...]
 # Draws the pictures of docs/pictures again, all or those named, by the commands on the pages: lines `lom render` or
-# `lom overlay` that write NAME.png, and for the README those below. What has changed is replaced, and told; with --check it
-# is told alone, exit 1. LOM names another program than build/lom. Look at what it has drawn.
+# `lom overlay` that write NAME.png; by those below for the README, and for docs/water.md, whose models are side by side.
+# What has changed is replaced, and told; with --check it is told alone, exit 1. LOM names another program than build/lom.
+# Look at what it has drawn.
 cd "$(dirname "$0")/.." || exit 2
 lom=${LOM:-${BUILD:-build}/lom} mode=draw
 case $1 in --check | --list) mode=${1#--}; shift ;; esac
@@ -19,6 +20,7 @@ commands() { # NAME, a tab, the command; the first of each name
         [ -f "docs/pictures/$name.png" ] && printf '%s\t%s\n' "$name" "$command"
     done
     printf 'gallery\tgallery\n'
+    for scene in lagoon swell gale cove reef surf wake; do printf 'water-%s\tmodels %s\n' $scene $scene; done
 }
 tab=$(printf '\t')
 
@@ -65,7 +67,10 @@ END
 }
 
 draw() { # NAME COMMAND
-    [ "$2" = gallery ] && { gallery; return; }
+    case $2 in
+    gallery) gallery; return ;;
+    models*) LOM=$lom bench/water_models.sh --pictures "$work" "assets/scenes/${2#models }.toml" >/dev/null 2>&1; return ;;
+    esac
     eval "set -- $2"
     shift
     for word in "$@"; do # each is taken from the front and put at the end

@@ -1,4 +1,4 @@
-/* A small scene with one of everything (terrain with a layer, sky box, a mesh with materials and a texture, the lake),
+/* A small scene with one of everything (terrain with a layer, sky box, a mesh with materials and a texture, a lake),
  * written to a folder of its own: every file is made from formulas. */
 #ifndef LOM_TESTS_SMALL_SCENE_H
 #define LOM_TESTS_SMALL_SCENE_H

@@ -240,7 +240,7 @@ const char *lom_nearest_name(const char *word, size_t length, const char *const 
 /* ---- version ---- */
 
 #define LOM_VERSION         "0.1.0"
-#define LOM_PICTURE_VERSION 6 /* raised by every deliberate change of pixels; CHANGELOG.md says why */
+#define LOM_PICTURE_VERSION 7 /* raised by every deliberate change of pixels; CHANGELOG.md says why */
 
 LOM_API_END
 

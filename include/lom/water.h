@@ -45,10 +45,10 @@ typedef struct lom_water_optics {
 
 /* How water is drawn: quality.water. */
 typedef enum lom_water_model {                       /* from cheap to exact, but for the default, which comes first */
-                               LOM_WATER_PLANAR,     /* a quad with pictures of the scene above and below */
-                               LOM_WATER_TINTED,     /* a quad of one colour */
-                               LOM_WATER_NORMAL_MAP, /* waves as normals on two triangles */
                                LOM_WATER_DISPLACED,  /* waves as a mesh, light bent by Snell's law */
+                               LOM_WATER_TINTED,     /* a quad of one colour */
+                               LOM_WATER_PLANAR,     /* a quad with pictures of the scene above and below */
+                               LOM_WATER_NORMAL_MAP, /* waves as normals on two triangles */
                                LOM_WATER_MARCHED,    /* waves met by a ray for each pixel */
                                LOM_WATER_REFERENCE   /* rays in double precision through the whole frame */
 } lom_water_model;

@@ -238,7 +238,7 @@ bool lom_selftest_draw_samples(struct lom_selftest_sum *sum, const lom_device_de
 static const char lake_scene[] =
     "[output]\nwidth = 72\nheight = 40\n[camera]\nposition = [0, 2, 9]\ntarget = [1, 0.5, 0]\n"
     "[light]\nazimuth = 30\nelevation = 12\n[sky]\ncolor = [0.3, 0.5, 0.9]\n"
-    "[water]\nsize = [30, 20]\nshininess = 20\n";
+    "[water]\nsize = [30, 20]\nshininess = 20\n[quality]\nwater = 'planar'\n";
 
 bool lom_selftest_draw_lake(struct lom_selftest_sum *sum, const lom_device_desc *desc, lom_error *error)
 {

@@ -29,11 +29,12 @@ static const lom_key_table reference_table = { .size = sizeof(lom_reference_qual
 
 static const lom_key quality[] = {
     { "water", LOM_KEY_CHOICE, AT(lom_quality, water),
-      .choices = { "planar", "tinted", "normal_map", "displaced", "marched", "reference" },
+      .choices = { "displaced", "tinted", "planar", "normal_map", "marched", "reference" },
       .text =
-          "Model of the water, docs/water.md. Tinted: a quad of one colour. Planar: the nine steps of `[water]`. Then "
-          "the waves of `[water.waves]`: as normals on two triangles; as a mesh; met by a ray for each pixel. "
-          "Reference: rays in double precision, for the whole frame; what the others are measured against.",
+          "Model of the water, docs/water.md. Displaced: the waves of `[water.waves]` as a mesh. Tinted: a quad of one "
+          "colour. Planar: the nine steps of `[water]`. Normal_map: the waves as normals on two triangles. Marched: "
+          "met by a ray for each pixel. Reference: rays in double precision, for the whole frame; what the others are "
+          "measured against.",
       .dial = &(const lom_key_dial){ .approximates = "the light that comes from the water, by rays at its waves",
                                      .settings = "tinted planar normal_map displaced marched",
                                      .needs = "water water.enabled" } },
@@ -175,8 +176,9 @@ static const lom_key quality[] = {
       .dial = &(const lom_key_dial){ .approximates = "every quad of the height map",
                                      .settings = "8 4 2 1 0.5 0",
                                      .needs = "terrain" } },
-    { "terrain_composite", LOM_KEY_NUMBER, AT(lom_quality, terrain_composite), .maximum = 64, .unit = "pixels",
-      .text = "Colours distant terrain from one picture of all its layers, seen from above, four texels a quad of the "
+    { "terrain_composite", LOM_KEY_NUMBER, AT(lom_quality, terrain_composite), .maximum = 64, .initial = { 1 },
+      .unit = "pixels",
+      .text = "Colours distant terrain from one picture of all its layers, seen from above, two texels a quad of the "
               "height map: where a texel of it covers at most so many pixels. 0: the layers are sampled everywhere.",
       .dial = &(const lom_key_dial){ .approximates = "the layers of the ground, each sampled where it lies",
                                      .settings = "4 2 1 0.5 0",

@@ -96,11 +96,11 @@ const lom_key_table lom_water_keys = {
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
     .text =
-        "A lake on a plain quad, in nine steps that can each be switched off. Without this table there is no water. "
-        "With `[[water]]` there are several, up to 8, each with its own level, extent, waves and look; `[surf]` and "
-        "`[shallow]` are the first one's, and the eye is under one of them or none (docs/water.md). Richer "
-        "models (`quality.water`) read the tables inside this one, and of these keys `enabled`, `level`, `position`, "
-        "`size` and `tint_color`; those of the normal and the flow map, too, where the water has no waves, whose "
-        "ripples "
-        "they then are."
+        "Water at a level; without this table there is none. `quality.water` chooses its model. `planar` is a lake on "
+        "a "
+        "plain quad, in nine steps that can each be switched off, and reads all of these keys. Richer models read "
+        "the tables inside this one, and of these keys `enabled`, `level`, `position`, `size` and `clip_offset`; those "
+        "of the normal and the flow map, too, where the water has no waves, whose ripples they then are. `tinted` "
+        "reads `tint_color`. With `[[water]]` there are several, up to 8, each with its own level, extent, waves and "
+        "look; `[surf]` and `[shallow]` are the first one's, and the eye is under one of them or none (docs/water.md)."
 };

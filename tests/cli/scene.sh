@@ -30,5 +30,7 @@ size = [8, 8]
 [[entity]]
 name = "box"
 mesh = "box.obj"
+[quality]
+water = "planar"
 TOML
 scene=$folder/scene/scene.toml

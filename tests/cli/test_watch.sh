@@ -69,7 +69,7 @@ loads_what_it_must() {
     cp scene.toml good
     loads_after 'nothing has to be loaded again' change scene.toml 's/0, 2, 5/1, 3, 5/' &&
         loads_after 'loaded again: entities' change scene.toml 's/^mesh = .*/&\nscale = 1.5/' &&
-        loads_after 'everything is loaded again' put scene.toml "$(cat scene.toml)\n[quality]\nwater = \"reference\"\n" &&
+        loads_after 'everything is loaded again' put scene.toml "$(sed 's/^water = .*/water = "reference"/' scene.toml)\n" &&
         draws_after cp good scene.toml
 }
 

@@ -42,7 +42,7 @@ static const struct frame_scene {
 } scenes[] = {
     { "clouds over a lake",
       { camera, land, clouds },
-      "[water]\nnormal_map = 'normal.png'\n[quality]\nterrain_shadows = true\nentity_shadows = 16\n",
+      "[water]\nnormal_map = 'normal.png'\n[quality]\nwater = 'planar'\nterrain_shadows = true\nentity_shadows = 16\n",
       NULL,
       150 },
     { "bounded impostors over a sea",

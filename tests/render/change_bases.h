@@ -22,7 +22,7 @@ static const struct base more_bases[] = {
       VIEW TERRAIN DISPLACED "[water.waves]\nkind = \"gerstner\"\ncount = 4\n[water.optics]\ncaustics = 1\n"
                              "caustics_texels = 16\ncaustics_size = 20\ntype = \"pure\"\n" },
     { "mirror", "quality.reflection_scale quality.water water.enabled water.flow water.normal_map water.flow_map",
-      VIEW "[sky]\npattern = \"sky_%s.png\"\n[water]\nlevel = 0\nsize = 40\nnormal_map = \"normal.png\"\n" },
+      VIEW "[sky]\npattern = \"sky_%s.png\"\n" LAKE "size = 40\n" },
     { "waters", "water.level water.size water.normal_map water.flow_speed water.waves water.foam quality.water",
       VIEW TERRAIN "[quality]\nwater = \"displaced\"\n[[water]]\nname = \"a\"\nsize = [20, 40]\nposition = [-10, 0]\n"
                    "[water.waves]\nkind = \"gerstner\"\ncount = 4\n[[water]]\nname = \"b\"\nlevel = 0.3\n"

@@ -18,6 +18,7 @@ static const char head[] = "[output]\nwidth = 16\nheight = 9\nformat = \"rgb32f\
 #define WIND      "[[clouds.wind]]\nheight = 3\nspeed = 11\ndirection = -35\n"
 #define MANY      "area = [30, 20]\nmiddle = [0, -10]\nsizes = [0.004, 0.008]\nvoxels = 0.08\n"
 #define SEA       "[water.waves]\nkind = \"sea\"\nsize = 16\ncascades = 1\n"
+#define LAKE      "[quality]\nwater = \"planar\"\n[water]\nlevel = 0\nnormal_map = \"normal.png\"\n"
 #define DISPLACED "[quality]\nwater = \"displaced\"\n[water]\nlevel = 0\nsize = 40\n"
 
 static const struct base bases[] = {
@@ -100,9 +101,8 @@ static const struct base bases[] = {
     { "lake",
       "water quality.filtering quality.reflection_scale quality.refraction_scale quality.scissor quality.water "
       "camera.position",
-      VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n" },
-    { "sampled_lake", "quality.refraction_samples",
-      "samples = 4\n" VIEW TERRAIN "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n" },
+      VIEW TERRAIN LAKE },
+    { "sampled_lake", "quality.refraction_samples", "samples = 4\n" VIEW TERRAIN LAKE },
     { "clouds",
       "cloud clouds camera.near camera.position camera.field_of_view light.elevation quality.march quality.cloud_error "
       "quality.cloud_stop quality.cloud_octaves quality.cloud_jitter quality.cloud_light_scale quality.clouds",

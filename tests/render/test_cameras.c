@@ -220,7 +220,7 @@ static void a_camera_that_moves_by_pixels_moves_the_picture(void)
              "[output]\nwidth = 64\nheight = 64\nformat = 'rgb32f'\n[camera]\nposition = [0, 16, 0]\n"
              "target = [0, 0, 0]\nup = [0, 0, -1]\nprojection = 'orthographic'\nheight = 16\nfar = 64\n"
              "[sky]\ncolor = [0.25, 0.5, 0.75]\n[light]\nelevation = 40\n%s"
-             "[water]\nlevel = 0\nsize = 30\n[quality]\nterrain_error = 0\n",
+             "[water]\nlevel = 0\nsize = 30\n[quality]\nwater = 'planar'\n",
              "[[entity]]\nmesh = \"box.obj\"\nposition = [1, 0.5, 1]\n[[entity]]\nmesh = \"box.obj\"\n"
              "position = [-4, -1, -2.5]\n");
     lom_image *before = draw_text(text);
@@ -260,8 +260,8 @@ static void a_scene_far_away_is_the_same(void)
                      "[output]\nwidth = 64\nheight = 48\nformat = 'rgb32f'\n[camera]\nposition = [%.17g, 6, %.17g]\n"
                      "target = [%.17g, 0, %.17g]\nprojection = '%s'\nheight = 8\nfar = 64\n[sky]\ngradient = true\n"
                      "[haze]\ndensity = 0.01\n[[entity]]\nmesh = \"box.obj\"\nposition = [%.17g, 0.5, %.17g]\n"
-                     "[water]\nlevel = 0\nposition = [%.17g, %.17g]\nsize = 16\nreflection = %s\n",
-                     at + 3, at + 10, at, at, kind == 0 ? "orthographic" : "oblique", at, at + 1, at, at, "true");
+                     "[water]\nlevel = 0\nposition = [%.17g, %.17g]\nsize = 16\n[quality]\nwater = '%s'\n",
+                     at + 3, at + 10, at, at, kind == 0 ? "orthographic" : "oblique", at, at + 1, at, at, "planar");
             lom_image *image = draw_text(text);
             uint64_t hash = image != NULL ? lom_hash_image(image) : 1;
             first = shift == 9 ? hash : first;

@@ -15,6 +15,8 @@ position = [100, 600, 2200]
 target = [0, 700, 0]
 [water]
 size = [9000, 9000]
+[quality]
+water = "planar"
 TOML
 cat "$folder/clear.toml" - >"$folder/cloud.toml" <<TOML
 [[cloud]]

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Proves of the layers of terrain, on a small pool among hills: whatever the packets, one hash, so what is not sampled
 # because it does not show changes no byte; a layer that covers everything is the picture below it; and of
-# quality.terrain_composite: off unless asked for, one hash, a crop is the cut-out of the whole, a frame alone is that of a
-# run, layers of one colour are exact, and what it is off grows with it.
+# quality.terrain_composite: one pixel where none is said, off at 0 and of ground without layers, one hash, a crop is the
+# cut-out of the whole, a frame alone is that of a run, layers of one colour are exact, and what it is off grows with it.
 . "$(dirname "$0")/render.sh"
 scene=$folder/pool.toml
 pool_heights
@@ -17,6 +17,8 @@ for name in red green; do
 done
 world() { # BASE: the scene without layers
     cat <<END
+[quality]
+terrain_composite = 0
 [camera]
 position = [-3, 4, 24]
 yaw = 8
@@ -62,8 +64,18 @@ widths() { # name: packets of 4 and of 8 fragments, taken in any order, give one
 layers base rock snow >"$scene"
 widths layers_have_one_hash
 plain=$whole
-[ "$(hash --set quality.terrain_composite=0)" = "$plain" ] && why= || why='0 is not off'
-verdict the_composite_is_off_unless_asked_for "$why"
+sed '/^terrain_composite/d' "$scene" >"$folder/silent.toml"
+said=$("$lom" render "$scene" --size 160x90 --hash --set quality.terrain_composite=1)
+unsaid=$("$lom" render "$folder/silent.toml" --size 160x90 --hash)
+[ "$said" = "$unsaid" ] && why= || why="$unsaid, and $said with one pixel"
+verdict the_composite_begins_at_one_pixel_where_none_is_said "$why"
+case $("$lom" plan "$scene") in *'*  terrain layers'*) why='it is composed' ;; *) why= ;; esac
+verdict the_composite_is_off_at_0 "$why"
+sed '/terrain.layer/,$d; /^terrain_composite/d' "$scene" >"$folder/bare.toml"
+case $("$lom" plan "$folder/bare.toml") in *'*  terrain layers'*) why='it is composed' ;; *) why= ;; esac
+[ "$("$lom" render "$folder/bare.toml" --size 160x90 --hash)" = "$("$lom" render "$folder/bare.toml" --size 160x90 --hash --set quality.terrain_composite=0)" ] ||
+    why='it shows'
+verdict ground_without_layers_has_no_composite "$why"
 
 world rock >"$scene" && alone=$(hash)
 { world base && layer snow 'tile = 5

@@ -23,6 +23,7 @@ target = [0, 700, 0]
 [water]
 size = [9000, 9000]
 [quality]
+water = "planar"
 impostors = "bounded"
 impostor.bound = 0.5
 TOML

@@ -168,7 +168,7 @@ static void light_from_infinity_is_the_suns(void)
 static void water_mirrors_lamps_as_the_sun(void)
 {
     static const char *const waters[2] = {
-        "[water]\nlevel = 0\nnormal_map = 'normal.png'\nshininess = 9\n",
+        "[water]\nlevel = 0\nnormal_map = 'normal.png'\nshininess = 9\n[quality]\nwater = 'planar'\n",
         "[water]\nlevel = 0\n[water.optics]\nscatter = [0, 0, 0]\n[water.waves]\nkind = 'gerstner'\ncount = 3\n"
         "height = 0.3\n[quality]\nwater = 'displaced'\n"
     };
@@ -312,7 +312,7 @@ static const char *many_lamps(const char *water)
 static void lists_change_no_bit_at_any_width(void)
 {
     static const char *const waters[2] = {
-        "", "[water.waves]\nkind = 'gerstner'\ncount = 3\n[quality]\nwater = 'displaced'\n"
+        "[quality]\nwater = 'planar'\n", "[water.waves]\nkind = 'gerstner'\ncount = 3\n[quality]\nwater = 'displaced'\n"
     };
     static const char *const views[][2] = { { "quality.shading=phong", "camera.position=[0,3,12]" },
                                             { "quality.shading=gouraud", "camera.position=[5,2,9]" },

@@ -169,6 +169,8 @@ near = $near
 color = [1, 0, 0]
 [water]
 size = 1000000
+[quality]
+water = "planar"
 END
     why=
     "$lom" render "$scene" -o "$folder/soft.png" --threads 1 --quiet &&

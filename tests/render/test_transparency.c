@@ -240,29 +240,31 @@ static double largest_difference(const struct drawn *p, const struct drawn *q)
     return most;
 }
 
+#define PLANAR "[quality]\nwater = 'planar'\n" EVEN FLOOR
+
 static void water_lies_between(void)
 {
-    if (!draw(EVEN FLOOR WATER("reflection = false"), &a) || !draw(EVEN FLOOR ABOVE WATER("reflection = false"), &b))
+    if (!draw(PLANAR WATER("reflection = false"), &a) || !draw(PLANAR ABOVE WATER("reflection = false"), &b))
         return;
     for (int i = 0; i < PIXELS; i++)
         CHECK(fabs((double)b.red[i] - (0.25 * 0.8 + 0.75 * (double)a.red[i])) < 1e-5, "pixel %d over the water: %g", i,
               (double)b.red[i]);
     CHECK(step_of(&b, "transparent") != NULL && step_of(&b, "transparent")->runs, "the plan does not say so");
     /* Mirrored: what the pane lies over is another water. */
-    if (!draw(EVEN FLOOR WATER("reflection = true"), &a) || !draw(EVEN FLOOR ABOVE WATER("reflection = true"), &b))
+    if (!draw(PLANAR WATER("reflection = true"), &a) || !draw(PLANAR ABOVE WATER("reflection = true"), &b))
         return;
     double most = 0;
     for (int i = 0; i < PIXELS; i++)
         most = fmax(most, fabs((double)b.red[i] - (0.25 * 0.8 + 0.75 * (double)a.red[i])));
     CHECK(most > 1e-3, "the water does not mirror the pane: %g", most);
     /* Below: through the water, and nowhere without a picture of what is below it. */
-    if (!draw(EVEN FLOOR WATER(""), &a) || !draw(EVEN FLOOR BELOW WATER(""), &b))
+    if (!draw(PLANAR WATER(""), &a) || !draw(PLANAR BELOW WATER(""), &b))
         return;
     CHECK(largest_difference(&a, &b) > 1e-2, "what is below the water is not seen: %g", largest_difference(&a, &b));
     static const char blind[] = "refraction = false\nsoft_shore = false\nspecular = false";
     char things[2][2000];
-    snprintf(things[0], sizeof things[0], EVEN FLOOR WATER("%s"), blind);
-    snprintf(things[1], sizeof things[1], EVEN FLOOR BELOW WATER("%s"), blind);
+    snprintf(things[0], sizeof things[0], PLANAR WATER("%s"), blind);
+    snprintf(things[1], sizeof things[1], PLANAR BELOW WATER("%s"), blind);
     if (!draw(things[0], &a) || !draw(things[1], &b))
         return;
     CHECK(memcmp(a.red, b.red, sizeof a.red) == 0, "what is below the water lies over it: %g",

@@ -17,7 +17,7 @@ static const char views[] =
     "[terrain]\nheight_map = \"height.png\"\nsize = 40\nheight = 6\nbase = -3\ntexture = \"color.png\"\ntile = 5\n"
     "[water]\nlevel = 0\nnormal_map = \"normal.png\"\n"
     "[[entity]]\nname = \"box\"\nmesh = \"box.obj\"\nposition = [0, 0.3, 2]\n[[entity.key]]\ntime = 0\n[[entity.key]]\n"
-    "time = 1\nposition = [3, 1, 2]\n[quality]\nentity_shadows = 64\n"
+    "time = 1\nposition = [3, 1, 2]\n[quality]\nwater = \"planar\"\nentity_shadows = 64\n"
     "[[view]]\nname = \"map\"\nrectangle = [0.6, 0.1, 0.4, 0.5]\n[view.camera]\nprojection = \"orthographic\"\n"
     "position = [0, 20, 0]\ntarget = [0, 0, 0]\nup = [0, 0, -1]\nheight = 18\nfar = 60\n"
     "[[view]]\nname = \"hidden\"\nvisible = false\nrectangle = [0, 0, 1, 1]\n"

@@ -45,7 +45,8 @@ static void defaults(void)
     CHECK(s->water.reflection && s->water.refraction && s->water.projection && s->water.flow && s->water.normals);
     CHECK(s->water.fresnel && s->water.specular && s->water.tint && s->water.soft_shore && s->water.normal_up == 3);
     CHECK(s->water.size[0] == 100 && s->water.size[1] == 100 && s->water.normal_map == NULL);
-    CHECK(s->quality.water == LOM_WATER_PLANAR && s->quality.shading == LOM_SHADING_PHONG && s->quality.mipmaps);
+    CHECK(s->quality.water == LOM_WATER_DISPLACED && s->quality.terrain_composite == 1 &&
+          s->quality.shading == LOM_SHADING_PHONG && s->quality.mipmaps);
     CHECK(s->quality.texture_filter == LOM_TEXTURE_TRILINEAR && s->quality.reflection_scale == 1);
     CHECK(strcmp(s->path, "lake.toml") == 0);
     lom_free_scene(s);

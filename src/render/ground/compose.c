@@ -6,7 +6,7 @@
 #include "render/frame.h"
 #include "render/ground/shaders.h"
 
-enum { TEXELS_A_QUAD = 4, MOST_TEXELS = 4096 };
+enum { TEXELS_A_QUAD = 2, MOST_TEXELS = 2048 };
 
 static int texels_along(int quads)
 {
@@ -70,7 +70,7 @@ static bool compose(struct frame *f, lom_error *error)
 bool lom_compose_ground(struct frame *f, lom_error *error)
 {
     const lom_quality *quality = &f->scene->quality;
-    if (!(quality->terrain_composite > 0))
+    if (!(quality->terrain_composite > 0) || f->scene->terrain.layer_count == 0)
         return true;
     if (!quality->mipmaps) {
         lom_add_step(f, "terrain layers", false, "quality.mipmaps is off: there is no coarser picture of the ground");
