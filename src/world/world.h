@@ -107,7 +107,7 @@ void lom_release_world_picture(struct lom_world *world, const char *path);
 /* Frees all pictures and the height map. */
 void lom_release_world_files(struct lom_world *world);
 /* The six faces of a sky box (+x, -x, +y, -y, +z, -z) as the slices of an RGBA8 image, which is the caller's. Faces are
- * squares of one size. NULL on failure. */
+ * squares of one size; taken from `files` (or NULL) where it has them. NULL on failure. */
 lom_image *lom_read_sky_faces(const lom_sky_params *sky, struct lom_files *files, lom_error *error);
 
 /* ---- a moment (moment.c) ---- */

@@ -40,7 +40,7 @@ static lom_error read_sky(int side)
     lom_error error = { 0 };
     CHECK(small_picture("sky_back.png", side, LOM_FORMAT_RGB8, &error), "%s", error.text);
     if (open_world("[sky]\npattern = 'sky_%s.png'\n", &error)) {
-        lom_image *faces = lom_read_sky_faces(&scene->sky, &error);
+        lom_image *faces = lom_read_sky_faces(&scene->sky, NULL, &error);
         CHECK((faces != NULL) == (error.code == LOM_OK), "%s", error.text);
         for (int i = 0; faces != NULL && i < 6; i++) {
             lom_image *file = lom_read_image(scene->sky.faces[i], &error);
@@ -85,7 +85,7 @@ static void a_sky_of_one_file_is_that_of_six(void)
     uint64_t hash[2] = { 0, 1 };
     for (int i = 0; i < 2; i++) {
         if (open_good(i == 0 ? "[sky]\npattern = 'sky_%s.png'\n" : "[sky]\ncube = 'sky.dds'\n")) {
-            lom_image *faces = lom_read_sky_faces(&scene->sky, &error);
+            lom_image *faces = lom_read_sky_faces(&scene->sky, NULL, &error);
             CHECK(faces != NULL, "%s", error.text);
             hash[i] = faces != NULL ? lom_hash_image(faces) : 0;
             lom_free_image(faces);
@@ -94,7 +94,8 @@ static void a_sky_of_one_file_is_that_of_six(void)
     }
     CHECK(hash[0] == hash[1], "another sky");
     if (open_good("[sky]\ncube = 'color.png'\n"))
-        CHECK(lom_read_sky_faces(&scene->sky, &error) == NULL && strstr(error.text, "no cube of six faces") != NULL,
+        CHECK(lom_read_sky_faces(&scene->sky, NULL, &error) == NULL &&
+                  strstr(error.text, "no cube of six faces") != NULL,
               "%s", error.text);
     close_world();
     error = (lom_error){ 0 };
