@@ -74,7 +74,8 @@ bool lom_set_reference_water(lom_reference *reference, const lom_reference_water
 
 /* How a ray sees the scene: the radiance (linear) that comes from `direction` (unit length) to `origin`, nothing nearer
  * than `near_distance`. depth: how many times a path may be divided or mirrored at water; after that water is not seen.
- * All waters of the scene are there. Without the waves of [water.waves], which lom_trace_scene makes for its camera. */
+ * All waters of the scene are there. Without the waves of [water.waves] and the liquids of [[fluid]], which
+ * lom_trace_scene makes for its camera and its time. */
 lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3 direction, double near_distance,
                        double time, int depth);
 

@@ -1,6 +1,7 @@
 /* A picture by rays. In: a loaded scene and a frame's description. Out: linear RGB32F. Each pixel is computed from its
  * coordinates in the whole frame alone; threads take rows. */
 #include "base/threads.h"
+#include "reference/liquids.h"
 #include "reference/wave_surface.h"
 
 #include <stdatomic.h>
@@ -10,6 +11,7 @@ struct frame {
     bool placed;             /* what it places is its own */
     lom_reference others[LOM_MAX_OTHER_WATERS];
     struct lom_wave_surface waves[1 + LOM_MAX_OTHER_WATERS];
+    struct lom_ray_liquids liquids;
     const lom_reference *inside; /* of the water that the camera is in, or NULL */
     lom_reference_frame desc;
     lom_image *image;
@@ -151,6 +153,9 @@ static bool look(struct frame *f, lom_error *error)
     f->view = lom_camera_look(&f->camera);
     f->projection = lom_camera_projection(&f->camera, (double)f->desc.width / f->desc.height);
     f->eye = lom_camera_eye(&f->camera);
+    if (!lom_make_ray_liquids(&f->liquids, &f->reference, f->desc.time, f->desc.threads, error))
+        return false;
+    f->reference.liquids = f->liquids.count > 0 ? &f->liquids : NULL;
     f->reference.others = f->others;
     f->reference.other_count = f->reference.own_water ? 0 : f->reference.scene->other_water_count;
     for (size_t i = 1; i <= f->reference.other_count; i++)
@@ -183,6 +188,7 @@ lom_image *lom_trace_scene(const lom_reference *reference, const lom_reference_f
         lom_offer_work(pool, trace_rows, f);
     for (size_t i = 0; i <= LOM_MAX_OTHER_WATERS; i++)
         lom_free_wave_surface(&f->waves[i]);
+    lom_free_ray_liquids(&f->liquids);
     if (f->placed)
         lom_free_placed(&f->reference);
     lom_free_pool(pool);

@@ -44,6 +44,7 @@ struct lom_ray_layer {
 
 struct lom_wave_surface;
 struct lom_ray_cloud;
+struct lom_ray_liquids;
 
 struct lom_crossing;
 
@@ -84,8 +85,9 @@ struct lom_reference {
 
     struct lom_ray_cloud *clouds;
     size_t cloud_count;
-    const struct lom_wave_surface *waves; /* of a frame, or NULL: still water */
-    size_t number;                        /* of the water that water, maps, waves and slant are of */
+    const struct lom_wave_surface *waves;  /* of a frame, or NULL: still water */
+    const struct lom_ray_liquids *liquids; /* of a frame, or NULL: none */
+    size_t number;                         /* of the water that water, maps, waves and slant are of */
     struct lom_ray_water other_waters[LOM_MAX_OTHER_WATERS];
     const struct lom_reference *others; /* the same with each of the other waters: a frame's, or its own */
     struct lom_reference *own_others;   /* made with it, without waves */
@@ -120,6 +122,9 @@ lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray
  * of reference->transparent. */
 lom_vec3 lom_shade_transparent(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,
                                double time, double *opacity);
+/* What the matter of a liquid sends back where light comes to its surface; *highlight: what that shows of the lights. */
+lom_vec3 lom_shade_liquid(const lom_reference *reference, const struct lom_ray_material *material, lom_vec3 place,
+                          lom_vec3 normal, lom_vec3 to_eye, double time, lom_vec3 *highlight);
 /* Reflection (reflect.c): sun, ambient light and lamps at a place. */
 struct lom_incident {
     lom_vec3 to_light, light; /* the sun's, as it comes there */
@@ -140,6 +145,9 @@ bool lom_lamp_is_open(const lom_reference *reference, const struct lom_placed_la
                       lom_vec3 to_lamp, double distance);
 /* Whether the sun's beam comes to a place under `depth` metres of water: along its bent way to the surface, then straight. */
 bool lom_sun_is_open(const lom_reference *reference, lom_vec3 place, double depth, lom_vec3 to_light);
+/* What liquids leave of each colour of light that comes straight to a place along a unit vector, from so far
+ * (liquids.c). */
+lom_vec3 lom_liquids_leave(const lom_reference *reference, lom_vec3 place, lom_vec3 direction, double far);
 /* The share of the sun that terrain leaves to a place: 0 or 1; 1 where the sun is not above the horizon. */
 double lom_ground_leaves_sun(const lom_reference *reference, lom_vec3 place);
 /* What lies behind everything. */

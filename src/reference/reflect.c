@@ -59,7 +59,9 @@ static lom_vec3 add_lamp(const lom_reference *reference, const struct lom_placed
     double distance, share = lom_lamp_share_at(lamp, at->place, &to_lamp, &distance);
     if (!(share > 0) || !lom_lamp_is_open(reference, lamp, at->place, to_lamp, distance))
         return light;
-    const lom_vec3 come = scaled(through_water(reference, at, to_lamp, distance), share);
+    lom_vec3 come = scaled(through_water(reference, at, to_lamp, distance), share);
+    if (reference->liquids != NULL && lamp->lamp->shadow && quality->lamp_shadows > 0)
+        come = product(come, lom_liquids_leave(reference, at->place, to_lamp, distance));
     const lom_vec3 textured =
         sum(product(vector(lamp->ambient), m->ambient),
             scaled(product(vector(lamp->diffuse), m->diffuse), diffuse_of(quality, dot(at->normal, to_lamp))));

@@ -193,6 +193,8 @@ static struct lom_incident find_incident(const lom_reference *reference, lom_vec
     struct lom_incident in = find_light(around, *depth);
     if (dot(in.light, in.light) > 0 && !lom_sun_is_open(reference, place, *depth, in.to_light))
         in.light = (lom_vec3){ 0, 0, 0 };
+    if (reference->liquids != NULL && reference->scene->quality.entity_shadows > 0)
+        in.light = product(in.light, lom_liquids_leave(reference, place, in.to_light, 1e300));
     if (reference->cloud_count > 0)
         in.light = scaled(in.light, lom_cloud_shadow(reference, place, time));
     return in;
@@ -252,6 +254,18 @@ lom_vec3 lom_shade_transparent(const lom_reference *reference, const struct lom_
     lom_vec3 light = reflect(reference, &in, &rough, &s, facing);
     lom_vec3 highlight = reflect(reference, &in, &polished, &s, facing);
     return sum(scaled(light, *opacity), scaled(highlight, presence));
+}
+
+lom_vec3 lom_shade_liquid(const lom_reference *reference, const struct lom_ray_material *material, lom_vec3 place,
+                          lom_vec3 normal, lom_vec3 to_eye, double time, lom_vec3 *highlight)
+{
+    struct lom_ray_material rough = *material, polished = *material;
+    double depth;
+    const struct lom_incident in = find_incident(reference, place, time, &depth);
+    const struct lom_facing facing = { place, normal, to_eye, { 1, 1, 1 }, depth };
+    rough.specular = polished.ambient = polished.diffuse = (lom_vec3){ 0, 0, 0 };
+    *highlight = lom_reflect_light(reference, &in, &polished, &facing);
+    return lom_reflect_light(reference, &in, &rough, &facing);
 }
 
 lom_vec3 lom_shade_hit(const lom_reference *reference, const struct lom_ray *ray, const struct lom_ray_hit *hit,

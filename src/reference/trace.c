@@ -4,14 +4,16 @@
  * Radiance is not divided by the squared index where it leaves the water, nor is what the ground below sends up thrown
  * back down again by the surface: in uniform light over white ground without absorption the two cancel, and each
  * without the other would be wrong by that much. */
-#include "reference/reference.h"
+#include "reference/liquids.h"
 
 struct path {
-    struct lom_ray ray;          /* of unit direction */
-    double low;                  /* nothing nearer than this is seen */
-    int depth;                   /* crossings of water that may follow */
-    const lom_reference *inside; /* of the water that it is in, or NULL */
-    bool by_water;               /* it has met the water before, so it sees the sun's disc as well */
+    struct lom_ray ray;                  /* of unit direction */
+    double low;                          /* nothing nearer than this is seen */
+    int depth;                           /* crossings of water and liquids that may follow */
+    const lom_reference *inside;         /* of the water that it is in, or NULL */
+    const struct lom_ray_liquid *liquid; /* that it is in, or NULL; then `inside` does not count */
+    lom_vec3 matter;                     /* what that sends back */
+    bool by_water;                       /* it has met the water before, so it sees the sun's disc as well */
 };
 
 struct tracer {
@@ -84,6 +86,54 @@ static lom_vec3 kept_in_front(lom_vec3 d, lom_vec3 n)
     return dot(d, n) < 0 ? lom_reference_mirror(d, n) : d;
 }
 
+/* ---- liquids ---- */
+
+/* What of the light is taken on the way, the liquid's matter sends back. */
+static lom_vec3 cross_liquid(const struct path *path, lom_vec3 beyond, double t)
+{
+    const lom_vec3 left = lom_transmitted(path->liquid->params->absorption, t);
+    return sum(product(beyond, left), product(path->matter, difference((lom_vec3){ 1, 1, 1 }, left)));
+}
+
+/* The reference of the water that a place is in; NULL: of none. */
+static const lom_reference *water_at(const lom_reference *reference, lom_vec3 place, double time)
+{
+    for (size_t i = 0; i <= reference->other_count; i++)
+        if (lom_water_above(lom_reference_with(reference, i), place, time) > 0)
+            return lom_reference_with(reference, i);
+    return NULL;
+}
+
+/* The two ways that a path goes on where it comes into a liquid or out of it, and the lights' picture on it. */
+static lom_vec3 divide_liquid(const struct tracer *tracer, const struct path *path, const struct lom_ray_liquid *met,
+                              const struct lom_liquid_crossing *c)
+{
+    const bool enters = path->liquid == NULL;
+    const lom_reference *around = enters ? path->inside : water_at(tracer->reference, c->place, tracer->time);
+    const double index = met->params->index / (around != NULL ? around->water.index : 1), side = enters ? 1 : -1;
+    const lom_vec3 d = path->ray.direction, normal = scaled(c->normal, side), facet = scaled(c->facet, side);
+    struct path next = { .depth = path->depth - 1, .inside = path->inside, .liquid = path->liquid };
+    lom_vec3 matter = path->matter, light = { 0, 0, 0 }, bent;
+    if (enters)
+        matter =
+            lom_shade_liquid(tracer->reference, &met->material, c->place, normal, scaled(d, -1), tracer->time, &light);
+    next.matter = matter;
+    const double share = lom_reference_fresnel(-dot(d, normal), enters ? index : 1 / index);
+    if (share > 0) {
+        next.ray = (struct lom_ray){ c->place, kept_in_front(lom_reference_mirror(d, normal), facet) };
+        light = sum(light, scaled(follow(tracer, &next), share));
+    }
+    if (share < 1 && lom_reference_refract(d, normal, enters ? index : 1 / index, &bent)) {
+        next.ray = (struct lom_ray){ c->place, kept_in_front(bent, scaled(facet, -1)) };
+        next.liquid = enters ? met : NULL;
+        next.inside = around;
+        light = sum(light, scaled(follow(tracer, &next), 1 - share));
+    }
+    return light;
+}
+
+/* ---- water ---- */
+
 /* A share of the light that a path finds on the same side of the water, or on the other. */
 static lom_vec3 leave(const struct tracer *tracer, const struct path *path, const lom_reference *met, lom_vec3 place,
                       lom_vec3 direction, bool crosses, double share)
@@ -121,6 +171,8 @@ static lom_vec3 divide(const struct tracer *tracer, const struct path *path, con
 /* Light that comes from t along the path, as it is at its origin. */
 static lom_vec3 carry(const struct tracer *tracer, const struct path *path, double t, lom_vec3 light)
 {
+    if (path->liquid != NULL)
+        return cross_liquid(path, light, t);
     if (path->inside != NULL)
         return cross_medium(tracer, path, light, t);
     light = lom_light_through_haze(tracer->reference, &path->ray, t, light);
@@ -159,28 +211,42 @@ static lom_vec3 through_layers(const struct tracer *tracer, const struct path *p
     return along(seen, light, share);
 }
 
-static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
+/* What is opaque, or the sky. */
+static lom_vec3 end(const struct tracer *tracer, const struct path *path, const struct lom_ray_hit *hit)
 {
     const lom_reference *reference = tracer->reference;
+    if (hit->t < FAR)
+        return lom_shade_hit(reference, &path->ray, hit, tracer->time);
+    const lom_vec3 light = lom_sky_light(reference, path->ray.direction);
+    return path->by_water ? sum(light, sun_disc(reference, path->ray.direction)) : light;
+}
+
+/* What is opaque and touches a liquid has no air before it. */
+static bool touches(const struct path *path, const struct lom_ray_liquid *liquid, double out, double opaque)
+{
+    return path->liquid != NULL && opaque - out < liquid->gap;
+}
+
+static lom_vec3 follow(const struct tracer *tracer, const struct path *path)
+{
+    const lom_reference *reference = tracer->reference, *met = NULL;
     struct lom_ray_hit hit = { .t = FAR };
-    bool opaque = lom_hit_triangles(&reference->opaque, &path->ray, path->low, &hit);
+    lom_hit_triangles(&reference->opaque, &path->ray, path->low, &hit);
     struct lom_crossing crossing = { .t = hit.t };
+    if (path->depth > 0 && path->liquid == NULL)
+        met = lom_cross_waters(reference, &path->ray, tracer->time, path->inside, path->low, hit.t, &crossing);
+    struct lom_liquid_crossing into = { .t = crossing.t };
+    const struct lom_ray_liquid *liquid = NULL;
+    if (path->depth > 0)
+        liquid = lom_cross_liquid(reference->liquids, &path->ray, path->liquid, path->low, crossing.t, &into);
     lom_vec3 light;
-    const lom_reference *met = path->depth > 0 ? lom_cross_waters(reference, &path->ray, tracer->time, path->inside,
-                                                                  path->low, hit.t, &crossing)
-                                               : NULL;
-    if (met != NULL) {
-        light = divide(tracer, path, met, &crossing);
-    } else if (opaque) {
-        light = lom_shade_hit(reference, &path->ray, &hit, tracer->time);
-    } else {
-        light = lom_sky_light(reference, path->ray.direction);
-        if (path->by_water)
-            light = sum(light, sun_disc(reference, path->ray.direction));
-    }
+    if (liquid != NULL && !touches(path, liquid, into.t, hit.t))
+        light = divide_liquid(tracer, path, liquid, &into);
+    else
+        light = met != NULL && liquid == NULL ? divide(tracer, path, met, &crossing) : end(tracer, path, &hit);
     if (path->by_water && path->inside == NULL)
-        light = sum(light, lamp_discs(reference, &path->ray, crossing.t));
-    return through_layers(tracer, path, crossing.t, carry(tracer, path, crossing.t, light));
+        light = sum(light, lamp_discs(reference, &path->ray, into.t));
+    return through_layers(tracer, path, into.t, carry(tracer, path, into.t, light));
 }
 
 lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, double near_distance, double time,
@@ -191,15 +257,6 @@ lom_vec3 lom_radiance_along(const lom_reference *reference, struct lom_ray ray, 
         .ray = { ray.origin, unit(ray.direction) }, .low = near_distance, .depth = depth, .inside = inside
     };
     return follow(&tracer, &path);
-}
-
-/* The reference of the water that a place is in; NULL: of none. */
-static const lom_reference *water_at(const lom_reference *reference, lom_vec3 place, double time)
-{
-    for (size_t i = 0; i <= reference->other_count; i++)
-        if (lom_water_above(lom_reference_with(reference, i), place, time) > 0)
-            return lom_reference_with(reference, i);
-    return NULL;
 }
 
 lom_vec3 lom_trace_ray(const lom_reference *reference, lom_vec3 origin, lom_vec3 direction, double near_distance,

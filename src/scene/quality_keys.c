@@ -14,7 +14,7 @@ static const lom_key reference[] = {
       .text = "Rays a pixel, spread over its area; 1 is its middle.",
       .dial = &(const lom_key_dial){ .none = "how exact the reference is, not the picture" } },
     { "depth", LOM_KEY_INTEGER, AT(lom_reference_quality, depth), .minimum = 0, .maximum = 64, .initial = { 6 },
-      .text = "How many times a ray may be divided or mirrored at water; after that water is not seen.",
+      .text = "How many times a ray may be divided or mirrored at water and liquids; after that they are not seen.",
       .dial = &(const lom_key_dial){ .none = "how exact the reference is, not the picture" } },
     { "sun", LOM_KEY_ANGLE, AT(lom_reference_quality, sun), .minimum = 0.01, .maximum = 10, .initial = { 1 },
       .unit = "degrees",

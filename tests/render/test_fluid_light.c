@@ -1,6 +1,7 @@
 /* Proves of liquids among what else is lit: their shadows are what Beer and Lambert leave along the light's way through
  * them, of the sun and of a lamp, where the geometry says; they take the shadows of others; water mirrors and shows them
- * as it does an entity of the same shape; a crop is cut out of the whole and lanes change no byte; and what no shadow of
+ * as it does an entity of the same shape; the reference mirrors and bends rays at their surface, and is near what is
+ * drawn; a crop is cut out of the whole and lanes change no byte; and what no shadow of
  * may be seen is not stepped for one. */
 #include "check.h"
 #include "small_scene.h"
@@ -55,6 +56,9 @@ static lom_image *draw_with(const char *text, const char *set)
     return draw_at(text, &set, set != NULL, 0, (lom_frame_desc){ .frame = 0 }).image;
 }
 
+static const char *const traced[] = { "quality.water=reference", "quality.reference.samples=1",
+                                      "fluid.block.visible=false" };
+
 static double sample(const lom_image *image, int x, int y, int channel)
 {
     return image == NULL ? -1 : (double)((const float *)lom_image_pixel(image, x, y, 0))[channel];
@@ -72,12 +76,14 @@ static double way_through(double x, bool lamp)
     return low < 4 ? (4 - low) * sqrt(64 + x * x) / 8 : 0;
 }
 
-static void check_shadow(const char *name, const char *light, bool lamp, double edge)
+static void check_shadow(const char *name, const char *light, bool lamp, double edge, bool traces)
 {
     static const double absorption[3] = { 0.25, 0.5, 1 };
     char text[3000];
     snprintf(text, sizeof text, "%s%s%s", LIT, light, FLOOR BLOCK);
-    lom_image *shaded = draw_with(text, NULL), *open = draw_with(text, "fluid.block.visible=false");
+    const lom_frame_desc first = { .frame = 0 };
+    lom_image *shaded = draw_at(text, traced, traces ? 2 : 0, 0, first).image;
+    lom_image *open = draw_at(text, traces ? traced : traced + 2, traces ? 3 : 1, 0, first).image;
     double worst = 0, step = 2 * HALF / SIDE;
     int counted = 0;
     for (int column = 0; column < SIDE; column++)
@@ -101,8 +107,10 @@ static void check_shadow(const char *name, const char *light, bool lamp, double 
 
 static void light_behind_them_is_what_they_leave_of_it(void)
 {
-    check_shadow("the sun", SUN, false, 1);
-    check_shadow("a lamp", LAMP, true, 2);
+    check_shadow("the sun", SUN, false, 1, false);
+    check_shadow("a lamp", LAMP, true, 2, false);
+    check_shadow("the sun, traced", SUN, false, 1, true);
+    check_shadow("a lamp, traced", LAMP, true, 2, true);
 }
 
 static void what_lets_nothing_through_is_dark_behind(void)
@@ -127,6 +135,36 @@ static void others_shade_them_and_they_not_themselves(void)
     CHECK(sample(shaded, SIDE / 2, SIDE / 2, 0) == 0, "%g", sample(shaded, SIDE / 2, SIDE / 2, 0));
     lom_free_image(shaded);
     lom_free_image(open);
+}
+
+/* ---- the reference ---- */
+
+#define DOWN                                                                                                           \
+    "[output]\nwidth = 33\nheight = 33\nformat = 'rgb32f'\n[camera]\nposition = [0, 10, 0]\ntarget = [0, 0, 0]\n"      \
+    "up = [0, 0, -1]\nfield_of_view = 8\n[light]\nintensity = 0\nambient = [0.8, 0.8, 0.8]\nground = [0.8, 0.8, "      \
+    "0.8]\n"
+#define FULL                                                                                                           \
+    "[[fluid]]\nlow = [-1, 0, -1]\nhigh = [1, 2, 1]\nspacing = 0.1\ncolor = [0, 0, 0]\nhighlight = 0\n"                \
+    "absorption = [0.25, 0.5, 1]\n[[fluid.block]]\nlow = [-1, 0, -1]\nhigh = [1, 2, 1]\n"
+
+/* Under a sky that is 1 all around light goes to and fro between top and bottom: L = e^(-2a) (1 - F + F L) within. What
+ * lies on a floor has no air below it, and so nothing that mirrors. */
+static void rays_are_mirrored_and_bent_by_their_surface(void)
+{
+    static const double absorption[3] = { 0.25, 0.5, 1 }, share = 0.0203729;
+    const lom_frame_desc first = { .frame = 0 };
+    lom_image *floating = draw_at(DOWN "[sky]\ncolor = [1, 1, 1]\n" FULL, traced, 2, 0, first).image;
+    lom_image *lying = draw_at(DOWN "[sky]\ncolor = [0, 0, 0]\n" FLOOR FULL, traced, 2, 0, first).image;
+    for (int i = 0; i < 3; i++) {
+        const double through = exp(-2 * absorption[i]);
+        const double within = through * (1 - share) / (1 - through * share);
+        const double exact = share + (1 - share) * within, got = sample(floating, 16, 16, i);
+        CHECK(fabs(got - exact) < 0.003, "floating, channel %d: %g, not %g", i, got, exact);
+        const double below = (1 - share) * through * 0.8, floor = sample(lying, 16, 16, i);
+        CHECK(fabs(floor - below) < 0.003, "on a floor, channel %d: %g, not %g", i, floor, below);
+    }
+    lom_free_image(floating);
+    lom_free_image(lying);
 }
 
 /* ---- water ---- */
@@ -181,6 +219,25 @@ static void water_shows_them_as_it_does_entities(void)
             for (int n = 0; n < 3; n++)
                 lom_free_image(image[n]);
         }
+}
+
+/* The picture that is drawn is near the one that is traced: the bound is that of what bending and mirroring in the
+ * frame's own pixels gives up. */
+static void what_is_drawn_is_near_what_is_traced(void)
+{
+    static const char text[] = SEEN "[[entity]]\nmesh = 'floor.obj'\nposition = [0, -0.2, 0]\n" MATTE
+                                    "[[fluid]]\nlow = [-2, -0.2, -1]\nhigh = [2, 1.8, 1]\nspacing = 0.1\n"
+                                    "[[fluid.block]]\nlow = [-2, -0.2, -1]\nhigh = [-0.5, 1.2, 1]\n[quality]\n"
+                                    "entity_shadows = 512\n";
+    static const char *const sets[] = { "light.intensity=1", "light.elevation=50", "light.azimuth=40",
+                                        "quality.water=reference", "quality.reference.samples=4" };
+    const lom_frame_desc later = { .frame = 8 };
+    lom_image *drawn = draw_at(text, sets, 3, 0, later).image, *rays = draw_at(text, sets, 5, 0, later).image;
+    const double off = difference(drawn, rays);
+    printf("  drawn and traced differ by %.2f of 255\n", off);
+    CHECK(off < 13 && off > 0.1, "%g of 255", off);
+    lom_free_image(drawn);
+    lom_free_image(rays);
 }
 
 /* ---- the same bytes ---- */
@@ -263,7 +320,9 @@ int main(int argc, char **argv)
     RUN(light_behind_them_is_what_they_leave_of_it);
     RUN(what_lets_nothing_through_is_dark_behind);
     RUN(others_shade_them_and_they_not_themselves);
+    RUN(rays_are_mirrored_and_bent_by_their_surface);
     RUN(water_shows_them_as_it_does_entities);
+    RUN(what_is_drawn_is_near_what_is_traced);
     RUN(a_crop_is_cut_out_of_the_whole);
     RUN(a_basin_is_stepped_for_a_shadow_that_is_seen);
     remove_small_scene();
