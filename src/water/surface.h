@@ -21,7 +21,7 @@ struct lom_picture_uniform {
 };
 
 /* The coarsest level at which a reflection is looked up: a texel of it is 2^3 pixels. */
-enum { LOM_BLUR_LEVELS = 3, LOM_BLUR_PLACES = 4 };
+enum { LOM_BLUR_LEVELS = 3, LOM_BLUR_PLACES = 4, LOM_OPEN_TEXELS = 8 };
 
 /* Water as a medium: 1/m of red, green and blue; the light that it sends back per metre and absorption, at the surface;
  * the length of the sun's refracted ray per metre of depth. */

@@ -36,7 +36,8 @@ LOM_INLINE lom_float3 lom_sky_radiance(const struct lom_sky_uniform *sky, lom_fl
  * are the LOM_BLUR_PLACES, one above the other, whose mean is taken. */
 struct lom_blur {
     lom_float width, apart;
-    lom_mask alone; /* one texel, unfiltered */
+    lom_mask alone; /* texels that are not hidden, unfiltered, `spread` pixels from the highest to the lowest */
+    lom_float spread;
 };
 
 /* Facets whose slopes vary by s turn what they mirror by 2 s up and down, and less sideways where the eye looks along
@@ -51,7 +52,7 @@ LOM_INLINE struct lom_blur lom_blur_of(const struct lom_surface_uniforms *u, lom
     lom_float spread = lom_sqrt(lom_max(variance * pixels, lom_splat(1.0f)));
     lom_float width = lom_min(spread, lom_splat(widest));
     lom_float apart = lom_min((spread - width) / (float)LOM_BLUR_PLACES, lom_splat(2.0f * widest));
-    return (struct lom_blur){ width, apart, { 0 } };
+    return (struct lom_blur){ width, apart, { 0 }, { 0 } };
 }
 
 struct lom_lookup {
@@ -86,10 +87,16 @@ struct lom_hit {
     lom_float s, t;
 };
 
+/* What reaches farther in a picture is not before the surface; some 20 pixels are allowed to waves. */
+LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
+{
+    return u->eye.parallel ? p->w - 20.0f * u->eye.pixel : p->w * 0.98f;
+}
+
 /* Follows the ray from p along d through the picture: `steps` points whose distances grow as the cube of their number,
  * then halving of the step in which the ray went behind what the picture shows. Behind what stands further before the
- * ray than a step it goes on; its length is then where it first did. A ray that leaves the picture, or its reach, finds
- * nothing. */
+ * ray than a step it goes on; its length is then where it first did. What is mirrored and stands before the surface and before
+ * all of the step, too, is in nobody's way. A ray that leaves the picture, or its reach, finds nothing. */
 LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
                                          const struct lom_picture_uniform *picture, const struct lom_surface_point *p,
                                          lom_float3 d, lom_float range)
@@ -97,19 +104,24 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     lom_float2 own = lom_own_place(picture, p);
     struct lom_hit hit = { { 0 }, lom_splat(endless), own.x, own.y };
     lom_mask going = range > 0.0f;
-    lom_float before = { 0 }, last = { 0 };
+    lom_float before = { 0 }, last = { 0 }, reached = p->w;
+    const lom_float bound = lom_before_surface(u, p);
     for (int i = 1; i <= u->steps && lom_any(going); i++) {
         float share = (float)i / (float)u->steps;
         lom_float length = range * (share * share * share);
         struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, length)));
-        lom_float over = at.w - lom_picture_w(u, picture, at.s, at.t);
+        lom_float shown = lom_picture_w(u, picture, at.s, at.t), over = at.w - shown;
         going = going & lom_within_reach(u, own, at);
-        lom_mask met = going & (over > 0.0f) & (over < 1.5f * (length - last));
-        hit.length = lom_select(going & (over > 0.0f) & (met | (length < hit.length)), length, hit.length);
+        lom_mask behind = going & (over > 0.0f);
+        if (picture == &u->mirrored)
+            behind = behind & ((shown > bound) | (shown > lom_min(reached, at.w) - 0.25f * (length - last)));
+        lom_mask met = behind & (over < 1.5f * (length - last));
+        hit.length = lom_select(behind & (met | (length < hit.length)), length, hit.length);
         before = lom_select(met, last, before);
         hit.found = hit.found | met;
         going = going & ~met;
         last = length;
+        reached = at.w;
     }
     if (!lom_any(hit.found))
         return hit;
@@ -126,12 +138,6 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     hit.s = lom_clamp(at.s, hit.s - u->reach, hit.s + u->reach);
     hit.t = lom_clamp(at.t, hit.t - u->reach, hit.t + u->reach);
     return hit;
-}
-
-/* What reaches farther in a picture is not before the surface; some 20 pixels are allowed to waves. */
-LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
-{
-    return u->eye.parallel ? p->w - 20.0f * u->eye.pixel : p->w * 0.98f;
 }
 
 /* Whether anything nearer than the surface stands at (s, t +- y) or (s +- x, t +- y) of a picture. */
@@ -161,6 +167,7 @@ LOM_INLINE struct lom_blur lom_clear_blur(const struct lom_surface_uniforms *u,
     lom_float moved = lom_abs(hit.t - lom_own_place(picture, p).y) / u->pixel[1];
     blur.apart = lom_clamp((moved - blur.width) * (2.0f / (float)LOM_BLUR_PLACES), (lom_float){ 0 }, blur.apart);
     blur.alone = hidden & (blur.width > 1.0f);
+    blur.spread = blur.width;
     blur.width = lom_select(hidden, lom_splat(1.0f), blur.width);
     for (int i = 1; i < LOM_BLUR_PLACES && lom_any(blur.apart > 0.0f); i++)
         hidden = hidden | lom_is_hidden(u, picture, p, hit, x, y + blur.apart * (0.5f * (float)i * u->pixel[1]));
@@ -168,13 +175,33 @@ LOM_INLINE struct lom_blur lom_clear_blur(const struct lom_surface_uniforms *u,
     return blur;
 }
 
+/* The mean of texels one above the other about a place, of those that show nothing nearer than the surface; where all do,
+ * of all. What the levels of the picture have blurred cannot be told apart. */
+LOM_INLINE lom_float4 lom_open_texels(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                      const struct lom_surface_point *p, struct lom_hit hit, lom_float spread)
+{
+    const float columns = (float)lom_texture_width(picture->color), rows = (float)lom_texture_height(picture->color);
+    lom_float bound = lom_before_surface(u, p), weights = { 0 };
+    lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
+    for (int i = 0; i < LOM_OPEN_TEXELS; i++) {
+        const float part = ((float)i + 0.5f) / (float)LOM_OPEN_TEXELS - 0.5f;
+        lom_float s = (lom_floor(hit.s * columns) + 0.5f) / columns;
+        lom_float t = (lom_floor((hit.t + spread * (part * u->pixel[1])) * rows) + 0.5f) / rows;
+        lom_mask open = lom_picture_w(u, picture, s, t) > bound;
+        lom_float weight = lom_select(open, lom_splat(1.0f), lom_splat(1e-3f));
+        lom_float4 texel = lom_sample(picture->color, s, t, (lom_float){ 0 });
+        sum = (lom_float4){ sum.x + texel.x * weight, sum.y + texel.y * weight, sum.z + texel.z * weight,
+                            sum.w + texel.w * weight };
+        weights = weights + weight;
+    }
+    return (lom_float4){ sum.x / weights, sum.y / weights, sum.z / weights, sum.w / weights };
+}
+
+/* The lookup of lanes that are not alone. */
 LOM_INLINE lom_float4 lom_blurred(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                   struct lom_hit hit, struct lom_blur blur)
 {
-    const float columns = (float)lom_texture_width(picture->color), rows = (float)lom_texture_height(picture->color);
     lom_float lod = lom_log2(blur.width);
-    hit.s = lom_select(blur.alone, (lom_floor(hit.s * columns) + 0.5f) / columns, hit.s);
-    hit.t = lom_select(blur.alone, (lom_floor(hit.t * rows) + 0.5f) / rows, hit.t);
     if (!lom_any(blur.apart > 0.0f))
         return lom_sample(picture->color, hit.s, hit.t, lod);
     lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
@@ -195,8 +222,28 @@ LOM_INLINE lom_float lom_onto_picture(const struct lom_surface_uniforms *u, lom_
     return u->side < 0 ? 1.0f - lom_abs(1.0f - lom_abs(s)) : s;
 }
 
+/* Where what is mirrored would be nearer than the surface, the nearest texel beside it, within four, that is not, since what
+ * hides is mostly thin and upright. Where there is none, and of what lies below, the surface's own pixel. */
+LOM_INLINE void lom_step_aside(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                               const struct lom_surface_point *p, struct lom_hit *hit)
+{
+    static const float aside[] = { -1, 1, -2, 2, -3, 3, -4, 4 };
+    const float texel = 1.0f / (float)lom_texture_width(picture->color);
+    const lom_float2 own = lom_own_place(picture, p);
+    const lom_float bound = lom_before_surface(u, p), s = hit->s;
+    lom_mask hidden = ~(lom_picture_w(u, picture, s, hit->t) > bound);
+    for (size_t i = 0; i < sizeof aside / sizeof aside[0] && picture == &u->mirrored && lom_any(hidden); i++) {
+        lom_float at = s + aside[i] * texel;
+        lom_mask open = hidden & (lom_picture_w(u, picture, at, hit->t) > bound);
+        hit->s = lom_select(open, at, hit->s);
+        hidden = hidden & ~open;
+    }
+    hit->s = lom_select(hidden, own.x, hit->s);
+    hit->t = lom_select(hidden, own.y, hit->t);
+}
+
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent
- * one, at most `longest`. Where something nearer than the surface stands there, the unbent ray answers. */
+ * one, at most `longest`. Where something nearer than the surface stands there, what is beside it answers. */
 LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms *u,
                                                const struct lom_picture_uniform *picture,
                                                const struct lom_surface_point *p, lom_float3 d, lom_float longest)
@@ -209,9 +256,7 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     struct lom_hit hit = { at.w > 0.0f, length,
                            lom_onto_picture(u, lom_clamp(at.s, own.x - u->reach, own.x + u->reach)),
                            lom_onto_picture(u, lom_clamp(at.t, own.y - u->reach, own.y + u->reach)) };
-    lom_mask hidden = ~(lom_picture_w(u, picture, hit.s, hit.t) > lom_before_surface(u, p));
-    hit.s = lom_select(hidden, own.x, hit.s);
-    hit.t = lom_select(hidden, own.y, hit.t);
+    lom_step_aside(u, picture, p, &hit);
     return hit;
 }
 
@@ -262,10 +307,15 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
             hit.t = lom_select(met.found, met.t, hit.t);
             hit.found = hit.found | met.found;
         }
-        struct lom_blur blur = { lom_splat(1.0f), { 0 }, { 0 } };
+        struct lom_blur blur = { lom_splat(1.0f), { 0 }, { 0 }, { 0 } };
         if (above)
             blur = lom_clear_blur(u, picture, p, hit, lom_blur_of(u, variance, hit.length));
         lom_float4 texel = lom_blurred(u, picture, hit, blur);
+        if (lom_any(blur.alone)) {
+            lom_float4 open = lom_open_texels(u, picture, p, hit, blur.spread);
+            texel = (lom_float4){ lom_select(blur.alone, open.x, texel.x), lom_select(blur.alone, open.y, texel.y),
+                                  lom_select(blur.alone, open.z, texel.z), lom_select(blur.alone, open.w, texel.w) };
+        }
         share = lom_select(hit.found, texel.w, (lom_float){ 0 });
         color = lom_scale3((lom_float3){ texel.x, texel.y, texel.z },
                            lom_select(hit.found, lom_splat(1.0f), (lom_float){ 0 }));

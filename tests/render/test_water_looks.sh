@@ -52,6 +52,7 @@ few() { # name, how many at most, what count takes
 }
 few what_a_rough_sea_mirrors_is_no_single_pixels 12 dark 8 sunset.toml --size 640x360 --crop 10,200,200,110
 few crests_far_away_are_no_single_pixels 8 teeth 4 surf.toml --frame 60 --size 960x540 --crop 540,206,420,30
+few the_mirror_behind_reeds_has_no_specks 10 dark 12 tarn.toml --size 960x540 --crop 740,340,160,30
 few the_mirror_has_no_teeth 20 teeth 12 cove.toml --frame 30 --size 1280x720 --crop 850,370,300,100
 few a_far_shore_is_no_dashes 35 dashes 40 surf.toml --frame 60 --size 960x540 --crop 205,225,60,40
 few outside_of_the_window_nothing_is_drawn_out 200 streaks 1 reef.toml --size 640x360 --crop 578,0,50,24
