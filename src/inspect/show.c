@@ -95,6 +95,12 @@ static lom_image *show_far_shadow(lom_renderer *r, const lom_frame_desc *desc, l
     return read_floats(r->entities.shadows[1].map, LOM_FORMAT_R32F, "far shadow map", error);
 }
 
+static lom_image *show_liquid_shadow(lom_renderer *r, const lom_frame_desc *desc, lom_error *error)
+{
+    (void)desc;
+    return read_floats(r->fluids.shadow.map, LOM_FORMAT_RGB32F, "map of the liquids' shadow", error);
+}
+
 /* Copies a map of a lamp's face into the square at (column, row). */
 static bool place_map(lom_image *image, const lom_texture *map, int column, int row, int size, lom_error *error)
 {
@@ -196,13 +202,15 @@ static const struct row {
     { { "depth", "metres along the view to what is seen; 0: nothing", false }, show_depth },
     { { "normals", "unit normals of what is seen, x right, y up, z to the south, in the world; 0: none", false },
       lom_show_normals },
-    { { "objects", "1 terrain, 2 water, 16 and more the entities in the scene's order; 0: none", false },
+    { { "objects", "1 terrain, 2 water, 3 liquids, 16 and more the entities in the scene's order; 0: none", false },
       lom_show_objects },
     { { "motion", "pixels that what is seen has moved since the frame before, right and down", false },
       lom_show_motion },
     { { "near-shadow", "depth of what casts shadows near the eye, as the sun sees it, 1 next to it", false },
       show_near_shadow },
     { { "far-shadow", "the same of what is farther than the middle", false }, show_far_shadow },
+    { { "liquid-shadow", "optical depths of red, green and blue that the sun sees of liquids", false },
+      show_liquid_shadow },
     { { "lamp-shadows", "a row of maps a lamp: how near to it something stands, as it sees it; 0: nothing", false },
       show_lamp_shadows },
     { { "cloud-shadow", "the share of the sun that clouds let through", false }, show_cloud_shadow },
