@@ -10,6 +10,7 @@
 
 #include "base/numbers.h"
 #include "base/own_float_state.h"
+#include "base/reserve.h"
 
 static const double radius = 0.281; /* of a particle, cells: a level surface lies half a spacing above the uppermost */
 static const double far_away = 0.5; /* cells: the value of what no particle is near */
@@ -296,9 +297,9 @@ lom_mesh *lom_make_fluid_mesh(lom_fluid *f, const double origin[3], lom_device *
         field.stride[i] = field.count;
         field.count *= field.nodes[i];
     }
-    field.value = lom_allocate(field.count, sizeof *field.value, error);
-    field.smooth = lom_allocate(field.count, sizeof *field.smooth, error);
-    field.number = lom_allocate(field.count, sizeof *field.number, error);
+    field.value = lom_allocate_bare(field.count, sizeof *field.value, error);
+    field.smooth = lom_allocate_bare(field.count, sizeof *field.smooth, error);
+    field.number = lom_allocate_bare(field.count, sizeof *field.number, error);
     field.slabs = lom_allocate(field.nodes[2], sizeof *field.slabs, error);
     f->device = device;
     if (field.value != NULL && field.smooth != NULL && field.number != NULL && field.slabs != NULL) {
