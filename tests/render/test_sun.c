@@ -79,7 +79,8 @@ static void the_gradient_is_that_of_the_reference(void)
 static void what_is_before_the_sun_hides_it(void)
 {
     char text[1200];
-    snprintf(text, sizeof text, "%ssun = true\n[water]\nsize = [9, 9]\nlevel = 1000\n", sky);
+    snprintf(text, sizeof text, "%ssun = true\n[water]\nsize = [9, 9]\nlevel = 1000\n[quality]\nwater = 'planar'\n",
+             sky);
     lom_image *open = draw(text, 5);
     snprintf(text, sizeof text,
              "%ssun = true\n[[cloud]]\nkind = 'hemisphere'\nvoxels = [16, 16, 16]\nposition = [3000, 150, 0]\n"
