@@ -119,7 +119,7 @@ crop 0,0,49,32 does not lie inside the frame of 48x32|render scene.toml -o out.p
 --format takes png|render scene.toml -o out.png --format gif
 no picture kind "gif"|render scene.toml -o out.gif
 --set watre.level=1: unknown key "watre" (did you mean|render scene.toml -o out.png --set watre.level=1
-an entity's scale makes its matrix singular|render scene.toml -o out.png --set entity.box.scale=1e-310
+"scale" is 1e-310 but must be above 0|render scene.toml -o out.png --set entity.box.scale=1e-310
 an override has the form KEY=VALUE|render scene.toml -o out.png --set water.level
 --set water.level=nan: "level" is nan|render scene.toml -o out.png --set water.level=nan
 nothing here is named "bax" (did you mean "box"?)|render scene.toml -o out.png --set entity.bax.visible=false

@@ -272,7 +272,6 @@ static void what_cannot_be_had_is_an_error(void)
     static const struct {
         const char *text, *says;
     } cases[] = {
-        { BOX "scale = [1e-310, 1, 1]\n", "singular" },
         { "[[entity]]\nmesh = 'color.png'\n", "color.png" },
         { "[terrain]\nheight_map = 'box.obj'\n", "box.obj" },
         { "[terrain]\nheight_map = 'dot.png'\n", "2 x 2" },
