@@ -258,7 +258,8 @@ lom_fluid *lom_create_fluid(const lom_fluid_desc *desc, lom_error *error)
     whole.point_count = fill_blocks(&whole, NULL);
     if (whole.point_count == 0 || whole.point_count > LOM_FLUID_PARTICLES) {
         lom_fail(error, LOM_ERROR_LIMIT,
-                 "The blocks of a fluid have %llu particles between low and high of the basin and over the ground, a "
+                 "The blocks of a fluid have %llu particles between low and high of the basin and over the ground "
+                 "(in a scene the terrain, by its base and height), a "
                  "spacing apart; 1 to "
                  "%d are possible.",
                  (unsigned long long)whole.point_count, LOM_FLUID_PARTICLES);

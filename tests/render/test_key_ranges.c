@@ -1,7 +1,7 @@
-/* Every key of the scene file at the ends of its range, at the least numbers that it may have, and just inside: the
- * result is a picture of finite numbers, or a sentence that names the key; never a crash, a report of a sanitizer, or a
- * frame that takes seconds. The cases come from the table of keys, over small scenes that use them; a key that no scene
- * draws fails. Each case is a process of its own. Of the values of a key, three are tried, and all with
+/* Every key of the scene file at the ends of its range, at the least numbers that it may have (those below 2^-100 are 0),
+ * and just inside: the result is a picture of finite numbers, or a sentence that names the key; never a crash, a report of
+ * a sanitizer, or a frame that takes seconds. The cases come from the table of keys, over small scenes that use them; a key
+ * that no scene draws fails. Each case is a process of its own. Of the values of a key, three are tried, and all with
  * LOM_EXHAUSTIVE=1, one element of an array at a time, too. */
 #include "check.h"
 #include "key_bases.h"
@@ -150,7 +150,7 @@ static void try_numbers(struct cases *cases, const char *path, const lom_key *ke
     bool any = key->minimum == 0 && key->maximum == 0, integer = key->type == LOM_KEY_INTEGER;
     double low = any ? -DBL_MAX : key->minimum, high = any ? DBL_MAX : key->maximum;
     double in = integer ? low + 1 : nextafter(low, high), below = integer ? high - 1 : nextafter(high, low);
-    double values[16] = { low, high, integer || low > 0 ? in : 1e-300, in, below };
+    double values[16] = { low, high, integer || low > 0 ? in : 1e-30, in, below };
     int count = exhaustive() ? 5 : 3;
     static const double tiny[] = { 0, 5e-324, 1e-46, 1e-18, -1e-300, -1e-46, -1e-18 };
     for (int i = 0; i < 7 && !integer && exhaustive(); i++)
