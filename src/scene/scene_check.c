@@ -56,10 +56,10 @@ static bool check_all_names(lom_scene *scene, const lom_key_check *root)
     return true;
 }
 
-/* The number of the entity of this name, plus one; 0 when there is none. */
+/* The number of the entity of this name, plus one; 0 when there is none, and for no name. */
 static size_t find_entity(const lom_scene *scene, const char *name)
 {
-    for (size_t i = 0; i < scene->entity_count; i++)
+    for (size_t i = 0; name != NULL && i < scene->entity_count; i++)
         if (scene->entities[i].name != NULL && strcmp(scene->entities[i].name, name) == 0)
             return i + 1;
     return 0;
@@ -122,14 +122,14 @@ static bool check_shallow(lom_scene *scene, const lom_key_check *root)
 static bool check_followed(lom_scene *scene, const lom_key_check *root)
 {
     lom_camera *camera = &scene->camera;
-    camera->followed = camera->follow == NULL ? 0 : find_entity(scene, camera->follow);
+    camera->followed = find_entity(scene, camera->follow);
     if (camera->follow != NULL && camera->followed == 0) {
         const lom_key_check table = lom_check_inside(root, "camera");
         return table.fail(&table, "follow", "no entity has this name.");
     }
     for (size_t i = 0; i < scene->view_count; i++) {
         lom_camera *own = &scene->views[i].camera;
-        own->followed = own->follow == NULL ? 0 : find_entity(scene, own->follow);
+        own->followed = find_entity(scene, own->follow);
         if (own->follow != NULL && own->followed == 0) {
             const lom_key_check at = root->element(root, "view", i), table = lom_check_inside(&at, "camera");
             return table.fail(&table, "follow", "no entity has this name.");
@@ -137,7 +137,7 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     }
     for (size_t i = 0; i < scene->lamp_count; i++) {
         lom_lamp *lamp = &scene->lamps[i];
-        lamp->followed = lamp->follow == NULL ? 0 : find_entity(scene, lamp->follow);
+        lamp->followed = find_entity(scene, lamp->follow);
         if (lamp->follow != NULL && lamp->followed == 0) {
             const lom_key_check at = root->element(root, "lamp", i);
             return at.fail(&at, "follow", "no entity has this name.");
@@ -145,7 +145,7 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     }
     for (size_t i = 0; i < scene->spray_count; i++) {
         lom_spray *spray = &scene->sprays[i];
-        spray->followed = spray->entity == NULL ? 0 : find_entity(scene, spray->entity);
+        spray->followed = find_entity(scene, spray->entity);
         if (spray->entity != NULL && spray->followed == 0) {
             const lom_key_check at = root->element(root, "spray", i);
             return at.fail(&at, "entity", "no entity has this name.");
@@ -153,7 +153,7 @@ static bool check_followed(lom_scene *scene, const lom_key_check *root)
     }
     for (size_t i = 0; i < scene->shallow.body_count; i++) {
         lom_shallow_body *body = &scene->shallow.bodies[i];
-        body->followed = body->entity == NULL ? 0 : find_entity(scene, body->entity);
+        body->followed = find_entity(scene, body->entity);
         if (body->entity != NULL && body->followed == 0) {
             const lom_key_check table = lom_check_inside(root, "shallow"), at = table.element(&table, "body", i);
             return at.fail(&at, "entity", "no entity has this name.");
