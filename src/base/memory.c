@@ -24,9 +24,10 @@ void *lom_allocate_bare(size_t count, size_t size, lom_error *error)
 {
     size_t bytes = measure(count, size, error);
     bool large = bytes >= LOM_LARGE_PAGE;
-    void *memory = bytes == 0 ? NULL : aligned_alloc(large ? LOM_LARGE_PAGE : ALIGNMENT, bytes);
+    size_t alignment = large ? LOM_LARGE_PAGE : ALIGNMENT, whole = bytes / alignment * alignment;
+    void *memory = bytes == 0 ? NULL : aligned_alloc(alignment, whole < bytes ? whole + alignment : whole);
     if (memory != NULL && large)
-        lom_expect_whole(memory, bytes / LOM_LARGE_PAGE * LOM_LARGE_PAGE);
+        lom_expect_whole(memory, whole);
     if (memory == NULL && bytes != 0)
         lom_fail(error, LOM_ERROR_MEMORY, "The system gave no memory for %zu bytes.", count * size);
     return memory;

@@ -67,32 +67,42 @@ static void find_viscosities(void *context, size_t first, size_t end)
     }
 }
 
-static bool reserve_unknowns(struct lom_fluid_strain *s, size_t count, lom_error *error)
+/* An array of a capacity that several share. */
+struct shared_array {
+    void *array;
+    size_t size; /* of an element */
+};
+
+static bool reserve(const struct shared_array *arrays, size_t array_count, size_t *capacity, size_t count,
+                    lom_error *error)
 {
-    double **const arrays[] = { &s->x, &s->residual, &s->way, &s->product, &s->diagonal };
-    size_t capacity = s->capacity, firsts = s->capacity, done = s->capacity;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        size_t own = s->capacity;
-        if (!lom_renew(arrays[i], &own, count + 1, sizeof **arrays[i], error))
+    size_t reached = *capacity;
+    for (size_t i = 0; i < array_count; i++) {
+        reached = *capacity;
+        if (!lom_renew(arrays[i].array, &reached, count + 1, arrays[i].size, error))
             return false;
     }
-    if (!lom_renew(&s->face, &capacity, count + 1, sizeof *s->face, error) ||
-        !lom_renew(&s->first, &firsts, count + 1, sizeof *s->first, error) ||
-        !lom_renew(&s->done, &done, count + 1, sizeof *s->done, error))
-        return false;
-    s->capacity = capacity;
+    *capacity = reached;
     return true;
+}
+
+static bool reserve_unknowns(struct lom_fluid_strain *s, size_t count, lom_error *error)
+{
+    const struct shared_array arrays[] = {
+        { &s->x, sizeof *s->x },         { &s->residual, sizeof *s->residual },
+        { &s->way, sizeof *s->way },     { &s->product, sizeof *s->product },
+        { &s->face, sizeof *s->face },   { &s->diagonal, sizeof *s->diagonal },
+        { &s->first, sizeof *s->first }, { &s->done, sizeof *s->done },
+    };
+    return reserve(arrays, sizeof arrays / sizeof *arrays, &s->capacity, count, error);
 }
 
 static bool reserve_samples(struct lom_fluid_strain *s, size_t count, lom_error *error)
 {
-    size_t pulls = s->sample_capacity, touches = s->sample_capacity, capacity = s->sample_capacity;
-    if (!lom_renew(&s->pull, &pulls, count + 1, sizeof *s->pull, error) ||
-        !lom_renew(&s->touch, &touches, count + 1, sizeof *s->touch, error) ||
-        !lom_renew(&s->samples, &capacity, count + 1, sizeof *s->samples, error))
-        return false;
-    s->sample_capacity = capacity;
-    return true;
+    const struct shared_array arrays[] = { { &s->pull, sizeof *s->pull },
+                                           { &s->touch, sizeof *s->touch },
+                                           { &s->samples, sizeof *s->samples } };
+    return reserve(arrays, sizeof arrays / sizeof *arrays, &s->sample_capacity, count, error);
 }
 
 /* ---- faces ---- */
