@@ -12,6 +12,8 @@
 
 /* As long as no ray of a scene is. */
 static const float endless = 0x1p100f;
+/* Farther than all of a scene, and nearer than where a picture shows nothing (lom_depth_reach, near planes from 1e-12). */
+static const float unseen = 0x1p50f;
 
 /* ---- the sky ---- */
 
@@ -96,15 +98,17 @@ LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, co
 /* Follows the ray from p along d through the picture: `steps` points whose distances grow as the cube of their number,
  * then halving of the step in which the ray went behind what the picture shows. Behind what stands further before the
  * ray than a step it goes on; its length is then where it first did. What is mirrored and stands before the surface and before
- * all of the step, too, is in nobody's way. A ray that leaves the picture, or its reach, finds nothing. */
+ * all of the step, too, is in nobody's way. Where the picture of what is under water shows nothing, ground that rises out of
+ * the water hides its own bed: a ray that comes out behind what stands before it had its length at the rim. A ray that
+ * leaves the picture, or its reach, finds nothing. */
 LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
                                          const struct lom_picture_uniform *picture, const struct lom_surface_point *p,
                                          lom_float3 d, lom_float range)
 {
     lom_float2 own = lom_own_place(picture, p);
     struct lom_hit hit = { { 0 }, lom_splat(endless), own.x, own.y };
-    lom_mask going = range > 0.0f;
-    lom_float before = { 0 }, last = { 0 }, reached = p->w;
+    lom_mask going = range > 0.0f, hidden = { 0 };
+    lom_float before = { 0 }, last = { 0 }, reached = p->w, rim = lom_splat(endless);
     const lom_float bound = lom_before_surface(u, p);
     for (int i = 1; i <= u->steps && lom_any(going); i++) {
         float share = (float)i / (float)u->steps;
@@ -116,10 +120,14 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
         if (picture == &u->mirrored)
             behind = behind & ((shown > bound) | (shown > lom_min(reached, at.w) - 0.25f * (length - last)));
         lom_mask met = behind & (over < 1.5f * (length - last));
-        hit.length = lom_select(behind & (met | (length < hit.length)), length, hit.length);
+        lom_float first =
+            lom_select(behind & (hit.length == endless), lom_select(hidden, lom_min(rim, length), length), hit.length);
+        hit.length = lom_select(met, length, first);
         before = lom_select(met, last, before);
         hit.found = hit.found | met;
         going = going & ~met;
+        hidden = shown > unseen;
+        rim = lom_select(hidden, rim, length);
         last = length;
         reached = at.w;
     }

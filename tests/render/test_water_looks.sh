@@ -1,7 +1,7 @@
 #!/bin/sh
 # Proves of water with waves what the eye saw wrong once, by numbers of pictures: a still surface is the same on the mesh
 # as on two triangles, at the horizon and at its corners; no pixel of it is much darker than all that are beside it; what
-# it mirrors has no teeth; the foam of a far shore is one line; outside of Snell's window nothing is drawn out in streaks,
+# it mirrors has no teeth; the foam of a far shore is one line, and so is the shore behind an island; outside of Snell's window nothing is drawn out in streaks,
 # and within it the shore is whole; the ripples of still water show in every model; black of a flow map moves nothing; a
 # boat stays in its picture.
 . "$(dirname "$0")/render.sh"
@@ -55,6 +55,7 @@ few crests_far_away_are_no_single_pixels 8 teeth 4 surf.toml --frame 60 --size 9
 few the_mirror_behind_reeds_has_no_specks 10 dark 12 tarn.toml --size 960x540 --crop 740,340,160,30
 few the_mirror_has_no_teeth 20 teeth 12 cove.toml --frame 30 --size 1280x720 --crop 850,370,300,100
 few a_far_shore_is_no_dashes 35 dashes 40 surf.toml --frame 60 --size 960x540 --crop 205,225,60,40
+few a_bed_that_an_island_hides_is_no_dashes 100 dashes 8 flight.toml --size 960x540 --crop 800,392,150,18
 few outside_of_the_window_nothing_is_drawn_out 200 streaks 1 reef.toml --size 640x360 --crop 578,0,50,24
 
 # What stands on the shore, at the rim of the window, where rays are bent the farthest: still water against the reference.
