@@ -231,7 +231,8 @@ LOM_INLINE lom_float lom_onto_picture(const struct lom_surface_uniforms *u, lom_
 }
 
 /* Where what is mirrored would be nearer than the surface, the nearest texel beside it, within four, that is not, since what
- * hides is mostly thin and upright. Where there is none, and of what lies below, the surface's own pixel. */
+ * hides is mostly thin and upright. Where there is none, the first quarter of the way back to the surface's own pixel that is
+ * open, and of what lies below that pixel. */
 LOM_INLINE void lom_step_aside(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                const struct lom_surface_point *p, struct lom_hit *hit)
 {
@@ -246,8 +247,13 @@ LOM_INLINE void lom_step_aside(const struct lom_surface_uniforms *u, const struc
         hit->s = lom_select(open, at, hit->s);
         hidden = hidden & ~open;
     }
-    hit->s = lom_select(hidden, own.x, hit->s);
-    hit->t = lom_select(hidden, own.y, hit->t);
+    const lom_float2 way = { s - own.x, hit->t - own.y };
+    for (int quarter = picture == &u->mirrored ? 3 : 0; quarter >= 0 && lom_any(hidden); quarter--) {
+        float share = 0.25f * (float)quarter;
+        hit->s = lom_select(hidden, own.x + share * way.x, hit->s);
+        hit->t = lom_select(hidden, own.y + share * way.y, hit->t);
+        hidden = hidden & ~(lom_picture_w(u, picture, hit->s, hit->t) > bound);
+    }
 }
 
 /* One lookup instead, and for what leaves the picture: what the unbent ray meets is taken to be as far along the bent

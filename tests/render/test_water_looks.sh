@@ -2,7 +2,7 @@
 # Proves of water with waves what the eye saw wrong once, by numbers of pictures: a still surface is the same on the mesh
 # as on two triangles, at the horizon and at its corners; no pixel of it is much darker than all that are beside it; what
 # it mirrors has no teeth; the foam of a far shore is one line, and so is the shore behind an island; outside of Snell's window nothing is drawn out in streaks,
-# and within it the shore is whole; the ripples of still water show in every model; black of a flow map moves nothing; a
+# and within it the shore is whole; behind a boat there is no patch; the ripples of still water show in every model; black of a flow map moves nothing; a
 # boat stays in its picture.
 . "$(dirname "$0")/render.sh"
 scenes=assets/scenes
@@ -65,6 +65,13 @@ rim -o "$folder/rim.ppm" && rim --set quality.water=reference --set quality.refe
 decibels=$("$lom" compare "$folder/traced.ppm" "$folder/rim.ppm" --json | sed 's/.*"psnr": \([0-9]*\)\..*/\1/')
 [ "${decibels:-0}" -ge 30 ] && why= || why="$decibels dB, not 30"
 verdict the_shore_in_the_window_is_whole "$why"
+
+# Behind a boat the water is as without it: the mirror does not know what the boat hides of it.
+beyond() { "$lom" render $scenes/cumulus.toml --size 960x540 --crop 550,388,70,40 -q "$@"; }
+beyond -o "$folder/with.ppm" && beyond --set 'entity.boat.position=[500,-300,500]' -o "$folder/without.ppm"
+decibels=$("$lom" compare "$folder/with.ppm" "$folder/without.ppm" --json | sed 's/.*"psnr": \([0-9]*\)\..*/\1/')
+[ "${decibels:-0}" -ge 28 ] && why= || why="$decibels dB, not 28"
+verdict the_water_behind_a_boat_has_no_patch "$why"
 
 # The lake's ripples: near the eye a picture with them is nearer to the reference than one without.
 near_reference() { # MODEL NORMALS: dB
