@@ -189,7 +189,8 @@ static const struct base bases[] = {
       VIEW "[[entity]]\nmesh = \"box.obj\"\nposition = [0, -1, 0]\nscale = [4, 0.4, 4]\n"
            "[water]\nlevel = 0\n[[lamp]]\nposition = [2, 6, 1]\nrange = 13\nshadow = true\n"
            "[[fluid]]\nlow = [-2, -1, -2]\nhigh = [2, 3, 2]\nspacing = 0.5\nabsorption = 0.3\n"
-           "[[fluid.block]]\nlow = [-1, -1, -1]\nhigh = [1, 2, 1]\n[quality]\nentity_shadows = 64\n" },
+           "[[fluid.block]]\nlow = [-1, -1, -1]\nhigh = [1, 2, 1]\n"
+           "[quality]\nwater = \"planar\"\nentity_shadows = 64\n" },
     { "falls", "spray.0.height spray.0.velocity",
       VIEW "[[spray]]\ncount = 20\nfrom = [-1, 2, 0]\nto = [1, 2, 0]\nspread = 0.3\nheight = 4\n" },
     { "reference", "quality.reference water.optics light.elevation",

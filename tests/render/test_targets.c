@@ -6,7 +6,7 @@
 #include "render/renderer.h"
 #include "small_scene.h"
 
-/* A renderer of the small scene with these assignments of keys, after a frame. */
+/* A renderer of the small scene with planar water and up to three assignments of keys, after a frame. */
 struct drawn {
     lom_scene *scene;
     lom_renderer *renderer;
@@ -17,7 +17,10 @@ static struct drawn draw(const char *const *settings, size_t count, const lom_fr
 {
     lom_error error = { 0 };
     lom_frame frame = { .image = NULL };
-    struct drawn d = { .scene = lom_read_scene(small_path("scene.toml"), settings, count, &error) };
+    const char *assigned[4] = { "quality.water=planar" };
+    for (size_t i = 0; i < count; i++)
+        assigned[i + 1] = settings[i];
+    struct drawn d = { .scene = lom_read_scene(small_path("scene.toml"), assigned, count + 1, &error) };
     d.renderer = d.scene != NULL ? lom_create_renderer(d.scene, &(lom_device_desc){ .threads = 1 }, &error) : NULL;
     if (d.renderer == NULL || !lom_render_frame(d.renderer, desc, &frame, &error)) {
         printf("FAIL draw: %s\n", error.text);
