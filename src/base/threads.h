@@ -16,7 +16,8 @@ lom_pool *lom_create_pool(int threads, lom_error *error);
 void lom_free_pool(lom_pool *pool);
 /* Workers of the pool, the caller included. */
 int lom_pool_size(const lom_pool *pool);
-/* One for each worker, for what is handed out by portions: by one caller at a time. */
+/* One for each of the threads that were asked for, whether or not they are there, for what is handed out by portions: by one
+ * caller at a time. */
 lom_portion *lom_pool_portions(lom_pool *pool);
 /* Nanoseconds by the clock in which two workers or more were at work, since the pool was made. */
 uint64_t lom_pool_shared(const lom_pool *pool);

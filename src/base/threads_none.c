@@ -2,17 +2,23 @@
 #include "base/threads.h"
 
 struct lom_pool {
-    lom_portion portion;
+    lom_portion *portions;
 };
 
 lom_pool *lom_create_pool(int threads, lom_error *error)
 {
-    (void)threads;
-    return lom_allocate(1, sizeof(lom_pool), error);
+    lom_pool *pool = lom_allocate(1, sizeof *pool, error);
+    if (pool != NULL && (pool->portions = lom_allocate((size_t)threads, sizeof *pool->portions, error)) == NULL) {
+        lom_release(pool);
+        return NULL;
+    }
+    return pool;
 }
 
 void lom_free_pool(lom_pool *pool)
 {
+    if (pool != NULL)
+        lom_release(pool->portions);
     lom_release(pool);
 }
 
@@ -24,7 +30,7 @@ int lom_pool_size(const lom_pool *pool)
 
 lom_portion *lom_pool_portions(lom_pool *pool)
 {
-    return &pool->portion;
+    return pool->portions;
 }
 
 uint64_t lom_pool_shared(const lom_pool *pool)
