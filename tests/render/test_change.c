@@ -4,6 +4,7 @@
  * src/render/key_parts.c names fails. One other value is tried, and several with LOM_EXHAUSTIVE=1. */
 #include "check.h"
 #include "change_bases.h"
+#include "key_walk.h"
 #include "render/rooms.h"
 #include "scene/scene_keys.h"
 #include "small_scene.h"
@@ -14,7 +15,7 @@
 #include <malloc.h>
 #endif
 
-enum { FRAMES = 2, LONGEST_PATH = 200 };
+enum { FRAMES = 2 };
 /* The first frames that a renderer draws of its scene, of the next one, of one after a change. */
 enum { AT_FIRST = 1, AFTERWARDS = 3 };
 
@@ -219,8 +220,6 @@ static bool try_key(struct cases *cases, const char *path, const lom_key *key, c
 
 /* ---- all keys ---- */
 
-typedef void visit_key(void *context, const char *path, const lom_key *key, const void *member);
-
 /* Every key and every table: its path, `element` after the name of an array, and its place in the scene, NULL where the
  * scene has no such element. path: that of the table, `length` bytes. */
 static void walk(const lom_key_table *table, const char *element, char path[LONGEST_PATH], size_t length,
@@ -287,18 +286,6 @@ static void every_row_names_keys(void)
             CHECK(s.found, "no key or table is called %.*s", (int)length, name);
             name += length + (name[length] == ' ');
         }
-}
-
-/* Whether the path is one of the names, or below one. */
-static bool is_tried(const char *names, const char *path)
-{
-    while (*names != 0) {
-        size_t length = strcspn(names, " ");
-        if (strncmp(names, path, length) == 0 && (path[length] == 0 || path[length] == '.'))
-            return true;
-        names += length + (names[length] == ' ');
-    }
-    return false;
 }
 
 static void try_if_named(void *context, const char *path, const lom_key *key, const void *member)
