@@ -25,6 +25,12 @@ static struct part part_of(const struct lom_pass *pass, int number)
     return p;
 }
 
+/* Whether all of the tile lies inside. */
+static bool is_whole(const struct lom_pass *pass, const struct part *p)
+{
+    return (p->x0 | p->y0) == 0 && p->x1 == pass->tile && p->y1 == pass->tile;
+}
+
 static size_t memory_index(int edge, int x, int y)
 {
     return (size_t)((y >> 1) * (edge / 2) + (x >> 1)) * 4 + (size_t)((y & 1) * 2 + (x & 1));
@@ -148,19 +154,33 @@ static void load_words(const struct lom_pass *pass, lom_texture *texture, lom_sl
     }
 }
 
-/* Float planes of a tile from texels of one or four channels. */
+static bool is_single(const struct lom_color_target *target)
+{
+    return target->texture->storage == LOM_STORAGE_R32F;
+}
+
+/* The rectangle of an attachment whose texels are four floats. */
+static struct lom_rectangle texel_rectangle(const struct lom_pass *pass, const struct lom_color_target *target,
+                                            const struct part *p)
+{
+    struct lom_rectangle r = rectangle_of(pass, target->texture, target->slice, p);
+    r.pitch *= 4;
+    return r;
+}
+
+/* Float planes of a tile from texels of one or four channels; those that are not there are 0, 0 and 1. */
 static void load_floats(const struct lom_pass *pass, const struct lom_color_target *target, const struct part *p,
                         float *memory)
 {
-    size_t channels = target->texture->storage == LOM_STORAGE_R32F ? 1 : 4;
-    for (int y = p->y0; y < p->y1; y++) {
-        const float *texel = row_of(target->texture, target->slice, p, y);
-        for (int x = p->x0; x < p->x1; x++, texel += channels) {
-            float *planes = memory + memory_index(pass->tile, x, y);
-            for (size_t c = 0; c < 4; c++)
-                planes[c * tile_pixels(pass)] = c < channels ? texel[c] : c == 3 ? 1.0f : 0.0f;
-        }
+    const struct lom_rectangle r = texel_rectangle(pass, target, p);
+    if (!is_single(target)) {
+        stages_of(pass)->load_texels(&r, memory);
+        return;
     }
+    load_words(pass, target->texture, target->slice, p, (uint32_t *)(void *)memory);
+    for (size_t c = 1; c < 4; c++)
+        stages_of(pass)->fill_words((uint32_t *)(void *)(memory + c * tile_pixels(pass)), bits_of(c == 3 ? 1.0f : 0.0f),
+                                    tile_pixels(pass));
 }
 
 static void clear_color(const struct lom_pass *pass, int i, void *memory)
@@ -188,15 +208,18 @@ static void load_depth_texels(const struct lom_pass *pass, const struct part *p,
 void lom_load_depth(const struct lom_pass *pass, int number, float *memory)
 {
     struct part p = part_of(pass, number);
-    stages_of(pass)->fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
-    if (pass->desc.depth_load == LOM_LOAD_KEEP)
+    const bool keeps = pass->desc.depth_load == LOM_LOAD_KEEP;
+    if (!keeps || !is_whole(pass, &p))
+        stages_of(pass)->fill_words((uint32_t *)(void *)memory, bits_of(pass->clear_depth), tile_pixels(pass));
+    if (keeps)
         load_depth_texels(pass, &p, memory);
 }
 
 void lom_load_color(const struct lom_pass *pass, int i, int number, void *memory)
 {
     struct part p = part_of(pass, number);
-    clear_color(pass, i, memory);
+    if (!pass->color[i].keep || !is_whole(pass, &p))
+        clear_color(pass, i, memory);
     if (pass->color[i].keep && pass->color[i].kind == COLOR_FLOAT)
         load_floats(pass, &pass->color[i], &p, memory);
     else if (pass->color[i].keep)
@@ -221,18 +244,30 @@ void lom_load_tile(const struct lom_pass *pass, int number, uint8_t *memory)
 
 static void resolve_floats(const struct lom_pass *pass, int i, const struct part *p, const float *memory)
 {
-    lom_texture *texture = pass->color[i].texture;
-    bool single = texture->storage == LOM_STORAGE_R32F;
-    int channels = lom_describe_format(pass->color[i].format)->channels;
-    for (int y = p->y0; y < p->y1; y++) {
-        float *texel = row_of(texture, pass->color[i].slice, p, y);
-        for (int x = p->x0; x < p->x1; x++, texel += single ? 1 : 4) {
-            const float *planes = memory + memory_index(pass->tile, x, y);
-            texel[0] = planes[0];
-            for (size_t c = 1; c < 4 && !single; c++)
-                texel[c] = (int)c < channels ? planes[c * tile_pixels(pass)] : c == 3 ? 1.0f : 0.0f;
-        }
+    const struct lom_color_target *target = &pass->color[i];
+    struct lom_rectangle r = rectangle_of(pass, target->texture, target->slice, p);
+    if (is_single(target)) {
+        stages_of(pass)->store_rectangle(&r, (const uint32_t *)(const void *)memory);
+        return;
     }
+    r = texel_rectangle(pass, target, p);
+    stages_of(pass)->store_texels(&r, lom_describe_format(pass->color[i].format)->channels, memory);
+}
+
+static void clear_floats(const struct lom_pass *pass, int i, const struct part *p)
+{
+    const struct lom_color_target *target = &pass->color[i];
+    const int channels = lom_describe_format(target->format)->channels;
+    struct lom_rectangle r = rectangle_of(pass, target->texture, target->slice, p);
+    float texel[4];
+    if (is_single(target)) {
+        stages_of(pass)->fill_rectangle(&r, bits_of(target->clear[0]));
+        return;
+    }
+    r = texel_rectangle(pass, target, p);
+    for (int c = 0; c < 4; c++)
+        texel[c] = c < channels ? target->clear[c] : c == 3 ? 1.0f : 0.0f;
+    stages_of(pass)->fill_texels(&r, texel);
 }
 
 /* A depth attachment that no draw of the pass writes ends as it began. */
@@ -297,7 +332,7 @@ void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t co
     stages_of(pass)->fill_rectangle(&r, color);
 }
 
-void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory)
+void lom_clear_tile(const struct lom_pass *pass, int number)
 {
     struct part p = part_of(pass, number);
     if (pass->depth != NULL)
@@ -309,11 +344,9 @@ void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory)
         struct lom_rectangle r = byte_rectangle(pass, i, &p);
         if (target->keep)
             continue;
-        if (target->kind != COLOR_FLOAT) {
+        if (target->kind == COLOR_FLOAT)
+            clear_floats(pass, i, &p);
+        else
             stages_of(pass)->fill_rectangle(&r, target->clear_bytes);
-            continue;
-        }
-        clear_color(pass, i, memory);
-        resolve_floats(pass, i, &p, (const float *)(const void *)memory);
     }
 }

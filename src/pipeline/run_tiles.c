@@ -124,7 +124,7 @@ static void finish_tile(struct lom_pass *pass, struct lom_tile *tile, int number
     else if (pass->tile_touched[number])
         lom_resolve_tile(pass, number, memory);
     else
-        lom_clear_tile(pass, number, memory);
+        lom_clear_tile(pass, number);
     lom_fill_tile_columns(pass, number);
 }
 

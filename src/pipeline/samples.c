@@ -285,7 +285,7 @@ static void end_color(struct lom_pass *pass, struct lom_tile *tile, int i)
 /* A tile that nothing came near: its texels are cleared or left, and so are its samples. */
 static void end_untouched(struct lom_pass *pass, struct lom_tile *tile)
 {
-    lom_clear_tile(pass, tile->number, tile->scratch);
+    lom_clear_tile(pass, tile->number);
     if (pass->depth != NULL && pass->desc.depth_load != LOM_LOAD_KEEP)
         note(pass, pass->depth, tile->number, HELD, false);
     if (pass->has_stencil && pass->desc.stencil_load != LOM_LOAD_KEEP)

@@ -384,8 +384,8 @@ size_t lom_image_bytes(const struct lom_pass *pass, int i);
 /* The same for a tile that is one colour; and tile memory of such a tile, which then is none any more. */
 void lom_resolve_whole_tile(const struct lom_pass *pass, int number, uint32_t color);
 void lom_load_whole_tile(struct lom_tile *tile);
-/* The clear values to the attachments that do not keep their texels; memory is scratch. */
-void lom_clear_tile(const struct lom_pass *pass, int number, uint8_t *memory);
+/* The clear values to the attachments that do not keep their texels. */
+void lom_clear_tile(const struct lom_pass *pass, int number);
 /* The apron's columns beside a tile at the left or right end of the attachments, made of its texels while they are in the
  * worker's cache; and whether a slice's are filled so (else at the end of the pass, finish.c). */
 void lom_fill_tile_columns(const struct lom_pass *pass, int number);

@@ -16,6 +16,9 @@
                              .find_paint = lom_find_paint_##variant,                                                   \
                              .store_rectangle = lom_store_rectangle_##variant,                                         \
                              .fill_rectangle = lom_fill_rectangle_##variant,                                           \
+                             .store_texels = lom_store_texels_##variant,                                               \
+                             .fill_texels = lom_fill_texels_##variant,                                                 \
+                             .load_texels = lom_load_texels_##variant,                                                 \
                              .fill_words = lom_fill_words_##variant,                                                   \
                              .join_rows = lom_join_rows_##variant,                                                     \
                              .find_means = lom_find_means_##variant,                                                   \

@@ -31,6 +31,11 @@ struct lom_stages {
     /* A rectangle of a plane of tile memory, or one value, to an attachment. */
     void (*store_rectangle)(const struct lom_rectangle *rectangle, const uint32_t *memory);
     void (*fill_rectangle)(const struct lom_rectangle *rectangle, uint32_t value);
+    /* A rectangle of four planes of floats, or one value, to an attachment of four floats a texel, whose format has so many
+     * channels; and the reverse. */
+    void (*store_texels)(const struct lom_rectangle *rectangle, int channels, const float *planes);
+    void (*fill_texels)(const struct lom_rectangle *rectangle, const float texel[4]);
+    void (*load_texels)(const struct lom_rectangle *rectangle, float *planes);
     /* `count` words of tile memory, a multiple of 16. */
     void (*fill_words)(uint32_t *to, uint32_t value, size_t count);
     /* Two rows of pixels as blocks of tile memory. */
@@ -60,6 +65,9 @@ const struct lom_stages *lom_stages_of(int variant);
     void lom_find_paint_##variant(const struct lom_pass *pass, struct lom_draw *draw, const void *uniforms);           \
     void lom_store_rectangle_##variant(const struct lom_rectangle *rectangle, const uint32_t *memory);                 \
     void lom_fill_rectangle_##variant(const struct lom_rectangle *rectangle, uint32_t value);                          \
+    void lom_store_texels_##variant(const struct lom_rectangle *rectangle, int channels, const float *planes);         \
+    void lom_fill_texels_##variant(const struct lom_rectangle *rectangle, const float texel[4]);                       \
+    void lom_load_texels_##variant(const struct lom_rectangle *rectangle, float *planes);                              \
     void lom_fill_words_##variant(uint32_t *to, uint32_t value, size_t count);                                         \
     void lom_join_rows_##variant(const uint32_t *upper, const uint32_t *lower, size_t blocks, uint32_t *to);           \
     void lom_find_means_##variant(const struct lom_pass *pass, const struct lom_tile *tile, int i);                    \
