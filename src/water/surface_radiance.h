@@ -9,9 +9,8 @@
 #include "base/numbers.h"
 #include "water/foam_cover.h"
 #include "water/seen_facets.h"
+#include "water/water_column.h"
 
-/* As long as no ray of a scene is. */
-static const float endless = 0x1p100f;
 /* Farther than all of a scene, and nearer than where a picture shows nothing (lom_depth_reach, near planes from 1e-12). */
 static const float unseen = 0x1p50f;
 
@@ -114,8 +113,10 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
         float share = (float)i / (float)u->steps;
         lom_float length = range * (share * share * share);
         struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, length)));
-        lom_float shown = lom_picture_w(u, picture, at.s, at.t), over = at.w - shown;
         going = going & lom_within_reach(u, own, at);
+        if (!lom_any(going))
+            break;
+        lom_float shown = lom_picture_w(u, picture, at.s, at.t), over = at.w - shown;
         lom_mask behind = going & (over > 0.0f);
         if (picture == &u->mirrored)
             behind = behind & ((shown > bound) | (shown > lom_min(reached, at.w) - 0.25f * (length - last)));
@@ -274,29 +275,6 @@ LOM_INLINE struct lom_hit lom_displaced_lookup(const struct lom_surface_uniforms
     return hit;
 }
 
-/* ---- below the surface ---- */
-
-/* What comes out of `length` metres of water along d, from `depth` metres below the surface on, when `beyond` went in:
- * each metre takes a share a, and adds source a e^(-a slant depth there), the sunlight that reaches it. */
-LOM_INLINE lom_float lom_through_water(float a, float source, float slant, lom_float beyond, lom_float length,
-                                       lom_float depth, lom_float down)
-{
-    lom_float sun = lom_fade(-a * slant * depth), rate = 1.0f + slant * down;
-    lom_float exponent = a * length * rate;
-    lom_float inner = lom_select(lom_abs(exponent) > 1e-4f, -lom_expm1(-exponent) / rate, a * length);
-    lom_float bed = lom_max(depth + down * length, (lom_float){ 0 });
-    return beyond * lom_fade(-a * (length + slant * bed)) + source * sun * inner;
-}
-
-LOM_INLINE lom_float3 lom_cross_water(const struct lom_medium_uniform *m, lom_float3 beyond, lom_float length,
-                                      lom_float depth, lom_float down)
-{
-    lom_float d = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(endless));
-    return (lom_float3){ lom_through_water(m->absorption[0], m->source[0], m->slant, beyond.x, l, d, down),
-                         lom_through_water(m->absorption[1], m->source[1], m->slant, beyond.y, l, d, down),
-                         lom_through_water(m->absorption[2], m->source[2], m->slant, beyond.z, l, d, down) };
-}
-
 /* The radiance that arrives from along d, on the side of the surface that `above` names, from a picture and what is
  * beyond it. */
 LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
@@ -336,7 +314,7 @@ LOM_INLINE lom_float3 lom_arriving(const struct lom_surface_uniforms *u, const s
         length = lom_select(share > 0.5f, hit.length, length);
     }
     if (!above)
-        return lom_cross_water(&u->medium, color, length, (lom_float){ 0 }, -d.y);
+        return lom_cross_water(&u->medium, color, length, -d.y);
     lom_float3 sky = lom_sky_radiance(&u->sky, d, variance);
     return lom_add3(color, lom_scale3(sky, 1.0f - share));
 }

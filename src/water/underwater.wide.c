@@ -12,8 +12,23 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     out->position = (lom_float4){ x, y, lom_splat(0.5f), lom_splat(1.0f) };
 }
 
-/* The colour that comes out of the water when `beyond` went into it. */
-static lom_float3 through(const struct lom_underwater_uniforms *u, const lom_varyings *in, float beyond)
+/* What is left of each colour on the way through the water, and what is added to it. */
+struct column {
+    lom_float3 left, added;
+};
+
+static struct column cross(const struct lom_medium_uniform *m, lom_float length, lom_float depth, lom_float down)
+{
+    lom_float below = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(endless));
+    struct lom_crossed c[3];
+    for (int i = 0; i < 3; i++) {
+        lom_float sun = lom_fade(-m->absorption[i] * m->slant * below);
+        c[i] = lom_through_water(m->absorption[i], m->source[i], m->slant, sun, l, below, down);
+    }
+    return (struct column){ { c[0].left, c[1].left, c[2].left }, { c[0].added, c[1].added, c[2].added } };
+}
+
+static struct column water_before(const struct lom_underwater_uniforms *u, const lom_varyings *in)
 {
     lom_float a = 2.0f * in->x * u->pixel[0] - 1.0f, b = 1.0f - 2.0f * in->y * u->pixel[1];
     lom_float3 start = { { 0 }, { 0 }, { 0 } };
@@ -33,17 +48,18 @@ static lom_float3 through(const struct lom_underwater_uniforms *u, const lom_var
     lom_mask rises = down < -1e-6f;
     lom_float leave = (depth + u->highest) / lom_select(rises, -down, lom_splat(1.0f));
     length = lom_select(rises, lom_min(length, leave), length);
-    lom_float3 light = lom_splat3(beyond, beyond, beyond);
-    return lom_cross_water(&u->medium, light, length, depth, down);
+    return cross(&u->medium, length, depth, down);
 }
 
+/* Of no light and of a light of 1 that went in: what comes out of the one, and how much more out of the other. */
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_underwater_uniforms *u = uniforms;
-    lom_float3 added = through(u, in, 0);
+    const struct column water = water_before(u, in);
+    lom_float3 color = lom_add3(lom_scale3(water.left, lom_splat(0.0f)), water.added);
     if (u->multiplies)
-        added = lom_sub3(through(u, in, 1), added);
-    out->color[0] = (lom_float4){ added.x, added.y, added.z, lom_splat(1.0f) };
+        color = lom_sub3(lom_add3(water.left, water.added), color);
+    out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
 
 LOM_SHADER(lom_underwater_shader, vertex, fragment, .reads_position = true, .colors = 1,
