@@ -6,6 +6,7 @@
 #include "shading/eye.h"
 #include "shading/gradient.h"
 #include "shading/sun_shadow.h"
+#include "water/near_blocks.h"
 #include "waves/wave_lanes.h"
 
 #include <lom/water.h>
@@ -18,6 +19,7 @@ struct lom_picture_uniform {
     struct lom_matrix_uniform clip_from_offset;
     float scale[2], shift[2];
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
+    struct lom_near_uniform near;     /* of a picture that a rough surface blurs */
 };
 
 /* The coarsest level at which a reflection is looked up: a texel of it is 2^3 pixels. */

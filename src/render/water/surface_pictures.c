@@ -173,7 +173,20 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
                             is_shown(surface, f), error);
 }
 
+/* Of the picture of what is above the water, which is looked up blurred. */
+static bool find_near_blocks(struct surface *surface, struct frame *f, lom_error *error)
+{
+    struct lom_picture_uniform *above = f->below ? &surface->uniforms.behind : &surface->uniforms.mirrored;
+    struct lom_near_blocks *blocks = &f->renderer->water->near;
+    if (above->color == NULL)
+        return true;
+    if (!lom_fill_near_blocks(blocks, f->renderer->device, above->color, above->depth, error))
+        return false;
+    above->near = (struct lom_near_uniform){ blocks->around, blocks->columns, blocks->rows };
+    return true;
+}
+
 bool lom_draw_surface_pictures(struct surface *surface, struct frame *f, lom_error *error)
 {
-    return draw_mirrored(surface, f, error) && draw_behind(surface, f, error);
+    return draw_mirrored(surface, f, error) && draw_behind(surface, f, error) && find_near_blocks(surface, f, error);
 }
