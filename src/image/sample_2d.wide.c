@@ -2,7 +2,9 @@
  * function a storage, so that nothing is decided per texel. */
 #include "compare_lanes.h"
 #include "level_of_detail.h"
+#include "sample_alike.h"
 #include "sample_plain.h"
+#include "sample_rows.h"
 
 LOM_INLINE lom_float4 sample_as(bool fixed, lom_storage storage, bool srgb, const lom_texture *texture,
                                 const lom_float2 *at, lom_float lod)
@@ -25,32 +27,65 @@ SAMPLE_PLAIN(plain_rgba8, LOM_STORAGE_RGBA8, false)
 SAMPLE_PLAIN(plain_srgb8, LOM_STORAGE_RGBA8, true)
 SAMPLE_PLAIN(plain_decoded, LOM_STORAGE_RGBA32F, true)
 
+static void plain_rgba32f(const lom_texture *texture, const lom_float2 *at, const lom_float *lod, lom_float4 *out)
+{
+    sample_rows(&texture, 1, at, lod, out);
+}
+
 void LOM_WIDE(lom_sample_lanes)(const lom_texture *texture, const lom_float2 *at, const lom_float *lod, lom_float4 *out)
 {
     bool decoded = texture->decoded != NULL, plain = texture->plain && SAMPLE_PLAINLY;
-    (!plain          ? sample_generally
-     : decoded       ? plain_decoded
-     : texture->srgb ? plain_srgb8
-                     : plain_rgba8)(texture, at, lod, out);
+    (!plain                                    ? sample_generally
+     : texture->storage == LOM_STORAGE_RGBA32F ? plain_rgba32f
+     : decoded                                 ? plain_decoded
+     : texture->srgb                           ? plain_srgb8
+                                               : plain_rgba8)(texture, at, lod, out);
 }
 
-/* The nearest texel of level 0 alone, of a picture that ends at its edges: what passes read of the depth that others drew.
- * The general sampler, which defines it, does the same operations among others. */
+void LOM_WIDE(lom_sample_three_lanes)(const lom_texture *const texture[3], const lom_float2 *at, const lom_float *lod,
+                                      lom_float4 out[3])
+{
+    if (SAMPLE_PLAINLY && texture[0]->storage == LOM_STORAGE_RGBA32F && sample_are_alike(texture[0], texture[1]) &&
+        sample_are_alike(texture[0], texture[2])) {
+        sample_rows(texture, 3, at, lod, out);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        LOM_WIDE(lom_sample_lanes)(texture[i], at, lod, &out[i]);
+}
+
+/* The number of the nearest texel of an axis, plus one. */
+LOM_INLINE lom_int nearest_of_axis(lom_float c, lom_float size, lom_wrap wrap)
+{
+    if (wrap == LOM_WRAP_BORDER)
+        return lom_bounded_to_int(lom_clamp(lom_floor(sample_wrap(c, LOM_WRAP_BORDER) * size), lom_splat(-1.0f), size) +
+                                  1.0f);
+    return lom_bounded_to_int(lom_min(lom_floor(lom_saturate(c) * size), size - 1.0f) + 1.0f);
+}
+
+/* The nearest texel of level 0 alone, of a picture that ends at its edges or has a border there: what passes read of the
+ * depth that others drew, shadow maps among them. The general sampler, which defines it, does the same operations among
+ * others. */
 LOM_INLINE lom_float nearest_depth(const lom_texture *texture, const lom_float2 *at)
 {
     const sample_place place = sample_place_of_level(texture, 0);
-    lom_float x = lom_saturate(at->x) * place.width, y = lom_saturate(at->y) * place.height;
-    lom_float column = lom_min(lom_floor(x), place.width - 1.0f), row = lom_min(lom_floor(y), place.height - 1.0f);
-    lom_int below = lom_bounded_to_int(row + 1.0f), right = lom_bounded_to_int(column + 1.0f);
+    const lom_sampler_desc *sampler = &texture->sampler;
+    lom_int right = nearest_of_axis(at->x, place.width, sampler->wrap_s);
+    lom_int below = nearest_of_axis(at->y, place.height, sampler->wrap_t);
     return lom_gather(texture->texels, place.offset + below * place.pitch + right) + 0.0f;
+}
+
+static bool has_edges(lom_wrap wrap)
+{
+    return wrap == LOM_WRAP_CLAMP || wrap == LOM_WRAP_BORDER;
 }
 
 static bool is_plain_depth(const lom_texture *texture)
 {
     const lom_sampler_desc *sampler = &texture->sampler;
     return SAMPLE_PLAINLY && texture->storage == LOM_STORAGE_R32F && texture->nearest_within[0] &&
-           texture->nearest_within[1] && texture->level_count == 1 && sampler->wrap_s == LOM_WRAP_CLAMP &&
-           sampler->wrap_t == LOM_WRAP_CLAMP;
+           texture->nearest_within[1] && texture->level_count == 1 && has_edges(sampler->wrap_s) &&
+           has_edges(sampler->wrap_t);
 }
 
 void LOM_WIDE(lom_sample_depth_lanes)(const lom_texture *texture, const lom_float2 *at, lom_float *out)

@@ -57,7 +57,15 @@ LOM_INLINE lom_float sample_wrap(lom_float s, lom_wrap wrap)
     }
 }
 
-/* The number k of the first texel plus one, and the weight of the second; c in [0, 1], with a border any number. */
+/* The number k of the first texel plus one, and the weight of the second, of a place in texels, half a texel further. */
+LOM_INLINE lom_int sample_split(lom_float x, lom_float *weight)
+{
+    lom_int k = lom_bounded_to_int(x);
+    *weight = lom_min(x - lom_to_float(k), lom_splat(SAMPLE_LARGEST_WEIGHT));
+    return k;
+}
+
+/* The same of c in [0, 1], with a border any number. */
 LOM_INLINE lom_int sample_locate(lom_float c, lom_float size, bool border, const sample_point *point, lom_float *weight)
 {
     lom_float x = c * size + 0.5f;
@@ -68,9 +76,7 @@ LOM_INLINE lom_int sample_locate(lom_float c, lom_float size, bool border, const
         lom_float texel = lom_clamp(lom_floor(c * size), low, high);
         x = lom_select(point->nearest, texel + 1.0f, x);
     }
-    lom_int k = lom_bounded_to_int(x);
-    *weight = lom_min(x - lom_to_float(k), lom_splat(SAMPLE_LARGEST_WEIGHT));
-    return k;
+    return sample_split(x, weight);
 }
 
 /* ---- levels ---- */
@@ -253,6 +259,14 @@ LOM_INLINE lom_float sample_choose(const lom_texture *texture, sample_point *poi
     else if (!texture->linear_between)
         return (lom_float){ 0 };
     return lom_select(minified, lom_min(bounded, last), (lom_float){ 0 });
+}
+
+/* The same of a plain texture (texture.h) of several levels, whose lanes all take the square of texels. */
+LOM_INLINE lom_float sample_choose_plainly(const lom_texture *texture, const lom_float *lod)
+{
+    lom_float chosen =
+        lom_clamp(*lod + texture->sampler.lod_bias, lom_splat(texture->lod_min), lom_splat(texture->lod_max));
+    return lom_min(lom_max(chosen, (lom_float){ 0 }), lom_splat((float)(texture->level_count - 1)));
 }
 
 /* For records: where a sampler looks, and which levels it chose. */

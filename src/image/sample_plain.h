@@ -37,9 +37,7 @@ LOM_INLINE bool sample_plain(const lom_texture *texture, lom_storage storage, bo
     int last = texture->level_count - 1, first = 0;
     lom_float fraction = { 0 };
     if (last > 0) {
-        lom_float chosen =
-            lom_clamp(*lod + texture->sampler.lod_bias, lom_splat(texture->lod_min), lom_splat(texture->lod_max));
-        chosen = lom_min(lom_max(chosen, (lom_float){ 0 }), lom_splat((float)last));
+        const lom_float chosen = sample_choose_plainly(texture, lod);
         lom_int level = lom_bounded_to_int(chosen);
         first = sample_foreseen_level(level[0]);
         if (!lom_all(level == first))

@@ -109,8 +109,9 @@ static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
         s->minify == LOM_FILTER_NEAREST_MIPMAP_NEAREST || s->minify == LOM_FILTER_LINEAR_MIPMAP_NEAREST;
     texture->linear_between =
         s->minify == LOM_FILTER_NEAREST_MIPMAP_LINEAR || s->minify == LOM_FILTER_LINEAR_MIPMAP_LINEAR;
-    texture->plain = texture->kind == LOM_TEXTURE_2D && texture->fixed && !texture->nearest_within[0] &&
-                     !texture->nearest_within[1] && s->wrap_s != LOM_WRAP_BORDER && s->wrap_t != LOM_WRAP_BORDER &&
+    texture->plain = texture->kind == LOM_TEXTURE_2D && (texture->fixed || texture->storage == LOM_STORAGE_RGBA32F) &&
+                     !texture->nearest_within[0] && !texture->nearest_within[1] && s->wrap_s != LOM_WRAP_BORDER &&
+                     s->wrap_t != LOM_WRAP_BORDER &&
                      (texture->linear_between || (texture->level_count == 1 && !texture->nearest_between));
     bool bounded = s->lod_min != 0 || s->lod_max != 0;
     texture->lod_min = bounded ? between(s->lod_min, -1000, 1000) : -1000;

@@ -52,7 +52,7 @@ struct lom_texture {
     /* For the samplers: */
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */
-    bool plain;             /* 2D, fixed, linear within levels and between those there are, and no border */
+    bool plain; /* 2D, fixed or four floats, linear within levels and between those there are, and no border */
     float lod_min, lod_max; /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
     lom_level_row row[LOM_MAX_LEVELS];
     uint8_t *stencil; /* rows of level 0, one after the other, without an apron; NULL: none */

@@ -1,6 +1,7 @@
 /* The waves of a surface over lanes. In: rest positions and the size of what is sampled there; out: displacements,
  * slopes with the variance of what is too small to be seen, foam (wave_lanes.h says what each kind of wave is). */
 #include "base/numbers.h"
+#include "image/sample_alike.h"
 #include "waves/surf_lanes.h"
 #include "waves/wake_lanes.h"
 
@@ -144,14 +145,17 @@ static lom_float trochoid_foam(const struct lom_waves_uniform *waves, const stru
 static void add_cascade_slopes(const struct lom_cascade_uniform *c, lom_float x, lom_float z,
                                const struct lom_footprint *f, struct lom_wave_slopes *w)
 {
-    lom_float s = x * c->inverse_length + c->shift[0], t = z * c->inverse_length + c->shift[1];
+    const lom_texture *const field[3] = { c->derivatives, c->moments, c->displacement };
+    lom_float2 at = { x * c->inverse_length + c->shift[0], z * c->inverse_length + c->shift[1] };
     lom_float lod = lom_wave_lod(c->derivatives, f, c->inverse_length);
-    lom_float4 d = lom_sample(c->derivatives, s, t, lod), m = lom_sample(c->moments, s, t, lod);
+    lom_float4 value[3];
+    LOM_WIDE(lom_sample_three_lanes)(field, &at, &lod, value);
+    const lom_float4 d = value[0], m = value[1];
     w->sx = w->sx + d.x;
     w->sz = w->sz + d.y;
     w->xx = w->xx + d.z;
     w->zz = w->zz + d.w;
-    w->xz = w->xz + lom_sample(c->displacement, s, t, lod).w;
+    w->xz = w->xz + value[2].w;
     w->vxx = w->vxx + lom_max(m.x - d.x * d.x, (lom_float){ 0 });
     w->vzz = w->vzz + lom_max(m.y - d.y * d.y, (lom_float){ 0 });
     w->vxz = w->vxz + (m.z - d.x * d.y);

@@ -2,6 +2,7 @@
  * every pairing, and on random bit patterns. NaNs are compared as NaN: payloads are not defined. */
 #include "lanes/fours.h"
 #include "lanes/pair_products.h"
+#include "lanes/row_pairs.h"
 
 #include "check.h"
 
@@ -169,6 +170,36 @@ static void rows_are_gathered_and_scattered_in_lane_order(void)
     }
 }
 
+static void rows_lie_side_by_side_until_they_are_columns(void)
+{
+    float table[256];
+    for (int i = 0; i < 256; i++)
+        table[i] = (float)(i * 3 - 100);
+    for (uint64_t n = 0; n < 1000; n++) {
+        lom_int index = pattern(18, n) & 127;
+        int32_t at[LOM_LANES];
+        lom_store_places(at, index);
+        lom_float first[4], second[4], spread[4], defined[4], a, b;
+        for (int i = 0; i < 4; i++) {
+            lom_load_row_pairs(table, at, i, &first[i], &second[i]);
+            lom_defined_load_row_pairs(table, at, i, &a, &b);
+            CHECK(same(first[i], a) && same(second[i], b), "load_row_pairs %d", index[0]);
+        }
+        lom_spread_to_rows(lom_as_float(pattern(19, n)), spread);
+        lom_defined_spread_to_rows(lom_as_float(pattern(19, n)), defined);
+        for (int i = 0; i < 4; i++)
+            CHECK(same(spread[i], defined[i]), "spread_to_rows %d", i);
+        lom_float4 x = lom_columns_of_rows(first), y = lom_defined_columns_of_rows(first);
+        CHECK(same(x.x, y.x) && same(x.y, y.y) && same(x.z, y.z) && same(x.w, y.w), "columns_of_rows %d", index[0]);
+        y = lom_defined_gather_rows(table, index);
+        CHECK(same(x.x, y.x) && same(x.y, y.y) && same(x.z, y.z) && same(x.w, y.w), "columns of rows %d", index[0]);
+        x = lom_columns_of_rows(second), y = lom_defined_gather_rows(table + 4, index);
+        CHECK(same(x.x, y.x) && same(x.y, y.y) && same(x.z, y.z) && same(x.w, y.w), "columns of next %d", index[0]);
+        x = lom_columns_of_rows(spread);
+        CHECK(same(x.x, x.w) && same(x.y, x.z) && same(x.x, lom_as_float(pattern(19, n))), "each is its lane's");
+    }
+}
+
 static void halves_come_from_and_go_to_two_places(void)
 {
     enum { HALF = LOM_LANES / 2 };
@@ -322,6 +353,7 @@ int main(int argc, char **argv)
     RUN(fours_are_loaded_and_picked);
     RUN(rows_are_gathered_and_scattered_in_lane_order);
     RUN(matrices_multiply_each_lane);
+    RUN(rows_lie_side_by_side_until_they_are_columns);
     RUN(halves_come_from_and_go_to_two_places);
     return check_result();
 }
