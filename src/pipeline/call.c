@@ -1,4 +1,4 @@
-/* Draws that are like one before them. In: a descriptor. Out: a call of 16 bytes, which names a draw of the pass, its
+/* Draws that are like one before them. In: a descriptor. Out: a call of 20 bytes, which names a draw of the pass, its
  * triangles and its uniforms. A descriptor has 792 bytes and what follows from it as many: where thousands of draws differ
  * in a matrix or a material, one of them is checked and kept, and of uniforms those that are not among the last ones.
  * Invariant: what a call names draws what its own descriptor would. */
@@ -62,17 +62,18 @@ bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct l
         const size_t first = desc->first - known->desc.first;
         if (desc->first < known->desc.first || first % 3 != 0 || !are_alike(&known->desc, desc))
             continue;
-        *call = (struct lom_call){ known->draw, (uint32_t)(first / 3), (uint32_t)triangles, 0 };
+        *call = (struct lom_call){ known->draw, (uint32_t)(first / 3), (uint32_t)triangles, 0, desc->base_vertex };
         return true;
     }
     return false;
 }
 
-/* Lists of triangles by indices, of which every three are one. */
+/* Lists of triangles or patches by indices. */
 bool lom_may_be_shared(const lom_device *device, const lom_draw_desc *desc)
 {
-    return !device->pass.is_recorded && desc->topology == LOM_TRIANGLES && desc->indices != NULL &&
-           desc->culling.clusters == NULL && desc->condition == NULL && desc->count_from == NULL;
+    return !device->pass.is_recorded && (desc->topology == LOM_TRIANGLES || desc->topology == LOM_PATCHES) &&
+           desc->indices != NULL && desc->culling.clusters == NULL && desc->condition == NULL &&
+           desc->count_from == NULL && desc->feedback == NULL;
 }
 
 /* Not where what a draw draws is found but once for it, or told of each. */
@@ -130,10 +131,15 @@ bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call
     return lom_copy_uniforms(device, desc, call) && add_call(device, call);
 }
 
-void lom_draw_held(lom_device *device, const struct lom_held_draw *held, size_t first, size_t count)
+void lom_draw_held(lom_device *device, const struct lom_held_draw *held, const lom_draw_desc *desc)
 {
-    const struct lom_call call = { held->draw, (uint32_t)((first - held->first) / 3), (uint32_t)(count / 3),
-                                   held->uniforms };
+    if (!held->is_held) {
+        lom_draw(device, desc);
+        return;
+    }
+    const size_t corners = (size_t)held->corners;
+    const struct lom_call call = { held->draw, (uint32_t)((desc->first - held->first) / corners),
+                                   (uint32_t)(desc->count / corners), held->uniforms, desc->base_vertex };
     if (lom_check_device(device, NULL))
         add_call(device, &call);
 }

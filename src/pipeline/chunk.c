@@ -1,6 +1,7 @@
 /* One chunk through the first half of the pipeline: which vertices it needs, shading them, assembling triangles
  * (cutting those that cross the clip volume), set-up in groups, bins. In: a chunk's range. Out: its triangles and bins,
  * in order. */
+#include "pipeline/base_vertex.h"
 #include "pipeline/device.h"
 #include "pipeline/expand.h"
 #include "pipeline/provoking.h"
@@ -73,8 +74,9 @@ static bool begins_nothing(const lom_draw_desc *desc, size_t t)
 
 /* The vertex numbers of triangle t, or NO_VERTEX in the first where it has none (a restart index, an index out of
  * range). */
-static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start, uint32_t number[3])
+static void resolve_corners(const struct lom_chunk *chunk, size_t t, size_t start, uint32_t number[3])
 {
+    const struct lom_draw *draw = chunk->draw;
     const lom_draw_desc *desc = &draw->desc;
     size_t place[3];
     bool list = is_list(desc->topology);
@@ -83,7 +85,7 @@ static void resolve_corners(const struct lom_draw *draw, size_t t, size_t start,
         lom_provoke_first(desc->topology, list ? t : t - start, place);
     for (int k = 0; k < 3; k++) {
         uint32_t index = index_at(desc, place[k] + (list ? 0 : start));
-        int64_t vertex = (int64_t)index + desc->base_vertex;
+        int64_t vertex = (int64_t)index + chunk->base_vertex;
         if ((index == UINT32_MAX && desc->restart) || vertex < 0 || vertex >= (int64_t)desc->vertex_count) {
             number[0] = NO_VERTEX;
             return;
@@ -103,20 +105,20 @@ static void resolve_all_corners(struct lom_chunk *chunk)
         if (begins_nothing(&draw->desc, t))
             chunk->assembly->corners[3 * i] = NO_VERTEX;
         else
-            resolve_corners(draw, t, start, chunk->assembly->corners + 3 * i);
+            resolve_corners(chunk, t, start, chunk->assembly->corners + 3 * i);
     }
 }
 
-/* The indices of the usual case, a list of 32-bit ones that are all in range, with their extremes; else NULL. */
+/* The indices of the usual case, a list of 32-bit ones of vertices that are all there, with these' extremes; else NULL. */
 static const uint32_t *find_plain_indices(const struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
 {
     const lom_draw_desc *desc = &chunk->draw->desc;
-    if (desc->topology != LOM_TRIANGLES || desc->indices == NULL || desc->index_bits != 32 || desc->base_vertex != 0 ||
-        desc->restart || chunk->count == 0 || desc->provoking == LOM_PROVOKING_FIRST)
+    if (desc->topology != LOM_TRIANGLES || desc->indices == NULL || desc->index_bits != 32 || desc->restart ||
+        chunk->count == 0 || desc->provoking == LOM_PROVOKING_FIRST)
         return NULL;
     const uint32_t *index = (const uint32_t *)desc->indices + desc->first + 3 * chunk->first;
     lom_stages_of(chunk->draw->variant)->find_extremes(index, 3 * chunk->count, low, high);
-    return *high < desc->vertex_count ? index : NULL;
+    return lom_move_vertices(desc, chunk->base_vertex, low, high) ? index : NULL;
 }
 
 static void find_extremes(struct lom_chunk *chunk, uint32_t *low, uint32_t *high)
@@ -168,7 +170,8 @@ static void make_corners(struct lom_chunk *chunk)
 {
     if (chunk->plain != NULL)
         lom_stages_of(chunk->draw->variant)
-            ->rebase_indices(chunk->plain, 3 * chunk->count, chunk->vertex_base, chunk->assembly->corners);
+            ->rebase_indices(chunk->plain, 3 * chunk->count, lom_index_of(chunk->vertex_base, chunk->base_vertex),
+                             chunk->assembly->corners);
     chunk->plain = NULL;
 }
 
@@ -195,7 +198,8 @@ bool lom_choose_vertices(const struct lom_room *room, struct lom_chunk *chunk)
     chunk->listed = chunk->vertex_count > MOST_ROWS * chunk->count;
     chunk->plain = chunk->listed ? NULL : plain;
     if (plain != NULL && chunk->listed)
-        memcpy(assembly->corners, plain, corners * sizeof *plain);
+        lom_stages_of(chunk->draw->variant)
+            ->rebase_indices(plain, corners, lom_index_of(0, chunk->base_vertex), assembly->corners);
     else if (plain == NULL && !chunk->listed && chunk->run_count == 0)
         rebase_corners(chunk);
     if (chunk->draw->expands)
@@ -332,7 +336,8 @@ static void assemble(const struct lom_pass *pass, struct lom_chunk *chunk)
     if (chunk->any_code == 0 && !chunk->has_gaps && pass->recorder == NULL) {
         const uint32_t *corners = chunk->plain != NULL ? chunk->plain : chunk->assembly->corners;
         lom_stages_of(chunk->draw->variant)
-            ->set_up(pass, chunk, corners, chunk->plain != NULL ? chunk->vertex_base : 0, chunk->count);
+            ->set_up(pass, chunk, corners,
+                     chunk->plain != NULL ? lom_index_of(chunk->vertex_base, chunk->base_vertex) : 0, chunk->count);
         return;
     }
     make_corners(chunk);

@@ -255,7 +255,9 @@ static bool add_draw(lom_device *device, const lom_draw_desc *desc, size_t count
     if (device->desc.chunk < CLUSTER_TRIANGLES || pass->recorder != NULL || /* records number all triangles */
         draw->desc.depth_clamp || draw->desc.provoking == LOM_PROVOKING_FIRST)
         draw->desc.culling.clusters = NULL;
-    *call = (struct lom_call){ .draw = (uint32_t)pass->draw_count++, .triangles = (uint32_t)draw->triangles };
+    *call = (struct lom_call){ .draw = (uint32_t)pass->draw_count++,
+                               .triangles = (uint32_t)draw->triangles,
+                               .base_vertex = desc->base_vertex };
     lom_note_draw(device, desc);
     return true;
 }
@@ -266,9 +268,10 @@ bool lom_hold_draw(lom_device *device, const lom_draw_desc *desc, struct lom_hel
     *held = (struct lom_held_draw){ .is_held = false };
     if (!lom_check_device(device, NULL) || !device->in_pass || !lom_may_be_shared(device, desc) ||
         !check_draw(device, desc) || !add_draw(device, desc, 0, &call) || device->draws[call.draw].constant ||
-        device->draws[call.draw].expands || !lom_copy_uniforms(device, desc, &call))
+        !lom_copy_uniforms(device, desc, &call))
         return false;
-    *held = (struct lom_held_draw){ true, call.draw, call.uniforms, desc->first };
+    const int corners = desc->topology == LOM_PATCHES ? desc->patch_points : 3;
+    *held = (struct lom_held_draw){ true, corners, call.draw, call.uniforms, desc->first };
     return true;
 }
 

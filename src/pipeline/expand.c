@@ -36,7 +36,7 @@ static bool list_corners(struct lom_chunk *chunk, struct lom_pieces *pieces)
         bool whole = true;
         for (size_t k = 0; k < corners; k++) {
             size_t place = (chunk->first + i) * corners + k;
-            whole &= lom_find_vertex(&chunk->draw->desc, place, &assembly->vertex_list[rows + k]);
+            whole &= lom_find_vertex(chunk, place, &assembly->vertex_list[rows + k]);
             pieces->vertex[pieces->count * corners + k] = (uint32_t)(rows + k);
         }
         if (!whole)

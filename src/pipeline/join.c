@@ -2,6 +2,7 @@
  * shaded vertices. Thousands of boxes are as many triangles of one mesh then: set-up, coverage and tests of depths take
  * them together, and only packets of a shader, which has one call's uniforms, end where a call does.
  * Invariant: triangles stay in the order of their calls, so what they draw is what chunks of their own would. */
+#include "pipeline/base_vertex.h"
 #include "pipeline/device.h"
 #include "pipeline/variants.h"
 
@@ -10,7 +11,7 @@ static bool joins(const struct lom_draw *draw)
 {
     const lom_draw_desc *desc = &draw->desc;
     return draw->packs && draw->rasterizes && !draw->expands && desc->topology == LOM_TRIANGLES &&
-           desc->indices != NULL && desc->index_bits == 32 && desc->base_vertex == 0 && !desc->restart &&
+           desc->indices != NULL && desc->index_bits == 32 && !desc->restart &&
            desc->provoking != LOM_PROVOKING_FIRST && desc->instances == 1 && desc->culling.clusters == NULL;
 }
 
@@ -19,16 +20,28 @@ static const uint32_t *indices_of(const struct lom_draw *draw, const struct lom_
     return (const uint32_t *)draw->desc.indices + draw->desc.first + 3 * (size_t)call->first;
 }
 
-/* The vertices of a call; false where they are not all there, or not near one another. */
-static bool find_vertices(const struct lom_draw *draw, const struct lom_call *call, struct lom_part *part)
+static bool have_same_indices(const struct lom_call *a, const struct lom_call *b)
+{
+    return a->first == b->first && a->triangles == b->triangles;
+}
+
+/* The vertices of a call; false where they are not all there, or not near one another, or of more triangles than a small
+ * draw: a chunk of such costs little more than what finding them here would. known: those of the call before are. */
+static bool find_vertices(const struct lom_draw *draw, const struct lom_call *call, bool known, struct lom_part *part)
 {
     uint32_t low = 0, high = 0;
-    if (call->triangles == 0)
-        return true;
-    lom_stages_of(draw->variant)->find_extremes(indices_of(draw, call), 3 * (size_t)call->triangles, &low, &high);
+    if (call->triangles == 0 || call->triangles > SMALL_DRAW)
+        return call->triangles == 0;
+    if (known && have_same_indices(call, call - 1)) {
+        low = lom_index_of(part[-1].base, call[-1].base_vertex);
+        high = low + part[-1].vertices - 1;
+    } else
+        lom_stages_of(draw->variant)->find_extremes(indices_of(draw, call), 3 * (size_t)call->triangles, &low, &high);
+    if (!lom_move_vertices(&draw->desc, call->base_vertex, &low, &high))
+        return false;
     part->base = low;
     part->vertices = high - low + 1;
-    return high < draw->desc.vertex_count && part->vertices <= MOST_ROWS * call->triangles;
+    return part->vertices <= MOST_ROWS * call->triangles;
 }
 
 /* `count` calls of a draw: chunks of about as many triangles as those of one mesh would have. */
@@ -38,13 +51,8 @@ static void join_calls(const struct lom_draw *draw, const struct lom_call *calls
     size_t begin = 0, triangles = 0, rows = 0; /* of the chunk at hand */
     bool known = false;                        /* the call before is whole, too */
     for (size_t i = 0; i < count; i++) {
-        bool same = known && calls[i].first == calls[i - 1].first && calls[i].triangles == calls[i - 1].triangles;
-        if (same) {
-            parts[i].base = parts[i - 1].base;
-            parts[i].vertices = parts[i - 1].vertices;
-        }
         bool starts = !known || triangles + calls[i].triangles > limit;
-        known = same || find_vertices(draw, &calls[i], &parts[i]);
+        known = find_vertices(draw, &calls[i], known, &parts[i]);
         if (starts || !known) {
             begin = i;
             triangles = rows = 0;
@@ -104,9 +112,11 @@ bool lom_choose_parts(const struct lom_room *room, struct lom_chunk *chunk)
     uint32_t *corners = assembly->corners;
     for (size_t i = 0; i < chunk->part_count; i++) {
         const struct lom_part *part = &chunk->parts[i];
-        size_t count = 3 * (size_t)chunk->calls[i].triangles;
+        const struct lom_call *call = &chunk->calls[i];
+        const uint32_t lowest = lom_index_of(part->base, call->base_vertex);
+        size_t count = 3 * (size_t)call->triangles;
         lom_stages_of(chunk->draw->variant)
-            ->rebase_indices(indices_of(chunk->draw, &chunk->calls[i]), count, part->base - part->row, corners);
+            ->rebase_indices(indices_of(chunk->draw, call), count, lowest - part->row, corners);
         corners += count;
     }
     return true;

@@ -111,7 +111,7 @@ static size_t number_of(const struct lom_chunk *chunk, size_t i)
     if (!draw->sprites || chunk->vertex_count == chunk->count)
         return chunk->first + i;
     size_t place = 0;
-    while (!lom_find_vertex(&draw->desc, chunk->first + place, &vertex) || i-- > 0)
+    while (!lom_find_vertex(chunk, chunk->first + place, &vertex) || i-- > 0)
         place++;
     return chunk->first + place;
 }

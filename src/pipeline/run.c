@@ -114,6 +114,7 @@ static struct lom_chunk *add_chunk(lom_device *device, const struct lom_call *ca
     chunk->draw = draw;
     chunk->uniforms = uniforms_of(device, call);
     chunk->instance = 0;
+    chunk->base_vertex = call->base_vertex;
     chunk->first = call->first;
     chunk->count = triangles;
     chunk->runs = NULL;

@@ -8,14 +8,15 @@
 /* |D| in square pixels; pixels. The smallest point has sides of 1/256. */
 static const float smallest_area = 0x1p-16f, smallest_point = 0x1p-18f, largest_side = 0x1p16f;
 
-bool lom_find_vertex(const lom_draw_desc *desc, size_t place, uint32_t *number)
+bool lom_find_vertex(const struct lom_chunk *chunk, size_t place, uint32_t *number)
 {
+    const lom_draw_desc *desc = &chunk->draw->desc;
     size_t at = desc->first + place;
     uint32_t index = desc->indices == NULL    ? (uint32_t)at
                      : desc->index_bits == 16 ? ((const uint16_t *)desc->indices)[at]
                                               : ((const uint32_t *)desc->indices)[at];
     bool none = desc->restart && desc->indices != NULL && index == (desc->index_bits == 16 ? UINT16_MAX : UINT32_MAX);
-    int64_t vertex = (int64_t)index + desc->base_vertex;
+    int64_t vertex = (int64_t)index + chunk->base_vertex;
     *number = (uint32_t)vertex;
     return !none && vertex >= 0 && vertex < (int64_t)desc->vertex_count;
 }
@@ -30,8 +31,7 @@ bool lom_choose_sprites(const struct lom_room *room, struct lom_chunk *chunk)
     if (!lom_renew(&assembly->vertex_list, &assembly->vertex_list_capacity, count, sizeof(uint32_t), NULL))
         return false;
     for (size_t i = 0; i < chunk->count; i++)
-        chunk->vertex_count +=
-            lom_find_vertex(&chunk->draw->desc, chunk->first + i, &assembly->vertex_list[chunk->vertex_count]);
+        chunk->vertex_count += lom_find_vertex(chunk, chunk->first + i, &assembly->vertex_list[chunk->vertex_count]);
     return true;
 }
 

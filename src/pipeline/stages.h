@@ -96,11 +96,12 @@ struct lom_draw {
     size_t first_run, run_count, chunk_count; /* with clusters: which of the device's runs; the chunks they make */
 };
 
-/* A call of lom_draw: a draw that others may share, which of its triangles (or sprites, points, lines) of one instance, and
- * where its uniforms lie in the device's. */
+/* A call of lom_draw: a draw that others may share, which of its triangles (or sprites, points, lines) of one instance,
+ * where its uniforms lie in the device's, and what is added to its indices. */
 struct lom_call {
     uint32_t draw, first, triangles;
     uint32_t uniforms; /* in UNIFORMS_UNIT */
+    int32_t base_vertex;
 };
 enum { UNIFORMS_UNIT = 64 };
 
@@ -172,6 +173,7 @@ struct lom_chunk {
     const struct lom_draw *draw;
     const void *uniforms;
     int instance;
+    int32_t base_vertex;        /* of one call; those of several have theirs */
     size_t first, count;        /* triangles */
     const struct lom_run *runs; /* with clusters: where the triangles are, in place of `first` */
     size_t run_count;
@@ -338,8 +340,8 @@ void lom_set_up_lines(const struct lom_pass *pass, struct lom_chunk *chunk);
 bool lom_reserve_primitives(struct lom_chunk *chunk, size_t count);
 /* Appends one, for which there is room. */
 void lom_add_primitive(const struct lom_pass *pass, struct lom_chunk *chunk, const lom_primitive *primitive);
-/* The vertex at a place of the draw's index buffer; false where there is none. */
-bool lom_find_vertex(const lom_draw_desc *desc, size_t place, uint32_t *number);
+/* The vertex at a place of its draw's index buffer; false where there is none. */
+bool lom_find_vertex(const struct lom_chunk *chunk, size_t place, uint32_t *number);
 /* The corners of a chunk's triangles or lines and which vertices they need. */
 bool lom_choose_vertices(const struct lom_room *room, struct lom_chunk *chunk);
 /* Of a chunk whose draw expands: the primitive that its triangle i was made of. */

@@ -8,6 +8,7 @@
 #include "base/numbers.h"
 #include "base/pass_error.h"
 #include "base/reserve.h"
+#include "pipeline/draw_again.h"
 #include "render/entities/shaders.h"
 #include "render/frame.h"
 #include "render/seen.h"
@@ -95,8 +96,8 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
         lom_draw_desc draw;
         if (find_block(&r->ground, v, i, &draw) == NULL)
             continue;
-        *hash = lom_hash_bytes(*hash, &draw.attribute[0].data, sizeof draw.attribute[0].data);
-        *hash = lom_hash_bytes(*hash, &draw.indices, sizeof draw.indices);
+        *hash = lom_hash_bytes(*hash, &draw.base_vertex, sizeof draw.base_vertex);
+        *hash = lom_hash_bytes(*hash, &draw.first, sizeof draw.first);
         count++;
     }
     return count;
@@ -113,9 +114,12 @@ static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
     const lom_mat4 clip_from_ground = lom_multiply(&v->clip_from_world, &raised);
     const struct lom_caster_uniforms uniforms = { lom_round_matrix(&clip_from_ground) };
     lom_draw_desc draw = { .shader = &lom_caster_shader, .uniforms = &uniforms, .label = "terrain" };
+    struct lom_held_draw held;
+    lom_take_ground(&r->ground, &draw);
+    lom_hold_draw(r->device, &draw, &held);
     for (int i = 0; i < r->ground.across * r->ground.down; i++)
         if (find_block(&r->ground, v, i, &draw) != NULL)
-            lom_draw(r->device, &draw);
+            lom_draw_held(r->device, &held, &draw);
 }
 
 static bool draw_map(lom_renderer *r, const struct face_view *v, lom_texture *map)

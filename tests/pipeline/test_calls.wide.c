@@ -3,7 +3,8 @@
  * this width. The descriptors of hundreds of draws come from a few states and fixed random numbers: which triangles of the
  * indices (also earlier ones, and places that are no multiple of three), which uniforms, shader, cull, blend, scissor,
  * depth test. The triangles are small and large, near one another and scattered, inside and clipped. And that what is wrong
- * in a draw that is like one before is an error as ever. Draws that are held (draw_again.h) likewise. */
+ * in a draw that is like one before is an error as ever. Draws that are held (draw_again.h) likewise, with vertices
+ * that are moved, also to where there are none. */
 #include "pipeline/device.h"
 #include "pipeline/draw_again.h"
 #include "stage.h"
@@ -186,6 +187,19 @@ static void shared_draws_of_several_samples_are_those_one_by_one(void)
     close_stage(&apart);
 }
 
+/* The same vertices without a base vertex above 0. */
+static lom_draw_desc move_vertices(const lom_draw_desc *desc)
+{
+    lom_draw_desc moved = *desc;
+    for (int i = 0; i < 2 && desc->base_vertex > 0; i++) {
+        lom_attribute *a = &moved.attribute[i];
+        a->data = (const char *)a->data + (size_t)desc->base_vertex * a->stride;
+        a->size -= (size_t)desc->base_vertex * a->stride;
+        moved.base_vertex = 0;
+    }
+    return moved;
+}
+
 /* Of each state a draw of all triangles, held; then parts of them in an order of their own. What cannot be held is drawn. */
 static void draw_parts(stage *s, bool holds)
 {
@@ -202,16 +216,21 @@ static void draw_parts(stage *s, bool holds)
     }
     CHECK(held_count == (holds ? 6 : 0), "%d states are held", held_count);
     random_draws = 4;
-    for (int i = 0; i < DRAWS; i++) {
-        const int number = (int)random_whole(0, STATES - 1);
+    for (int i = 0, number = 0; i < DRAWS; i++) {
+        if (i % 4 == 0) /* others are the same triangles of other vertices */
+            number = (int)random_whole(0, STATES - 1);
         const size_t first = 3 * (size_t)random_whole(0, TRIANGLES - 10), count = 3 * (size_t)random_whole(0, 10);
-        if (holds && held[number].is_held) {
-            lom_draw_held(s->device, &held[number], first, count);
-            continue;
+        if (i % 4 == 0) {
+            descs[number].first = first;
+            descs[number].count = count;
         }
-        descs[number].first = first;
-        descs[number].count = count;
-        lom_draw(s->device, &descs[number]);
+        if (descs[number].indices != NULL)
+            descs[number].base_vertex = (int32_t)random_whole(-20, 20);
+        const lom_draw_desc moved = move_vertices(&descs[number]);
+        if (holds)
+            lom_draw_held(s->device, &held[number], &descs[number]);
+        else
+            lom_draw(s->device, &moved);
     }
     finish(s);
 }

@@ -3,9 +3,11 @@
  * spacings, which way round each edge runs, and however they are cut into chunks, tiles and threads (no cracks, no
  * overlaps); what is drawn is what feedback of the same draw gives to a draw of triangles, lines and points, bit for
  * bit; control and evaluation get what they should; a patch with a level or a position that is no number leaves its
- * neighbours as they are; what is refused. */
+ * neighbours as they are; patches of a held draw, by their place in the indices and by a base vertex, are those of one draw;
+ * what is refused. */
 #include <lom/stages.h>
 
+#include "pipeline/draw_again.h"
 #include "stage.h"
 
 enum { SIZE = 128, GRID = 6, PATCHES = GRID * GRID * 2, MOST_POINTS = PATCHES * 4 };
@@ -46,6 +48,13 @@ static void evaluate(lom_vertex *out, const lom_domain_point *in, const void *un
     out->point_size = lom_splat(1.5f) + in->u;
 }
 
+/* The same without the patch's number. */
+static void evaluate_moved(lom_vertex *out, const lom_domain_point *in, const void *uniforms)
+{
+    evaluate(out, in, uniforms);
+    out->varying[2] = in->w;
+}
+
 static void count(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     (void)uniforms;
@@ -57,6 +66,7 @@ LOM_SHADER(counter, place_values, count, .attributes = 2, .varyings = 4, .reads_
 LOM_SHADER(values, place_values, show_values, .attributes = 2, .varyings = 4, .reads = LOM_VARYINGS(0, 4), .colors = 1)
 
 LOM_TESSELLATION(by_points, levels_of_points, evaluate, .domain = LOM_DOMAIN_QUADS)
+LOM_TESSELLATION(by_moved_points, levels_of_points, evaluate_moved, .domain = LOM_DOMAIN_QUADS)
 
 static lom_tessellation tessellation_of(lom_domain domain, lom_spacing spacing)
 {
@@ -296,6 +306,50 @@ static void bad_patches_leave_their_neighbours(void)
     close_stage(&s);
 }
 
+/* Some patches at a time; where they move, every second time the first indices with a base vertex. */
+static lom_image *draw_held_quilt(const lom_device_desc *desc, lom_draw_desc draw, bool they_move)
+{
+    static uint32_t indices[MOST_POINTS];
+    const size_t all = draw.count, some = 5 * (size_t)draw.patch_points;
+    stage s = open_stage(*desc, SIZE, SIZE, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    struct lom_held_draw held;
+    for (size_t i = 0; i < all; i++)
+        indices[i] = (uint32_t)i;
+    draw.indices = indices;
+    begin(&s, (lom_pass_desc){ .samples = 1 });
+    CHECK(lom_hold_draw(s.device, &draw, &held), "patches are not held");
+    for (size_t first = 0; first < all; first += some) {
+        const bool moves = they_move && first / some % 2 == 1;
+        draw.first = moves ? 0 : first;
+        draw.base_vertex = moves ? (int32_t)first : 0;
+        draw.count = all - first < some ? all - first : some;
+        lom_draw_held(s.device, &held, &draw);
+    }
+    finish(&s);
+    lom_image *image = s.image;
+    s.image = NULL;
+    close_stage(&s);
+    return image;
+}
+
+static void held_patches_are_those_of_one_draw(void)
+{
+    for (int i = 0; i < 12; i++) {
+        const int points = i % 2 ? 3 : 4;
+        lom_tessellation t =
+            tessellation_of(points == 4 ? LOM_DOMAIN_QUADS : LOM_DOMAIN_TRIANGLES, (lom_spacing)(i % 3));
+        const bool move = i % 4 >= 2;
+        if (move)
+            memcpy(t.evaluation, by_moved_points.evaluation, sizeof t.evaluation);
+        const lom_draw_desc draw = quilt_of(&values, &t, points, (uint64_t)i);
+        lom_image *whole = draw_quilt(&devices[i / 4], draw, NULL);
+        lom_image *parts = draw_held_quilt(&devices[i / 4], draw, move);
+        CHECK(same_images(whole, parts), "quilt %d differs", i);
+        lom_free_image(whole);
+        lom_free_image(parts);
+    }
+}
+
 static void expect(lom_draw_desc draw, const char *words)
 {
     stage s = open_stage(devices[0], 8, 8, LOM_FORMAT_RGBA8, LOM_FORMAT_NONE);
@@ -343,6 +397,7 @@ int main(int argc, char **argv)
     RUN(drawing_equals_drawing_what_was_fed_back);
     RUN(functions_get_their_patch);
     RUN(bad_patches_leave_their_neighbours);
+    RUN(held_patches_are_those_of_one_draw);
     RUN(what_makes_no_patches_is_refused);
     return check_failed_tests != 0;
 }

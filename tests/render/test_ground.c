@@ -64,8 +64,10 @@ static const struct lom_ground_pattern *pattern_of(int block)
     return &ground.patterns[ground.pattern[block]];
 }
 
-static const float *vertex_of(int block, uint32_t index)
+/* Of a place in the pattern's indices. */
+static const float *vertex_of(int block, size_t place)
 {
+    const uint32_t index = ground.indices[pattern_of(block)->first + place];
     return ground.position[ground.blocks[block].first[ground.level[block]] + index];
 }
 
@@ -98,8 +100,7 @@ static void every_block_is_covered_once(void)
             const lom_box *box = &ground.blocks[i].bounds;
             double sum = 0, whole = (box->high.x - box->low.x) * (box->high.z - box->low.z);
             for (size_t k = 0; k < p->count; k += 3) {
-                double area = plan_area(vertex_of(i, p->indices[k]), vertex_of(i, p->indices[k + 1]),
-                                        vertex_of(i, p->indices[k + 2]));
+                double area = plan_area(vertex_of(i, k), vertex_of(i, k + 1), vertex_of(i, k + 2));
                 CHECK(area > -1e-3, "block %d, triangle %zu: %g", i, k / 3, area);
                 sum += area;
             }
@@ -115,7 +116,7 @@ static int edge_vertices(int block, int axis, double at, float (*found)[3])
     const struct lom_ground_pattern *p = pattern_of(block);
     int count = 0;
     for (size_t k = 0; k < p->count; k++) {
-        const float *v = vertex_of(block, p->indices[k]);
+        const float *v = vertex_of(block, k);
         if ((double)v[axis] != at)
             continue;
         int place = 0;

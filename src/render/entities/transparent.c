@@ -83,10 +83,7 @@ static void draw_entity(lom_renderer *renderer, struct lom_drawn_entity *entity,
         }
         draw.first = 3 * first;
         draw.count = 3 * (end - first);
-        if (held[material].is_held)
-            lom_draw_held(renderer->device, &held[material], draw.first, draw.count);
-        else
-            lom_draw(renderer->device, &draw);
+        lom_draw_held(renderer->device, &held[material], &draw);
     }
 }
 

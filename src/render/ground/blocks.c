@@ -202,11 +202,10 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
 
 void lom_free_ground_blocks(struct lom_ground *ground)
 {
-    for (size_t i = 0; i < ground->pattern_count; i++) {
-        lom_release(ground->patterns[i].indices);
+    for (size_t i = 0; i < ground->pattern_count; i++)
         lom_release(ground->patterns[i].wires);
-    }
     lom_release(ground->patterns);
+    lom_release(ground->indices);
     lom_release(ground->blocks);
     lom_release(ground->level);
     lom_release(ground->pattern);

@@ -6,6 +6,7 @@
  * within one level of each other; the finer one leaves out every second vertex of the edge they share, which then has
  * the same vertices on both sides, so there are no cracks (Losasso and Hoppe, "Geometry clipmaps", SIGGRAPH 2004,
  * section 4, has the other ways). Compiled for speed. */
+#include "base/reserve.h"
 #include "render/ground/ground.h"
 
 /* ---- levels ---- */
@@ -87,28 +88,32 @@ static uint32_t vertex_at(const struct lom_ground_pattern *p, int x, int y)
     return (uint32_t)y * (uint32_t)(p->columns + 1) + (uint32_t)x;
 }
 
-static void add_triangle(struct lom_ground_pattern *p, uint32_t a, uint32_t b, uint32_t c)
+static void add_triangle(struct lom_ground *ground, uint32_t a, uint32_t b, uint32_t c)
 {
     if (a == b || b == c || c == a)
         return;
-    p->indices[p->count] = a;
-    p->indices[p->count + 1] = b;
-    p->indices[p->count + 2] = c;
-    p->count += 3;
+    uint32_t *next = ground->indices + ground->index_count;
+    next[0] = a;
+    next[1] = b;
+    next[2] = c;
+    ground->index_count += 3;
 }
 
-static bool fill_pattern(struct lom_ground_pattern *p, lom_error *error)
+static bool fill_pattern(struct lom_ground *ground, struct lom_ground_pattern *p, lom_error *error)
 {
-    p->indices = lom_allocate((size_t)p->columns * (size_t)p->rows * 6, sizeof *p->indices, error);
-    if (p->indices == NULL)
+    const size_t most = (size_t)p->columns * (size_t)p->rows * 6;
+    if (!lom_reserve(&ground->indices, &ground->index_capacity, ground->index_count + most, sizeof *ground->indices,
+                     error))
         return false;
+    p->first = ground->index_count;
     for (int y = 0; y < p->rows; y++)
         for (int x = 0; x < p->columns; x++) {
             uint32_t a = vertex_at(p, x, y), b = vertex_at(p, x + 1, y);
             uint32_t c = vertex_at(p, x, y + 1), d = vertex_at(p, x + 1, y + 1);
-            add_triangle(p, a, c, b);
-            add_triangle(p, b, c, d);
+            add_triangle(ground, a, c, b);
+            add_triangle(ground, b, c, d);
         }
+    p->count = ground->index_count - p->first;
     return true;
 }
 
@@ -139,7 +144,7 @@ static bool add_patterns(struct lom_ground *ground, const struct lom_ground_bloc
         if (i < ground->pattern_count)
             continue;
         ground->patterns[i] = (struct lom_ground_pattern){ .columns = columns, .rows = rows, .edges = edges };
-        if (!fill_pattern(&ground->patterns[i], error))
+        if (!fill_pattern(ground, &ground->patterns[i], error))
             return false;
         ground->pattern_count++;
     }

@@ -1,5 +1,6 @@
 /* Terrain in a pass. In: how the pass looks at it and what the frame chose (ground.h). Out: a draw for each block in
  * view, near ones first, so that they hide the ones behind before these are shaded. Compiled for speed. */
+#include "pipeline/draw_again.h"
 #include "render/ground/shaders.h"
 #include "render/renderer.h"
 
@@ -112,6 +113,14 @@ static const lom_shader *const shaders[] = { [LOM_SHADING_PHONG] = &lom_terrain_
                                              [LOM_SHADING_GOURAUD] = &lom_terrain_gouraud,
                                              [LOM_SHADING_FLAT] = &lom_terrain_flat };
 
+void lom_take_ground(const struct lom_ground *ground, lom_draw_desc *draw)
+{
+    draw->attribute[0] = (lom_attribute){ ground->position, ground->position_count * sizeof *ground->position,
+                                          sizeof *ground->position, LOM_ATTRIBUTE_FLOAT3 };
+    draw->indices = ground->indices;
+    draw->count = ground->index_count;
+}
+
 const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
                                                       const struct lom_culler *culler, lom_draw_desc *draw,
                                                       uint32_t *number)
@@ -121,11 +130,8 @@ const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *g
     const struct lom_ground_pattern *pattern = &ground->patterns[ground->pattern[*number]];
     if (culler != NULL && !lom_is_visible(culler, &block->bounds))
         return NULL;
-    size_t first = block->first[ground->level[*number]];
-    size_t vertices = (size_t)(pattern->columns + 1) * (size_t)(pattern->rows + 1);
-    draw->attribute[0] = (lom_attribute){ ground->position + first, vertices * sizeof *ground->position,
-                                          sizeof *ground->position, LOM_ATTRIBUTE_FLOAT3 };
-    draw->indices = pattern->indices;
+    draw->base_vertex = (int32_t)block->first[ground->level[*number]];
+    draw->first = pattern->first;
     draw->count = pattern->count;
     return pattern;
 }
@@ -134,13 +140,13 @@ static const lom_shader *const cut_shaders[] = { [LOM_SHADING_PHONG] = &lom_terr
                                                  [LOM_SHADING_GOURAUD] = &lom_terrain_cut_gouraud,
                                                  [LOM_SHADING_FLAT] = &lom_terrain_cut_flat };
 
-/* The patches of a block in place of its triangles. */
-static void take_patches(lom_draw_desc *draw, const struct lom_ground *ground, const struct lom_ground_block *block)
+/* All patches in place of triangles. */
+static void take_patches(const struct lom_ground *ground, lom_draw_desc *draw)
 {
     draw->attribute[0] = (lom_attribute){ ground->knot, ground->knot_count * sizeof *ground->knot, sizeof *ground->knot,
                                           LOM_ATTRIBUTE_FLOAT4 };
-    draw->indices = ground->patch_corner + block->first_corner;
-    draw->count = block->corners;
+    draw->indices = ground->patch_corner;
+    draw->count = ground->patch_corner_count;
     draw->topology = LOM_PATCHES;
     draw->patch_points = 4;
 }
@@ -148,14 +154,21 @@ static void take_patches(lom_draw_desc *draw, const struct lom_ground *ground, c
 void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc)
 {
     const struct lom_ground *ground = &renderer->ground;
+    const bool cut = desc->tessellation != NULL;
     lom_draw_desc draw = *desc;
+    struct lom_held_draw held;
+    (cut ? take_patches : lom_take_ground)(ground, &draw);
+    lom_hold_draw(renderer->device, &draw, &held);
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
         if (lom_find_ground_draw(ground, i, culler, &draw, &number) == NULL)
             continue;
-        if (draw.tessellation != NULL)
-            take_patches(&draw, ground, &ground->blocks[number]);
-        lom_draw(renderer->device, &draw);
+        if (cut) {
+            draw.first = ground->blocks[number].first_corner;
+            draw.count = ground->blocks[number].corners;
+            draw.base_vertex = 0;
+        }
+        lom_draw_held(renderer->device, &held, &draw);
     }
 }
 

@@ -34,9 +34,8 @@ struct lom_ground_block {
 /* Triangles of a grid of columns x rows quads whose vertices are numbered row by row. */
 struct lom_ground_pattern {
     int columns, rows, edges;
-    uint32_t *indices;
-    size_t count;
-    uint32_t *wires; /* edges of the triangles, two indices each, by kind; NULL where the dial wireframe is off */
+    size_t first, count; /* in lom_ground.indices */
+    uint32_t *wires;     /* edges of the triangles, two indices each, by kind; NULL where the dial wireframe is off */
     size_t wire_count[3];
 };
 
@@ -64,10 +63,12 @@ struct lom_ground {
     lom_texture *composed;  /* of the device: all layers from above; or NULL */
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
+    uint32_t *indices; /* of all patterns */
+    size_t index_count, index_capacity;
     /* With quality.tessellation: column, row, height over the base, metres that the patches around it are off. */
     float (*knot)[4];
     uint32_t *patch_corner;
-    size_t knot_count;
+    size_t knot_count, patch_corner_count;
 
     /* What a frame has chosen, the same for all of its passes. */
     int *level;      /* of each block */
@@ -99,8 +100,11 @@ void lom_drop_composed_ground(lom_renderer *renderer);
 /* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels come after. */
 bool lom_compose_ground(struct frame *f, lom_error *error);
 
-/* The triangles of the i-th block from near to far: their attribute 0 and indices, the block's number; NULL where it is
- * out of view (culler NULL: nothing is). */
+/* The blocks that the culler leaves (NULL: all), near ones first, each a draw of this description with its vertices. */
+void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc);
+/* All triangles, as far as a draw says so: attribute 0 and indices. Those of the i-th block from near to far: which of them,
+ * and the block's number; NULL where it is out of view (culler NULL: nothing is). */
+void lom_take_ground(const struct lom_ground *ground, lom_draw_desc *draw);
 const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
                                                       const struct lom_culler *culler, lom_draw_desc *draw,
                                                       uint32_t *number);

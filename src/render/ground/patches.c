@@ -82,7 +82,7 @@ bool lom_make_ground_patches(struct lom_ground *ground, lom_error *error)
     struct knots k = { .ground = ground,
                        .across = (ground->columns + LOM_GROUND_PATCH - 1) / LOM_GROUND_PATCH,
                        .down = (ground->rows + LOM_GROUND_PATCH - 1) / LOM_GROUND_PATCH };
-    size_t patches = (size_t)k.across * (size_t)k.down, count = 0;
+    size_t patches = (size_t)k.across * (size_t)k.down;
     ground->knot_count = (size_t)(k.across + 1) * (size_t)(k.down + 1);
     ground->knot = lom_allocate(ground->knot_count, sizeof *ground->knot, error);
     ground->patch_corner = lom_allocate(patches, 4 * sizeof *ground->patch_corner, error);
@@ -96,6 +96,6 @@ bool lom_make_ground_patches(struct lom_ground *ground, lom_error *error)
             knot[2] = height_at(ground, column_of(&k, x), row_of(&k, y));
         }
     for (int i = 0; i < ground->across * ground->down; i++)
-        add_block(&k, i, &count);
+        add_block(&k, i, &ground->patch_corner_count);
     return true;
 }

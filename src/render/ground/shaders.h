@@ -58,8 +58,6 @@ extern const lom_shader lom_terrain_albedo; /* the colour alone, without light *
 /* What is told of the terrain to a pass that sees it from this place. */
 struct lom_terrain_uniforms lom_terrain_uniforms_of(const lom_renderer *renderer, const struct lom_view_uniform *view,
                                                     lom_vec3 place);
-/* The blocks that the culler leaves (NULL: all), near ones first, each a draw of this description with its vertices. */
-void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc);
 
 /* The same of patches, and what cuts them; the second one lights the vertices, for Gouraud. */
 extern const lom_shader lom_terrain_cut_phong, lom_terrain_cut_gouraud, lom_terrain_cut_flat;

@@ -33,7 +33,7 @@ bool lom_make_ground_wires(struct lom_ground *ground, lom_error *error)
     for (size_t i = 0; i < ground->pattern_count; i++) {
         struct lom_ground_pattern *p = &ground->patterns[i];
         size_t count;
-        uint32_t *edges = lom_list_edges(p->indices, p->count, NULL, &count, error);
+        uint32_t *edges = lom_list_edges(ground->indices + p->first, p->count, NULL, &count, error);
         bool done = edges != NULL && sort_edges(p, edges, count, error);
         lom_release(edges);
         if (!done)

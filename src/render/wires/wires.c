@@ -89,13 +89,16 @@ static void draw_ground(struct frame *f, const struct lom_culler *culler, bool e
     const lom_mat4 world_from_model = lom_translation((lom_vec3){ 0, f->scene->terrain.base, 0 });
     const struct lom_wire_uniforms wire = uniforms_of(f, &world_from_model);
     lom_draw_desc draw = edges ? edge_draw(f, &wire) : surface_draw(&wire);
+    if (!edges) {
+        lom_draw_ground_blocks(f->renderer, culler, &draw);
+        return;
+    }
+    lom_take_ground(ground, &draw);
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
         const struct lom_ground_pattern *pattern = lom_find_ground_draw(ground, i, culler, &draw, &number);
-        if (pattern != NULL && edges)
+        if (pattern != NULL)
             draw_block_edges(f, &draw, number, pattern);
-        else if (pattern != NULL)
-            lom_draw(f->renderer->device, &draw);
     }
 }
 
