@@ -51,7 +51,7 @@ static struct face_view view_of(const struct lom_placed_lamp *lamp, lom_vec3 axi
     struct face_view v = { { .projection = project, .view = look, .eye = p, .plane = { 0, 0, 0, 1 } },
                            lamp->reach,
                            lom_multiply(&project, &look),
-                           { .plane = everything } };
+                           { .plane = everything, .eye = p } };
     v.culler.frustum = lom_view_frustum(&v.clip_from_world, false);
     return v;
 }
@@ -64,17 +64,6 @@ static bool is_in_range(const struct face_view *v, lom_box box)
 static bool is_caster(const struct face_view *v, const struct lom_drawn_entity *entity)
 {
     return lom_throws_shadow(entity) && is_in_range(v, entity->at->bounds);
-}
-
-/* The i-th block of terrain from near to far as a draw; NULL where it is out of range. */
-static const struct lom_ground_block *find_block(const struct lom_ground *ground, const struct face_view *v, int i,
-                                                 lom_draw_desc *draw)
-{
-    uint32_t number = ground->order[i];
-    if (!(lom_distance_to_box(v->from.eye, ground->blocks[number].bounds) < v->reach) ||
-        lom_find_ground_draw(ground, i, &v->culler, draw, &number) == NULL)
-        return NULL;
-    return &ground->blocks[number];
 }
 
 /* How many things cast, and the hash of all that decides what the map shows. */
@@ -92,9 +81,11 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
         *hash = lom_hash_bytes(*hash, &r->ground.eye, sizeof r->ground.eye);
         *hash = lom_hash_bytes(*hash, &r->ground.errors_allowed, sizeof r->ground.errors_allowed);
     }
+    lom_see_ground(&r->ground, &v->culler, v->reach);
     for (int i = 0; i < r->ground.across * r->ground.down; i++) {
         lom_draw_desc draw;
-        if (find_block(&r->ground, v, i, &draw) == NULL)
+        uint32_t number;
+        if (lom_find_ground_draw(&r->ground, i, &draw, &number) == NULL)
             continue;
         *hash = lom_hash_bytes(*hash, &draw.base_vertex, sizeof draw.base_vertex);
         *hash = lom_hash_bytes(*hash, &draw.first, sizeof draw.first);
@@ -117,9 +108,12 @@ static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
     struct lom_held_draw held;
     lom_take_ground(&r->ground, &draw);
     lom_hold_draw(r->device, &draw, &held);
-    for (int i = 0; i < r->ground.across * r->ground.down; i++)
-        if (find_block(&r->ground, v, i, &draw) != NULL)
+    lom_see_ground(&r->ground, &v->culler, v->reach);
+    for (int i = 0; i < r->ground.across * r->ground.down; i++) {
+        uint32_t number;
+        if (lom_find_ground_draw(&r->ground, i, &draw, &number) != NULL)
             lom_draw_held(r->device, &held, &draw);
+    }
 }
 
 static bool draw_map(lom_renderer *r, const struct face_view *v, lom_texture *map)

@@ -1,11 +1,12 @@
 /* Proves terrain's levels of detail: at 0 pixels every quad is drawn; at any error each block is covered exactly once,
  * neighbours are at most one level apart and share the very vertices of their edge, so there is no crack; a level's
  * error is what its surface is really off; a plane is as coarse as can be. And the visibility of the sky, against its
- * closed forms. */
+ * closed forms. Which blocks a view sees. */
 #include "check.h"
 
 #include "geometry/terrain.h"
 #include "render/ground/ground.h"
+#include "render/seen.h"
 
 enum { SIZE = 150 }; /* vertices: no whole number of blocks */
 
@@ -79,6 +80,49 @@ static void full_density_at_zero_pixels(void)
     for (int i = 0; i < ground.across * ground.down; i++)
         count += pattern_of(i)->count;
     CHECK(count == 6 * (SIZE - 1) * (SIZE - 1), "%zu indices", count);
+    release();
+}
+
+static double random_between(uint64_t *draw, double low, double high)
+{
+    return low + (high - low) * (double)(lom_random_bits(11, ++*draw) >> 11) * 0x1p-53;
+}
+
+/* Squares of blocks leave out what each block's own box would, of any view, clip plane and reach. */
+static void what_is_seen_is_each_block_that_is_visible(void)
+{
+    uint64_t draw = 0;
+    int seen = 0, shown = 0;
+    load(rough);
+    const int count = ground.across * ground.down;
+    for (int i = 0; i < 400; i++) {
+        const lom_vec3 eye = { random_between(&draw, -300, 300), random_between(&draw, -50, 200),
+                               random_between(&draw, -300, 300) };
+        const lom_vec3 at = { random_between(&draw, -200, 200), random_between(&draw, -50, 50),
+                              random_between(&draw, -200, 200) };
+        const lom_mat4 look = lom_look_at(eye, at, (lom_vec3){ 0, 1, 0 });
+        const lom_mat4 project = lom_perspective(random_between(&draw, 0.1, 2), 1.5, 0.1);
+        const lom_mat4 all = lom_multiply(&project, &look);
+        const double plane[4] = { 0, i % 3 - 1, 0, i % 3 == 1 ? 1 : random_between(&draw, -60, 60) };
+        const double reach = i % 4 == 0 ? random_between(&draw, 1, 200) : LOM_EVERYWHERE;
+        const struct lom_culler culler = { lom_view_frustum(&all, false), plane, eye };
+        bool any = false;
+        lom_see_ground(&ground, &culler, reach);
+        for (int k = 0; k < count; k++) {
+            const lom_box *box = &ground.blocks[k].bounds;
+            const bool visible = lom_is_visible(&culler, box);
+            const bool is_seen = visible && lom_distance_to_box(eye, *box) < reach;
+            CHECK(ground.seen[k] == is_seen, "view %d, block %d: %d", i, k, ground.seen[k]);
+            any |= visible;
+            seen += is_seen;
+        }
+        shown += any;
+        CHECK(lom_shows_ground(&ground, &culler) == any, "view %d", i);
+    }
+    CHECK(seen > count && seen < 300 * count && shown > 100 && shown < 400, "%d seen, %d shown", seen, shown);
+    lom_see_ground(&ground, NULL, 1);
+    for (int k = 0; k < count; k++)
+        CHECK(ground.seen[k], "block %d", k);
     release();
 }
 
@@ -337,6 +381,7 @@ static void workers_shadow_as_one_does(void)
 int main(int argc, char **argv)
 {
     RUN(full_density_at_zero_pixels);
+    RUN(what_is_seen_is_each_block_that_is_visible);
     RUN(every_block_is_covered_once);
     RUN(neighbours_share_their_edge);
     RUN(errors_are_what_a_level_is_off);

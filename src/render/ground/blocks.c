@@ -188,6 +188,7 @@ bool lom_make_ground_blocks(struct lom_ground *ground, const lom_terrain *t, con
         (quality->wireframe == LOM_WIREFRAME_OFF || quality->tessellation || lom_make_ground_wires(ground, error));
     if (done)
         lom_share_work(device, (size_t)ground->across * (size_t)ground->down, BLOCKS, fill_blocks, &loader);
+    done = done && lom_group_ground_blocks(ground, error);
     if (done && quality->tessellation)
         done = lom_make_ground_patches(ground, error);
     if (done && quality->ambient_occlusion)
@@ -212,6 +213,8 @@ void lom_free_ground_blocks(struct lom_ground *ground)
     lom_release(ground->order);
     lom_release(ground->distance);
     lom_release(ground->position);
+    lom_release(ground->groups);
+    lom_release(ground->seen);
     lom_release(ground->knot);
     lom_release(ground->patch_corner);
     lom_free_ground_shadow(ground);

@@ -121,14 +121,13 @@ void lom_take_ground(const struct lom_ground *ground, lom_draw_desc *draw)
     draw->count = ground->index_count;
 }
 
-const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
-                                                      const struct lom_culler *culler, lom_draw_desc *draw,
+const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i, lom_draw_desc *draw,
                                                       uint32_t *number)
 {
     *number = ground->order[i];
     const struct lom_ground_block *block = &ground->blocks[*number];
     const struct lom_ground_pattern *pattern = &ground->patterns[ground->pattern[*number]];
-    if (culler != NULL && !lom_is_visible(culler, &block->bounds))
+    if (!ground->seen[*number])
         return NULL;
     draw->base_vertex = (int32_t)block->first[ground->level[*number]];
     draw->first = pattern->first;
@@ -159,9 +158,10 @@ void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culle
     struct lom_held_draw held;
     (cut ? take_patches : lom_take_ground)(ground, &draw);
     lom_hold_draw(renderer->device, &draw, &held);
+    lom_see_ground(ground, culler, LOM_EVERYWHERE);
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
-        if (lom_find_ground_draw(ground, i, culler, &draw, &number) == NULL)
+        if (lom_find_ground_draw(ground, i, &draw, &number) == NULL)
             continue;
         if (cut) {
             draw.first = ground->blocks[number].first_corner;
@@ -205,14 +205,6 @@ void lom_draw_cut_wires(lom_renderer *renderer, const struct lom_scene_view *vie
     draw.tessellation = &lom_terrain_patches;
     draw.geometry = color != NULL ? &lom_triangle_edges : NULL;
     lom_draw_ground_blocks(renderer, culler, &draw);
-}
-
-bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler)
-{
-    for (int i = 0; i < ground->across * ground->down; i++)
-        if (lom_is_visible(culler, &ground->blocks[i].bounds))
-            return true;
-    return false;
 }
 
 /* Terrain's shadows are as sharp as the vertices that throw them tell: the edge is as high as a part of the way between

@@ -69,6 +69,8 @@ struct lom_ground {
     float (*knot)[4];
     uint32_t *patch_corner;
     size_t knot_count, patch_corner_count;
+    lom_box *groups; /* bounds of blocks side by side (seen.c) */
+    bool *seen;      /* of each block: by the pass that looked last */
 
     /* What a frame has chosen, the same for all of its passes. */
     int *level;      /* of each block */
@@ -100,15 +102,17 @@ void lom_drop_composed_ground(lom_renderer *renderer);
 /* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels come after. */
 bool lom_compose_ground(struct frame *f, lom_error *error);
 
+/* Finds which blocks are seen: in view (culler NULL: all are), and nearer to its eye than `reach`. */
+#define LOM_EVERYWHERE 1e300
+void lom_see_ground(const struct lom_ground *ground, const struct lom_culler *culler, double reach);
 /* The blocks that the culler leaves (NULL: all), near ones first, each a draw of this description with its vertices. */
 void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc);
 /* All triangles, as far as a draw says so: attribute 0 and indices. Those of the i-th block from near to far: which of them,
- * and the block's number; NULL where it is out of view (culler NULL: nothing is). */
+ * and the block's number; NULL where it is not seen. */
 void lom_take_ground(const struct lom_ground *ground, lom_draw_desc *draw);
-const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i,
-                                                      const struct lom_culler *culler, lom_draw_desc *draw,
+const struct lom_ground_pattern *lom_find_ground_draw(const struct lom_ground *ground, int i, lom_draw_desc *draw,
                                                       uint32_t *number);
-/* Whether any of it would be drawn. */
+/* Whether any of it would be drawn; which blocks are seen is to be found anew. */
 bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler);
 /* The shadow that it throws, for places less the eye. */
 void lom_set_ground_light(struct lom_light_uniform *light, const lom_renderer *renderer, lom_vec3 eye);
@@ -144,7 +148,8 @@ bool lom_find_sky_visibility(lom_device *device, const float *heights, int width
 void lom_find_ground_shadow(lom_device *device, const float *heights, int width, int height, const double size[2],
                             const double to_light[3], float *shadow);
 
-/* The patches of a terrain whose blocks are there. */
+/* Groups and patches of a terrain whose blocks are there. */
+bool lom_group_ground_blocks(struct lom_ground *ground, lom_error *error);
 bool lom_make_ground_patches(struct lom_ground *ground, lom_error *error);
 /* Makes the triangles of every size of block, level and set of coarser neighbours; and their edges. */
 bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error);

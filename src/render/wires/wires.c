@@ -94,9 +94,10 @@ static void draw_ground(struct frame *f, const struct lom_culler *culler, bool e
         return;
     }
     lom_take_ground(ground, &draw);
+    lom_see_ground(ground, culler, LOM_EVERYWHERE);
     for (int i = 0; i < ground->across * ground->down; i++) {
         uint32_t number;
-        const struct lom_ground_pattern *pattern = lom_find_ground_draw(ground, i, culler, &draw, &number);
+        const struct lom_ground_pattern *pattern = lom_find_ground_draw(ground, i, &draw, &number);
         if (pattern != NULL)
             draw_block_edges(f, &draw, number, pattern);
     }

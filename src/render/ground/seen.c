@@ -1,0 +1,77 @@
+/* Which blocks of terrain a pass sees. In: what it can show of a box, and how far from its eye. Out: a flag for each block.
+ *
+ * Blocks are asked in squares of GROUP x GROUP: whose box is out of view has no block in view, since what is compared grows and
+ * falls with the box's ends, rounded or not. So where most of the map is out of view, most blocks are not asked. */
+#include "base/numbers.h"
+#include "render/ground/ground.h"
+#include "render/seen.h"
+
+enum { GROUP = 4 };
+
+static int groups_along(int blocks)
+{
+    return (blocks + GROUP - 1) / GROUP;
+}
+
+static void widen(lom_box *box, const lom_box *other)
+{
+    box->low = (lom_vec3){ lom_smaller(box->low.x, other->low.x), lom_smaller(box->low.y, other->low.y),
+                           lom_smaller(box->low.z, other->low.z) };
+    box->high = (lom_vec3){ lom_larger(box->high.x, other->high.x), lom_larger(box->high.y, other->high.y),
+                            lom_larger(box->high.z, other->high.z) };
+}
+
+bool lom_group_ground_blocks(struct lom_ground *ground, lom_error *error)
+{
+    const int across = groups_along(ground->across), down = groups_along(ground->down);
+    ground->groups = lom_allocate((size_t)across * (size_t)down, sizeof *ground->groups, error);
+    ground->seen = lom_allocate((size_t)ground->across * (size_t)ground->down, sizeof *ground->seen, error);
+    if (ground->groups == NULL || ground->seen == NULL)
+        return false;
+    for (int y = 0; y < ground->down; y++)
+        for (int x = 0; x < ground->across; x++) {
+            const lom_box *bounds = &ground->blocks[y * ground->across + x].bounds;
+            lom_box *group = &ground->groups[y / GROUP * across + x / GROUP];
+            if (x % GROUP == 0 && y % GROUP == 0)
+                *group = *bounds;
+            widen(group, bounds);
+        }
+    return true;
+}
+
+static bool is_seen(const struct lom_culler *culler, double reach, const lom_box *box)
+{
+    return culler == NULL ||
+           ((reach == LOM_EVERYWHERE || lom_distance_to_box(culler->eye, *box) < reach) && lom_is_visible(culler, box));
+}
+
+/* How many blocks are seen, `enough` at most. */
+static int look(const struct lom_ground *ground, const struct lom_culler *culler, double reach, int enough)
+{
+    const int across = groups_along(ground->across), down = groups_along(ground->down);
+    int count = 0;
+    for (int group = 0; group < across * down; group++) {
+        const bool may_be = is_seen(culler, reach, &ground->groups[group]);
+        const int x0 = group % across * GROUP, x1 = lom_smaller_int(x0 + GROUP, ground->across);
+        const int y0 = group / across * GROUP, y1 = lom_smaller_int(y0 + GROUP, ground->down);
+        for (int y = y0; y < y1; y++)
+            for (int x = x0; x < x1; x++) {
+                const int number = y * ground->across + x;
+                ground->seen[number] = may_be && is_seen(culler, reach, &ground->blocks[number].bounds);
+                count += ground->seen[number];
+                if (count == enough)
+                    return count;
+            }
+    }
+    return count;
+}
+
+void lom_see_ground(const struct lom_ground *ground, const struct lom_culler *culler, double reach)
+{
+    look(ground, culler, reach, INT32_MAX);
+}
+
+bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler)
+{
+    return look(ground, culler, LOM_EVERYWHERE, 1) > 0;
+}
