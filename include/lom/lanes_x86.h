@@ -13,10 +13,10 @@
 #include <emmintrin.h>
 #endif
 
-/* Keeps indices in memory: gcc would take them out of the vector one by one, which costs more than storing it. */
-#define LOM_IN_MEMORY(array) __asm__("" : "+m"(array))
-
-/* gcc would go on in vectors if it saw where the halves come from. */
+/* An index, or two of them, in a register: gcc would go on in vectors if it saw where they come from. By way of memory each
+ * load of one waits for the store of all: 16 rows of four floats were gathered in 5.4 ns so, in 4.1 by registers, and
+ * scattered side by side in 6.5 and 4.6 (EPYC of family 26, loops over 4096 indices).
+ */
 LOM_INLINE int64_t lom_hold(int64_t x)
 {
     __asm__("" : "+r"(x));
@@ -244,12 +244,13 @@ LOM_INLINE lom_float4 lom_load_rows(const float *const rows[LOM_LANES], size_t o
 
 LOM_INLINE lom_float4 lom_gather_rows(const float *from, lom_int index)
 {
-    int32_t at[16];
+    struct lom_indices at = lom_take_indices(index);
     __m512 t[4];
-    _mm512_storeu_si512(at, (__m512i)index);
-    LOM_IN_MEMORY(at);
-    for (int i = 0; i < 4; i++)
-        t[i] = lom_load_quarters(from + at[i], from + at[4 + i], from + at[8 + i], from + at[12 + i]);
+    for (int i = 0; i < 4; i++) {
+        const int64_t *two = at.two + (i >> 1), shift = 32 * (i & 1);
+        t[i] = lom_load_quarters(from + (int32_t)(two[0] >> shift), from + (int32_t)(two[2] >> shift),
+                                 from + (int32_t)(two[4] >> shift), from + (int32_t)(two[6] >> shift));
+    }
     return lom_transpose_quarters(t);
 }
 
@@ -278,17 +279,16 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
     __m512 t[4] = { (__m512)x.x, (__m512)x.y, (__m512)x.z, (__m512)x.w };
     lom_float4 rows = lom_transpose_quarters(t);
     __m512 row[4] = { (__m512)rows.x, (__m512)rows.y, (__m512)rows.z, (__m512)rows.w };
-    int32_t at[16];
-    _mm512_storeu_si512(at, (__m512i)index);
-    LOM_IN_MEMORY(at);
+    const struct lom_indices at = lom_take_indices(index);
+    const int64_t *two = at.two; /* row i is at the upper half of two[i / 2] where i is odd */
     for (int i = 0; i < 4; i++)
-        _mm_storeu_ps(to + at[i], _mm512_castps512_ps128(row[i]));
+        _mm_storeu_ps(to + (int32_t)(two[i >> 1] >> 32 * (i & 1)), _mm512_castps512_ps128(row[i]));
     for (int i = 0; i < 4; i++)
-        _mm_storeu_ps(to + at[4 + i], _mm512_extractf32x4_ps(row[i], 1));
+        _mm_storeu_ps(to + (int32_t)(two[2 + (i >> 1)] >> 32 * (i & 1)), _mm512_extractf32x4_ps(row[i], 1));
     for (int i = 0; i < 4; i++)
-        _mm_storeu_ps(to + at[8 + i], _mm512_extractf32x4_ps(row[i], 2));
+        _mm_storeu_ps(to + (int32_t)(two[4 + (i >> 1)] >> 32 * (i & 1)), _mm512_extractf32x4_ps(row[i], 2));
     for (int i = 0; i < 4; i++)
-        _mm_storeu_ps(to + at[12 + i], _mm512_extractf32x4_ps(row[i], 3));
+        _mm_storeu_ps(to + (int32_t)(two[6 + (i >> 1)] >> 32 * (i & 1)), _mm512_extractf32x4_ps(row[i], 3));
 }
 
 #elif LOM_LANES == 8 && defined __AVX2__
