@@ -569,7 +569,7 @@ LOM_INLINE lom_mask lom_mask_of_bits(uint32_t bits)
     lom_int one = lom_splat_int(1) << lom_lane_index();
     return (lom_splat_int((int32_t)bits) & one) != 0;
 }
-
+#ifndef LOM_OVERRIDES_EXTREMES
 LOM_INLINE lom_int lom_min_int(lom_int a, lom_int b)
 {
     return lom_select_int(a < b, a, b);
@@ -579,7 +579,7 @@ LOM_INLINE lom_int lom_max_int(lom_int a, lom_int b)
 {
     return lom_select_int(a > b, a, b);
 }
-
+#endif
 /* |x|; NaN keeps its payload. */
 LOM_INLINE lom_float lom_abs(lom_float x)
 {

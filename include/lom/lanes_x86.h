@@ -626,4 +626,21 @@ LOM_INLINE void lom_scatter_rows(float *to, lom_int index, lom_float4 x)
 
 #endif
 
+#if LOM_LANES == 16 && defined __AVX512F__
+#define LOM_OVERRIDES_EXTREMES
+
+/* gcc finds these by itself for 8 lanes; for 16 it makes a mask of the comparison, a vector of that, and of that a mask
+ * again. */
+LOM_INLINE lom_int lom_min_int(lom_int a, lom_int b)
+{
+    return (lom_int)_mm512_min_epi32((__m512i)a, (__m512i)b);
+}
+
+LOM_INLINE lom_int lom_max_int(lom_int a, lom_int b)
+{
+    return (lom_int)_mm512_max_epi32((__m512i)a, (__m512i)b);
+}
+
+#endif
+
 #endif

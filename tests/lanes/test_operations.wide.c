@@ -44,6 +44,8 @@ static void compare_all(lom_int p, lom_int q)
     lom_mask m = p > q;
     CHECK(same_int((lom_int)lom_select(m, a, b), (lom_int)lom_defined_select(m, a, b)), "select of %08x", p[0]);
     CHECK(same_int(lom_select_int(m, p, q), lom_defined_select_int(m, p, q)), "select_int of %08x", p[0]);
+    CHECK(same_int(lom_min_int(p, q), lom_defined_select_int(p < q, p, q)), "min_int of %08x, %08x", p[0], q[0]);
+    CHECK(same_int(lom_max_int(p, q), lom_defined_select_int(p > q, p, q)), "max_int of %08x, %08x", p[0], q[0]);
     CHECK(same(lom_min(a, b), lom_defined_min(a, b)), "min of %08x, %08x", p[0], q[0]);
     CHECK(same(lom_max(a, b), lom_defined_max(a, b)), "max of %08x, %08x", p[0], q[0]);
     CHECK(same(lom_sqrt(a), lom_defined_sqrt(a)), "sqrt of %08x", p[0]);
