@@ -12,12 +12,22 @@
  * q = trunc(fl(c largest)) is the result or one less, or (product rounded up across an integer) already the result.
  * The residual c largest - q = (m c - q) - c decides: m c is exact; a = m c - q is exact, because it is a multiple of
  * the unit of m c (or of 1) and not larger than a few of it; where a is in [1/4, 1] the difference a - 1/2 is exact
- * (Sterbenz), elsewhere its rounding cannot cross c. So (a - 1/2 >= c) is exactly "residual >= 1/2". */
+ * (Sterbenz), elsewhere its rounding cannot cross c. So (a - 1/2 >= c) is exactly "residual >= 1/2".
+ *
+ * AVX-512 rounds a product towards zero by itself, which crosses no float: p is at least k + 1/2 exactly where c largest
+ * is, and so is the sum at least k + 1. Only above 2^23 is k + 1/2 no float; there, with largest = 2^24 - 1, c largest is
+ * m c - c, an integer less a c above 1/2, whose rounding is its truncation. */
 LOM_INLINE lom_int lom_unorm_of_unit_lanes(lom_float c, float largest)
 {
+#if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
+    enum { TO_ZERO = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC };
+    __m512 p = _mm512_mul_round_ps((__m512)c, _mm512_set1_ps(largest), TO_ZERO);
+    return (lom_int)_mm512_cvttps_epi32(_mm512_add_round_ps(p, _mm512_set1_ps(0.5f), TO_ZERO));
+#else
     lom_int q = lom_bounded_to_int(c * largest);
     lom_float a = c * (largest + 1.0f) - lom_to_float(q);
     return q - (a - 0.5f >= c);
+#endif
 }
 
 /* The same of x clamped to [0, 1], NaN 0. */
