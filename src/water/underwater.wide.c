@@ -12,23 +12,36 @@ static void vertex(lom_vertex *out, const lom_attributes *in, const void *unifor
     out->position = (lom_float4){ x, y, lom_splat(0.5f), lom_splat(1.0f) };
 }
 
-/* What is left of each colour on the way through the water, and what is added to it. */
-struct column {
-    lom_float3 left, added;
-};
-
-static struct column cross(const struct lom_medium_uniform *m, lom_float length, lom_float depth, lom_float down)
+/* The share of the sun's light that is there at a depth, of each colour; where all lanes have the same depth, a lane each. */
+static void find_sun(const struct lom_medium_uniform *m, lom_float depth, bool same, lom_float sun[3])
 {
-    lom_float below = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(endless));
-    struct lom_crossed c[3];
-    for (int i = 0; i < 3; i++) {
-        lom_float sun = lom_fade(-m->absorption[i] * m->slant * below);
-        c[i] = lom_through_water(m->absorption[i], m->source[i], m->slant, sun, l, below, down);
-    }
-    return (struct column){ { c[0].left, c[1].left, c[2].left }, { c[0].added, c[1].added, c[2].added } };
+    lom_float rate = { 0 };
+    for (int i = 0; i < 3; i++)
+        rate[i] = -m->absorption[i] * m->slant;
+    lom_float lanes = lom_fade(rate * depth);
+    for (int i = 0; i < 3; i++)
+        sun[i] = same ? lom_splat(lanes[i]) : lom_fade(lom_splat(rate[i]) * depth);
 }
 
-static struct column water_before(const struct lom_underwater_uniforms *u, const lom_varyings *in)
+/* Of no light and of a light of 1 that go in: what comes out of the one, and how much more out of the other. No light is 0
+ * where what is left of it is a share, which then need not be known. */
+static lom_float3 light_of(const struct lom_underwater_uniforms *u, lom_float length, lom_float depth, lom_float down)
+{
+    const struct lom_medium_uniform *m = &u->medium;
+    lom_float below = lom_max(depth, (lom_float){ 0 }), l = lom_min(length, lom_splat(endless)), sun[3], light[3];
+    find_sun(m, below, !u->eye.parallel, sun);
+    for (int i = 0; i < 3; i++) {
+        lom_float fall = lom_water_fall(m->absorption[i], m->slant, l, below, down), left = { 0 };
+        lom_float added = lom_water_added(m->absorption[i], m->source[i], m->slant, sun[i], l, down);
+        if (u->multiplies || !lom_all(fall <= 0.0f))
+            left = lom_water_left(fall);
+        lom_float dark = left * 0.0f + added;
+        light[i] = u->multiplies ? left + added - dark : dark;
+    }
+    return (lom_float3){ light[0], light[1], light[2] };
+}
+
+static lom_float3 light_through(const struct lom_underwater_uniforms *u, const lom_varyings *in)
 {
     lom_float a = 2.0f * in->x * u->pixel[0] - 1.0f, b = 1.0f - 2.0f * in->y * u->pixel[1];
     lom_float3 start = { { 0 }, { 0 }, { 0 } };
@@ -48,17 +61,12 @@ static struct column water_before(const struct lom_underwater_uniforms *u, const
     lom_mask rises = down < -1e-6f;
     lom_float leave = (depth + u->highest) / lom_select(rises, -down, lom_splat(1.0f));
     length = lom_select(rises, lom_min(length, leave), length);
-    return cross(&u->medium, length, depth, down);
+    return light_of(u, length, depth, down);
 }
 
-/* Of no light and of a light of 1 that went in: what comes out of the one, and how much more out of the other. */
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
-    const struct lom_underwater_uniforms *u = uniforms;
-    const struct column water = water_before(u, in);
-    lom_float3 color = lom_add3(lom_scale3(water.left, lom_splat(0.0f)), water.added);
-    if (u->multiplies)
-        color = lom_sub3(lom_add3(water.left, water.added), color);
+    lom_float3 color = light_through(uniforms, in);
     out->color[0] = (lom_float4){ color.x, color.y, color.z, lom_splat(1.0f) };
 }
 

@@ -17,19 +17,37 @@ struct lom_crossed {
     lom_float left, added;
 };
 
+/* The exponent of what is left. */
+LOM_INLINE lom_float lom_water_fall(float a, float slant, lom_float length, lom_float depth, lom_float down)
+{
+    lom_float bed = lom_max(depth + down * length, (lom_float){ 0 });
+    return -a * (length + slant * bed);
+}
+
 /* Where all lanes look far, as over water without a bed, both exponentials are known: from 105 on lom_expm1(-x) is -1, and
  * from 87 on lom_fade(-x) is 0. */
-LOM_INLINE struct lom_crossed lom_through_water(float a, float source, float slant, lom_float sun, lom_float length,
-                                                lom_float depth, lom_float down)
+LOM_INLINE lom_float lom_water_left(lom_float fall)
+{
+    lom_float left = { 0 };
+    if (!lom_all(fall <= -87.0f))
+        left = lom_fade(fall);
+    return left;
+}
+
+LOM_INLINE lom_float lom_water_added(float a, float source, float slant, lom_float sun, lom_float length,
+                                     lom_float down)
 {
     lom_float rate = 1.0f + slant * down, exponent = a * length * rate, inner = 1.0f / rate;
     if (!lom_all(exponent >= 105.0f))
         inner = lom_select(lom_abs(exponent) > 1e-4f, -lom_expm1(-exponent) / rate, a * length);
-    lom_float bed = lom_max(depth + down * length, (lom_float){ 0 });
-    lom_float fall = -a * (length + slant * bed), left = { 0 };
-    if (!lom_all(fall <= -87.0f))
-        left = lom_fade(fall);
-    return (struct lom_crossed){ left, source * sun * inner };
+    return source * sun * inner;
+}
+
+LOM_INLINE struct lom_crossed lom_through_water(float a, float source, float slant, lom_float sun, lom_float length,
+                                                lom_float depth, lom_float down)
+{
+    return (struct lom_crossed){ lom_water_left(lom_water_fall(a, slant, length, depth, down)),
+                                 lom_water_added(a, source, slant, sun, length, down) };
 }
 
 /* From the surface down, when `beyond` went in at the other end. */
