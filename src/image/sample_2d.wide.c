@@ -20,7 +20,10 @@ SAMPLE_EVERY_STORAGE(static void sample_generally, lom_float2, sample_as)
 #define SAMPLE_PLAIN(function, storage, srgb)                                                                          \
     static void function(const lom_texture *texture, const lom_float2 *at, const lom_float *lod, lom_float4 *out)      \
     {                                                                                                                  \
-        if (!sample_plain(texture, storage, srgb, at, lod, out))                                                       \
+        sample_spot spot;                                                                                              \
+        if (sample_find_spot(texture, at, lod, &spot))                                                                 \
+            *out = sample_at_spot(texture, storage, srgb, &spot);                                                      \
+        else                                                                                                           \
             sample_generally(texture, at, lod, out);                                                                   \
     }
 SAMPLE_PLAIN(plain_rgba8, LOM_STORAGE_RGBA8, false)

@@ -228,9 +228,14 @@ static void compare_with_definition(const lom_texture *t, int packets, uint64_t 
             at.z[i] = coordinate(key, counter + 2);
             lod[i] = (float)(lom_random_uniform(key + 1, counter) * (t->level_count + 2) - 1.5);
         }
-        if ((n & 1) != 0) /* all lanes within a level, as near a large triangle; a sixteenth of them exactly at it */
+        /* half the packets within a level, as near a large triangle, a sixteenth of them exactly at it; a quarter in one of
+         * two neighbouring levels, as of small triangles; the others in any */
+        if ((n & 1) != 0)
             lod = lom_splat(floorf(lod[0]) + (n % 16 == 1 ? 0 : 0.75f)) +
                   lom_select(at.x > 0.3f, lom_splat(0.125f), (lom_float){ 0 });
+        else if (n % 4 == 0)
+            lod = lom_splat(floorf(lod[0])) + lom_select(at.x > 0.3f, lom_splat(1), (lom_float){ 0 }) +
+                  lom_select(at.y > 0.7f, lom_splat(0.625f), (lom_float){ 0 });
         lom_float4 got = sample(t, at, lod);
         for (int i = 0; i < LOM_LANES; i++) {
             float want[4], place[3] = { at.x[i], at.y[i], at.z[i] };
