@@ -14,7 +14,7 @@ LOM_INLINE lom_float sample_bounded(lom_float square)
 LOM_INLINE void sample_squares(const lom_texture *texture, const lom_float derivative[4], lom_float *along_x,
                                lom_float *along_y)
 {
-    float width = (float)texture->level[0].width, height = (float)texture->level[0].height;
+    float width = texture->row[0].width, height = texture->row[0].height;
     lom_float sx = derivative[0] * width, tx = derivative[1] * height;
     lom_float sy = derivative[2] * width, ty = derivative[3] * height;
     *along_x = sample_bounded(sx * sx + tx * tx);
@@ -29,6 +29,14 @@ LOM_INLINE lom_float sample_half_log2(lom_float square)
     lom_float m = lom_as_float((bits & 0x7fffff) | 0x3f800000);
     lom_float q = ((-0.04487395526f * m + 0.2851550624f) * m - 0.7052662739f) * m + 0.9074037454f;
     return (exponent + (m - 1.0f) * (1.0f + (2.0f - m) * q)) * 0.5f;
+}
+
+/* lom_lod_of */
+LOM_INLINE lom_float sample_lod(const lom_texture *texture, const lom_float derivative[4])
+{
+    lom_float along_x, along_y;
+    sample_squares(texture, derivative, &along_x, &along_y);
+    return sample_half_log2(lom_max(along_x, along_y));
 }
 
 #endif

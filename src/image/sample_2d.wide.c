@@ -126,9 +126,7 @@ void LOM_WIDE(lom_fetch_lanes)(const lom_texture *texture, const lom_int *x, con
 
 void LOM_WIDE(lom_lod_lanes)(const lom_texture *texture, const lom_float derivative[4], lom_float *lod)
 {
-    lom_float along_x, along_y;
-    sample_squares(texture, derivative, &along_x, &along_y);
-    *lod = sample_half_log2(lom_max(along_x, along_y));
+    *lod = sample_lod(texture, derivative);
 }
 
 /* ---- the four texels of a linear filter, not mixed ---- */
