@@ -124,7 +124,7 @@ cli_sources  := $(filter src/cli/%,$(sources))
 measure_sources := $(filter src/measure/%,$(sources))
 wide_sources := $(filter %.wide.c,$(filter-out src/cli/% src/measure/%,$(sources)))
 # What no shader calls: no pixel is explained by it.
-unrecorded   := $(filter src/waves/fft% src/waves/sea_step% src/march/light_grid% src/cloud/detail_noise% src/cloud/shape%,$(wide_sources))
+unrecorded   := $(filter src/waves/fft% src/waves/sea_step% src/march/light_grid% src/cloud/detail_noise% src/cloud/shape% src/render/tone%,$(wide_sources))
 lib_sources  := $(filter-out %.wide.c src/cli/% src/measure/%,$(sources))
 objects_of   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %.wide.c,$(1))) $(foreach v,$(VARIANTS),$(patsubst %.wide.c,$(BUILD)/%.w$(v).o,$(filter %.wide.c,$(1))))
 lib_objects     := $(call objects_of,$(lib_sources) $(wide_sources)) \

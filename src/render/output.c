@@ -2,6 +2,8 @@
  * with exposure and curve (tone.h), encoded once. */
 #include "image/convert.h"
 #include "image/texture.h"
+#include "lanes/variants.h"
+#include "pipeline/device.h"
 #include "pipeline/share_work.h"
 #include "render/targets.h"
 #include "render/tone.h"
@@ -90,15 +92,39 @@ lom_format lom_format_of_output(const lom_output *output)
     return output->transfer == LOM_TRANSFER_SRGB ? LOM_FORMAT_RGB8_SRGB : LOM_FORMAT_RGB8;
 }
 
-/* A row that was drawn in 8 bits: it is encoded already. */
-static void copy_row(const uint32_t *restrict from, int count, lom_pixel_order order, uint8_t *restrict to)
+/* Pixels in 8 bits, encoded already; where the next one is to be. */
+static uint8_t *copy_row(const uint32_t *restrict from, int count, lom_pixel_order order, uint8_t *restrict to)
 {
     for (int i = 0; i < count; i++)
         to = put_texel(from[i], order, to);
+    return to;
+}
+
+typedef void encode_light(const struct lom_tone *tone, bool srgb, const float *light, size_t count, uint32_t *texels);
+#define DECLARE(name, variant) encode_light lom_encode_light_##variant;
+#define ENTRY(name, variant)   [LOM_SLOT_##variant] = lom_encode_light_##variant,
+LOM_EACH_VARIANT(DECLARE, )
+static encode_light *const encoders[LOM_VARIANTS] = { LOM_EACH_VARIANT(ENTRY, ) };
+
+/* A row of four floats a pixel to 8 bits: whole packets of any width by lanes, the rest as it is defined. */
+static void encode_bytes(const struct encoding *e, encode_light *by_lanes, const float *linear, int count, uint8_t *row)
+{
+    enum { PACKET = 16, PIXELS = 8 * PACKET };
+    const bool srgb = e->output->transfer == LOM_TRANSFER_SRGB;
+    uint32_t texels[PIXELS];
+    while (count >= PACKET) {
+        const int pixels = count < PIXELS ? count / PACKET * PACKET : PIXELS;
+        by_lanes(&e->tone, srgb, linear, (size_t)pixels, texels);
+        row = copy_row(texels, pixels, e->order, row);
+        linear += 4 * pixels;
+        count -= pixels;
+    }
+    encode_row(e, linear, 4, count, row);
 }
 
 struct writing {
     struct encoding encoding;
+    encode_light *by_lanes;
     const lom_texture *drawn;
     lom_rect asked;
     uint8_t *pixels;
@@ -109,13 +135,15 @@ static void write_rows(void *context, size_t first, size_t end)
 {
     const struct writing *w = context;
     const int width = w->asked.width;
-    const bool floats = w->encoding.output->format != LOM_OUTPUT_RGB8 || w->encoding.is_toned;
     for (size_t y = first; y < end; y++) {
         const void *from = lom_texel(w->drawn, 0, w->asked.x, w->asked.y + (int)y, 0);
-        if (floats)
-            encode_row(&w->encoding, from, 4, width, w->pixels + y * w->pitch);
+        uint8_t *to = w->pixels + y * w->pitch;
+        if (w->encoding.output->format != LOM_OUTPUT_RGB8)
+            encode_row(&w->encoding, from, 4, width, to);
+        else if (w->encoding.is_toned)
+            encode_bytes(&w->encoding, w->by_lanes, from, width, to);
         else
-            copy_row(from, width, w->encoding.order, w->pixels + y * w->pitch);
+            copy_row(from, width, w->encoding.order, to);
     }
 }
 
@@ -123,8 +151,12 @@ void lom_output_rows(const lom_scene *scene, lom_device *device, const struct lo
                      lom_pixel_order order, void *pixels, size_t pitch)
 {
     enum { ROWS = 16 };
-    struct writing writing = { encoding_of(&scene->output, order), targets->of[LOM_TARGET_COLOR], targets->asked,
-                               pixels, pitch };
+    struct writing writing = { encoding_of(&scene->output, order),
+                               encoders[device->variant],
+                               targets->of[LOM_TARGET_COLOR],
+                               targets->asked,
+                               pixels,
+                               pitch };
     lom_share_work(device, (size_t)targets->asked.height, ROWS, write_rows, &writing);
 }
 
