@@ -6,15 +6,23 @@
 
 #include <lom/lanes.h>
 
-/* Mixes three lattice lines and a seed; the finalizer is Ettinger's (three multiplications of full avalanche). */
-LOM_INLINE lom_uint lom_hash_cell(lom_int x, lom_int y, lom_int z, uint32_t seed)
+/* What a lattice line along each axis puts into the hash of a cell, and that of a cell whose lines and seed are put together
+ * by exclusive or; the finalizer is Ettinger's (three multiplications of full avalanche). */
+static const uint32_t lom_lattice[3] = { 0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du };
+
+LOM_INLINE lom_uint lom_finish_hash(lom_uint h)
 {
-    lom_uint h = (lom_uint)x * 0x9e3779b1u ^ (lom_uint)y * 0x85ebca77u ^ (lom_uint)z * 0xc2b2ae3du ^ seed;
     h ^= h >> 16;
     h *= 0x21f0aaadu;
     h ^= h >> 15;
     h *= 0x735a2d97u;
     return h ^ h >> 15;
+}
+
+LOM_INLINE lom_uint lom_hash_cell(lom_int x, lom_int y, lom_int z, uint32_t seed)
+{
+    return lom_finish_hash((lom_uint)x * lom_lattice[0] ^ (lom_uint)y * lom_lattice[1] ^ (lom_uint)z * lom_lattice[2] ^
+                           seed);
 }
 
 /* Ten bits as a number in [-1, 1]. */
@@ -52,20 +60,54 @@ LOM_INLINE lom_float lom_gradient_noise(lom_float3 p, int32_t mask, uint32_t see
     return lom_mix(lom_mix(row[0], row[1], v), lom_mix(row[2], row[3], v), lom_fade(f.z)) * 1.3f;
 }
 
-/* Distance to the nearest of the lattice's points, one a cell, in cells. */
+/* Along one axis, of the cell before that of a place, its own and the one after it: what their lines put into a hash, where
+ * they begin as the place sees it, and how far apart a point of theirs is at least, squared. A point is at most `most` from
+ * where its cell begins and every operation that finds its distance rounds monotonously, so no rounding undercuts that. */
+struct lom_cell_lines {
+    lom_uint line[3];
+    lom_float begin[3], away[3];
+};
+
+LOM_INLINE struct lom_cell_lines lom_find_cell_lines(lom_float at, int32_t mask, uint32_t lattice)
+{
+    const float most = 1023.0f * (1 / 1023.0f);
+    const lom_float below = lom_floor(at), inside = at - below;
+    const lom_int cell = lom_to_int(below);
+    struct lom_cell_lines l;
+    for (int i = 0; i < 3; i++) {
+        l.line[i] = (lom_uint)((cell + (i - 1)) & mask) * lattice;
+        l.begin[i] = (float)(i - 1) - inside;
+    }
+    const lom_float before = lom_max(-(most + l.begin[0]), (lom_float){ 0 });
+    const lom_float after = lom_max(l.begin[2], (lom_float){ 0 });
+    l.away[0] = before * before;
+    l.away[1] = (lom_float){ 0 };
+    l.away[2] = after * after;
+    return l;
+}
+
+/* Distance to the nearest of the lattice's points, one a cell, in cells. Of the 27 cells about a place those along x are
+ * passed over where in no lane any of them can have a nearer point; rows that lie nearer come first. */
 LOM_INLINE lom_float lom_cellular_noise(lom_float3 p, int32_t mask, uint32_t seed)
 {
-    lom_float3 below = { lom_floor(p.x), lom_floor(p.y), lom_floor(p.z) };
-    lom_int x = lom_to_int(below.x), y = lom_to_int(below.y), z = lom_to_int(below.z);
-    lom_float3 f = lom_sub3(p, below);
+    static const uint8_t rows[9][2] = { { 1, 1 }, { 0, 1 }, { 2, 1 }, { 1, 0 }, { 1, 2 },
+                                        { 0, 0 }, { 2, 0 }, { 0, 2 }, { 2, 2 } };
+    const struct lom_cell_lines x = lom_find_cell_lines(p.x, mask, lom_lattice[0]);
+    const struct lom_cell_lines y = lom_find_cell_lines(p.y, mask, lom_lattice[1]);
+    const struct lom_cell_lines z = lom_find_cell_lines(p.z, mask, lom_lattice[2]);
     lom_float nearest = lom_splat(9.0f);
-    for (int i = 0; i < 27; i++) {
-        int a = i % 3 - 1, b = i / 3 % 3 - 1, c = i / 9 - 1;
-        lom_uint h = lom_hash_cell((x + a) & mask, (y + b) & mask, (z + c) & mask, seed);
-        lom_float dx = lom_to_float((lom_int)(h & 1023u)) * (1 / 1023.0f) + ((float)a - f.x);
-        lom_float dy = lom_to_float((lom_int)(h >> 10 & 1023u)) * (1 / 1023.0f) + ((float)b - f.y);
-        lom_float dz = lom_to_float((lom_int)(h >> 20 & 1023u)) * (1 / 1023.0f) + ((float)c - f.z);
-        nearest = lom_min(nearest, dx * dx + dy * dy + dz * dz);
+    for (int i = 0; i < 9; i++) {
+        const int b = rows[i][0], c = rows[i][1];
+        if (!lom_any(y.away[b] + z.away[c] < nearest))
+            continue;
+        const lom_uint lines = y.line[b] ^ z.line[c] ^ seed;
+        for (int a = 0; a < 3; a++) {
+            const lom_uint h = lom_finish_hash(x.line[a] ^ lines);
+            lom_float dx = lom_to_float((lom_int)(h & 1023u)) * (1 / 1023.0f) + x.begin[a];
+            lom_float dy = lom_to_float((lom_int)(h >> 10 & 1023u)) * (1 / 1023.0f) + y.begin[b];
+            lom_float dz = lom_to_float((lom_int)(h >> 20 & 1023u)) * (1 / 1023.0f) + z.begin[c];
+            nearest = lom_min(nearest, dx * dx + dy * dy + dz * dz);
+        }
     }
     return lom_sqrt(nearest);
 }

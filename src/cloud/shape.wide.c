@@ -16,15 +16,51 @@ static lom_float3 slow_noise(lom_float3 p, float size, uint32_t seed)
                          lom_gradient_octaves(q, 2, -1, seed + 202) };
 }
 
-/* Metres inside the union of the bubbles; negative outside. */
-static lom_float depth_inside(const struct lom_cloud_body *body, lom_float3 p)
+/* Bubbles of a body: those that a row of voxels comes near, and all. */
+struct bubbles {
+    int near_count, count;
+    const struct lom_cloud_bubble *near[LOM_MAX_BUBBLES], *all[LOM_MAX_BUBBLES];
+};
+
+/* From how far outside of its bubbles on warp, billows and softness leave nothing of a body. */
+static float reach_of(const struct lom_cloud_body *body)
+{
+    return body->billow + body->softness + body->warp;
+}
+
+/* The square of a distance, as a bubble has it, from which on its surface is more than `outside` away: a thousandth is more
+ * than what is rounded. */
+static float square_of_reach(const struct lom_cloud_bubble *b, float outside)
+{
+    const float reach = 1.001f * (b->radius + outside * b->flatness);
+    return reach * reach;
+}
+
+static void find_bubbles(const struct lom_cloud_body *body, float y, float z, struct bubbles *found)
+{
+    const float reach = reach_of(body);
+    found->near_count = 0;
+    found->count = body->bubble_count;
+    for (int i = 0; i < body->bubble_count; i++) {
+        const struct lom_cloud_bubble *b = found->all[i] = &body->bubble[i];
+        const float dy = (y - b->y) * b->flatness, dz = z - b->z;
+        if (dy * dy + dz * dz < square_of_reach(b, reach))
+            found->near[found->near_count++] = b;
+    }
+}
+
+/* Metres inside the union of the bubbles; negative outside. Where it would be less than -outside it may be any number that
+ * is. */
+static lom_float depth_inside(const struct lom_cloud_bubble *const *bubbles, int count, lom_float3 p, float outside)
 {
     lom_float depth = lom_splat(-1e9f);
-    for (int i = 0; i < body->bubble_count; i++) {
-        const struct lom_cloud_bubble *b = &body->bubble[i];
+    for (int i = 0; i < count; i++) {
+        const struct lom_cloud_bubble *b = bubbles[i];
         lom_float dx = p.x - b->x, dy = (p.y - b->y) * b->flatness, dz = p.z - b->z;
-        lom_float distance = lom_sqrt(dx * dx + dy * dy + dz * dz);
-        depth = lom_max(depth, (b->radius - distance) * (1 / b->flatness));
+        lom_float square = dx * dx + dy * dy + dz * dz;
+        if (!lom_any(square < square_of_reach(b, outside)))
+            continue;
+        depth = lom_max(depth, (b->radius - lom_sqrt(square)) * (1 / b->flatness));
     }
     return depth;
 }
@@ -53,19 +89,28 @@ static lom_float anvil_density(const struct lom_cloud_shape *shape, lom_float3 p
            lom_smoothstep((lom_float){ 0 }, lom_splat(0.5f), rim) * (0.45f + 0.55f * inner);
 }
 
+/* How far billows swell, in parts of `billow`: their noise is at most 1 and at least 1 - sqrt 3, so this is between -2.61 and
+ * 1.22. What lies further outside than that is empty, and further inside than that and the soft edge full. */
+static lom_float swell(const struct lom_cloud_body *body, lom_float3 p, uint32_t seed)
+{
+    return 2.2f * (lom_billow_octaves(lom_scale3(p, lom_splat(1 / body->billow_size)), 5, -1, seed) - 0.45f);
+}
+
 /* The tower alone. */
-static lom_float heap_density(const struct lom_cloud_shape *shape, lom_float3 p)
+static lom_float heap_density(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
 {
     const struct lom_cloud_body *body = shape->body;
-    float reach = body->billow + body->softness + body->warp;
-    lom_float depth = depth_inside(body, p);
+    float reach = reach_of(body);
+    lom_float depth = depth_inside(bubbles->near, bubbles->near_count, p, reach);
     if (!lom_any((depth > -reach) & (p.y > body->base - body->base_depth)))
         return (lom_float){ 0 };
     if (lom_any(depth < reach)) {
         lom_float3 moved = lom_add3(p, lom_scale3(slow_noise(p, body->warp_size, shape->seed), lom_splat(body->warp)));
-        lom_float3 q = lom_scale3(moved, lom_splat(1 / body->billow_size));
-        lom_float billow = lom_billow_octaves(q, 5, -1, shape->seed + 7);
-        depth = depth_inside(body, moved) + body->billow * (2.2f * (billow - 0.45f));
+        depth = depth_inside(bubbles->all, bubbles->count, moved, 1.25f * body->billow);
+        if (!lom_any(depth > -1.25f * body->billow))
+            return (lom_float){ 0 };
+        if (lom_any(depth < body->softness + 2.7f * body->billow))
+            depth += body->billow * swell(body, moved, shape->seed + 7);
     }
     lom_float density = lom_smoothstep((lom_float){ 0 }, lom_splat(body->softness), depth);
     lom_float3 flat = { p.x, { 0 }, p.z };
@@ -77,9 +122,9 @@ static lom_float heap_density(const struct lom_cloud_shape *shape, lom_float3 p)
     return density * lom_mix(lom_splat(body->thin), lom_splat(1.0f), height);
 }
 
-static lom_float body_density(const struct lom_cloud_shape *shape, lom_float3 p)
+static lom_float body_density(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
 {
-    return lom_max(heap_density(shape, p), anvil_density(shape, p));
+    return lom_max(heap_density(shape, bubbles, p), anvil_density(shape, p));
 }
 
 static lom_float layer_density(const struct lom_cloud_shape *shape, lom_float3 p)
@@ -120,6 +165,9 @@ void LOM_WIDE(lom_shape_row)(uint16_t *row, const struct lom_cloud_shape *shape,
     float share = shape->layer != NULL ? 0.14f : 0.03f;
     float inner_y = ((float)y + 0.5f) / (float)n[1], inner_z = ((float)z + 0.5f) / (float)n[2];
     bool outermost = (y == 0 || y == n[1] - 1 || z == 0 || z == n[2] - 1) && n[1] > 2 && n[2] > 2;
+    struct bubbles bubbles;
+    if (shape->body != NULL)
+        find_bubbles(shape->body, inner_y * shape->size[1], inner_z * shape->size[2], &bubbles);
     for (int x = 0; x < n[0]; x += LOM_LANES) {
         lom_int voxel = lom_lane_index() + x;
         lom_float inner_x = (lom_to_float(voxel) + 0.5f) / (float)n[0];
@@ -127,7 +175,7 @@ void LOM_WIDE(lom_shape_row)(uint16_t *row, const struct lom_cloud_shape *shape,
         if (!outermost) {
             lom_float3 p = { inner_x * shape->size[0], lom_splat(inner_y * shape->size[1]),
                              lom_splat(inner_z * shape->size[2]) };
-            density = shape->body != NULL ? body_density(shape, p) : layer_density(shape, p);
+            density = shape->body != NULL ? body_density(shape, &bubbles, p) : layer_density(shape, p);
             density = density * (border(inner_x, share) * border(lom_splat(inner_z), share));
             density = lom_select((voxel == 0) | (voxel == n[0] - 1), (lom_float){ 0 }, density);
         }
