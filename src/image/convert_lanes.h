@@ -22,7 +22,7 @@ LOM_INLINE lom_int lom_unorm_of_unit_lanes(lom_float c, float largest)
 #if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
     enum { TO_ZERO = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC };
     __m512 p = _mm512_mul_round_ps((__m512)c, _mm512_set1_ps(largest), TO_ZERO);
-    return (lom_int)_mm512_cvttps_epi32(_mm512_add_round_ps(p, _mm512_set1_ps(0.5f), TO_ZERO));
+    return lom_bounded_to_int((lom_float)_mm512_add_round_ps(p, _mm512_set1_ps(0.5f), TO_ZERO));
 #else
     lom_int q = lom_bounded_to_int(c * largest);
     lom_float a = c * (largest + 1.0f) - lom_to_float(q);
