@@ -22,7 +22,8 @@ struct bubbles {
     const struct lom_cloud_bubble *near[LOM_MAX_BUBBLES], *all[LOM_MAX_BUBBLES];
 };
 
-/* From how far outside of its bubbles on warp, billows and softness leave nothing of a body. */
+/* How far from the surface of its bubbles, to both sides, warp, billows and softness are felt; beyond it there is nothing, or all of
+ * a body. */
 static float reach_of(const struct lom_cloud_body *body)
 {
     return body->billow + body->softness + body->warp;
@@ -96,22 +97,34 @@ static lom_float swell(const struct lom_cloud_body *body, lom_float3 p, uint32_t
     return 2.2f * (lom_billow_octaves(lom_scale3(p, lom_splat(1 / body->billow_size)), 5, -1, seed) - 0.45f);
 }
 
-/* The tower alone. */
+/* The depth of the place that slow noise moves p to, and what billows add to it; where that is no body any number below 0,
+ * where it is full any that is as deep. */
+static lom_float displaced_depth(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
+{
+    const struct lom_cloud_body *body = shape->body;
+    const lom_float3 moved =
+        lom_add3(p, lom_scale3(slow_noise(p, body->warp_size, shape->seed), lom_splat(body->warp)));
+    const lom_float depth = depth_inside(bubbles->all, bubbles->count, moved, 1.25f * body->billow);
+    if (!lom_any(depth > -1.25f * body->billow))
+        return lom_splat(-1e9f);
+    if (!lom_any(depth < body->softness + 2.7f * body->billow))
+        return depth;
+    return depth + body->billow * swell(body, moved, shape->seed + 7);
+}
+
+/* The tower alone. Noise may move a place further than `warp`, so beyond the reach it is a lane's own depth that decides, whatever
+ * its neighbours need. */
 static lom_float heap_density(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
 {
     const struct lom_cloud_body *body = shape->body;
     float reach = reach_of(body);
     lom_float depth = depth_inside(bubbles->near, bubbles->near_count, p, reach);
-    if (!lom_any((depth > -reach) & (p.y > body->base - body->base_depth)))
+    const lom_mask near = (depth > -reach) & (p.y > body->base - body->base_depth);
+    if (!lom_any(near))
         return (lom_float){ 0 };
-    if (lom_any(depth < reach)) {
-        lom_float3 moved = lom_add3(p, lom_scale3(slow_noise(p, body->warp_size, shape->seed), lom_splat(body->warp)));
-        depth = depth_inside(bubbles->all, bubbles->count, moved, 1.25f * body->billow);
-        if (!lom_any(depth > -1.25f * body->billow))
-            return (lom_float){ 0 };
-        if (lom_any(depth < body->softness + 2.7f * body->billow))
-            depth += body->billow * swell(body, moved, shape->seed + 7);
-    }
+    if (lom_any(near & (depth < reach)))
+        depth = lom_select(depth < reach, displaced_depth(shape, bubbles, p), depth);
+    depth = lom_select(near, depth, lom_splat(-1e9f));
     lom_float density = lom_smoothstep((lom_float){ 0 }, lom_splat(body->softness), depth);
     lom_float3 flat = { p.x, { 0 }, p.z };
     lom_float uneven =

@@ -89,21 +89,20 @@ static lom_float plain_border(lom_float at)
     return lom_smoothstep((lom_float){ 0 }, lom_splat(0.03f), 0.5f - lom_abs(at - 0.5f));
 }
 
+/* A voxel at a time: what lies in a packet beside it makes no difference. */
 static void plain_row(uint16_t *row, const struct lom_cloud_shape *shape, int y, int z)
 {
     const int *n = shape->voxels;
     const float inner_y = ((float)y + 0.5f) / (float)n[1], inner_z = ((float)z + 0.5f) / (float)n[2];
     const bool is_outermost = y == 0 || y == n[1] - 1 || z == 0 || z == n[2] - 1;
-    for (int x = 0; x < n[0]; x += LOM_LANES) {
-        const lom_int voxel = lom_lane_index() + x;
-        const lom_float inner_x = (lom_to_float(voxel) + 0.5f) / (float)n[0];
+    for (int x = 0; x < n[0]; x++) {
+        const lom_float inner_x = lom_splat(((float)x + 0.5f) / (float)n[0]);
         const lom_float3 p = { inner_x * shape->size[0], lom_splat(inner_y * shape->size[1]),
                                lom_splat(inner_z * shape->size[2]) };
         const lom_float edge = plain_border(inner_x) * plain_border(lom_splat(inner_z));
         const lom_float density = lom_max(plain_heap(shape, p), (lom_float){ 0 }) * edge;
         const lom_int words = lom_to_int(lom_saturate(density) * 65535.0f + 0.5f);
-        for (int i = 0; i < LOM_LANES && x + i < n[0]; i++)
-            row[x + i] = is_outermost || x + i == 0 || x + i == n[0] - 1 ? 0 : (uint16_t)words[i];
+        row[x] = is_outermost || x == 0 || x == n[0] - 1 ? 0 : (uint16_t)words[0];
     }
 }
 
@@ -142,21 +141,22 @@ static void cellular_noise_is_that_of_all_cells(void)
     }
 }
 
-static struct lom_cloud_body random_body(const float size[3])
+/* Warped more than it is soft, and steep, noise carries places through all of the reach. */
+static struct lom_cloud_body random_body(const float size[3], bool warped)
 {
     struct lom_cloud_body body = { .bubble_count = 1 + (int)random_float(0, 60),
                                    .base = random_float(0, 0.3f) * size[1],
                                    .base_depth = random_float(10, 60),
-                                   .billow = random_float(0, 120),
+                                   .billow = random_float(0, warped ? 3 : 120),
                                    .billow_size = random_float(60, 300),
-                                   .warp = random_float(0, 120),
-                                   .warp_size = random_float(100, 500),
-                                   .softness = random_float(10, 120),
+                                   .warp = warped ? random_float(50, 200) : random_float(0, 120),
+                                   .warp_size = warped ? random_float(400, 1500) : random_float(100, 500),
+                                   .softness = warped ? random_float(1, 20) : random_float(10, 120),
                                    .thin = random_float(0.2f, 1) };
     for (int i = 0; i < body.bubble_count; i++)
         body.bubble[i] =
             (struct lom_cloud_bubble){ random_float(0, size[0]), random_float(0, size[1]), random_float(0, size[2]),
-                                       random_float(5, 300), random_float(0.5f, 3) };
+                                       random_float(5, 300), random_float(warped ? 0.3f : 0.5f, warped ? 0.6f : 3) };
     return body;
 }
 
@@ -170,7 +170,7 @@ static void rows_are_those_of_all_bubbles_and_billows(void)
                                          .size = { random_float(300, 2000), random_float(200, 900),
                                                    random_float(300, 2000) },
                                          .seed = k };
-        const struct lom_cloud_body body = random_body(shape.size);
+        const struct lom_cloud_body body = random_body(shape.size, k % 2 == 1);
         shape.body = &body;
         for (int y = 0; y < Y; y++)
             for (int z = (int)k % 3; z < Z; z += 3) {
