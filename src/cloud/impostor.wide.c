@@ -47,13 +47,14 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     const struct lom_impostor_uniforms *impostor = uniforms;
     lom_float4 texel = lom_sample(impostor->plate, in->varying[S], in->varying[T], (lom_float){ 0 });
     lom_float factor = lom_splat(impostor->misting);
-    if (impostor->cloud.depth != NULL && lom_any((texel.w > 0.0f) & in->covered)) {
+    const lom_mask seen = texel.w > 0.0f;
+    if (impostor->cloud.depth != NULL && lom_any(seen & in->covered)) {
         lom_float part = shown_part(&impostor->cloud, in);
         if (lom_any(part < 1.0f)) {
             lom_float left = lom_max(1.0f - texel.w, lom_splat(1e-6f));
             lom_float alpha = 1.0f - lom_exp(part * lom_log(left));
             lom_float cut = lom_saturate(alpha / lom_max(texel.w, lom_splat(1e-6f)));
-            factor = factor * lom_select(part < 1.0f, cut, lom_splat(1.0f));
+            factor = factor * lom_select(seen & (part < 1.0f), cut, lom_splat(1.0f));
         }
     }
     out->color[0] = (lom_float4){ texel.x * factor, texel.y * factor, texel.z * factor, texel.w * factor };

@@ -31,7 +31,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
     const lom_medium *m = desc->medium;
     lom_medium_result sum = { .transmittance = lom_splat(1.0f) };
     lom_float step = step_of(desc, rays);
-    lom_float per_cell = steps_per_cell(m, rays, step);
+    const struct cell_walk walk = walk_cells(m, rays, step);
     lom_mask alive = rays->active;
     LOM_NOTE(LOM_NOTE_RAY, m, rays->enter, rays->leave, step);
     lom_float first = rays->enter + (rays->shift - 1.0f) * step;
@@ -49,7 +49,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
         lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, middle));
         lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
         if (was_empty && !desc->walk) {
-            int empty = empty_steps(m, &place, alive, per_cell);
+            int empty = empty_steps(m, &place, alive, &walk);
             if (empty != 0) {
                 i += empty - 1;
                 continue;
@@ -90,7 +90,7 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
     lom_float sum = { 0 };
     lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
     const lom_medium *m = desc->medium;
-    lom_float per_cell = steps_per_cell(m, rays, step);
+    const struct cell_walk walk = walk_cells(m, rays, step);
     bool was_empty = true;
     LOM_NOTE(LOM_NOTE_RAY, desc->medium, rays->enter, rays->leave, step);
     for (int i = 0; i < steps && lom_any(rays->active); i++) {
@@ -98,7 +98,7 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
         lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, at));
         lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
         if (was_empty && !desc->walk) {
-            int empty = empty_steps(m, &place, rays->active, per_cell);
+            int empty = empty_steps(m, &place, rays->active, &walk);
             if (empty != 0) {
                 i += empty - 1;
                 continue;

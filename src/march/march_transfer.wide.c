@@ -98,11 +98,11 @@ static lom_float3 light_at(const lom_medium_desc *desc, const lom_transfer_desc 
 
 /* How many steps from the one that ends at `high` on lie between values of 0. */
 static int skipped_steps(const lom_medium_rays *rays, const lom_medium *m, lom_float high, lom_mask alive,
-                         lom_float per_cell)
+                         const struct cell_walk *walk)
 {
     lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, high));
     lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
-    return empty_steps(m, &place, alive, per_cell);
+    return empty_steps(m, &place, alive, walk);
 }
 
 /* Adds what a step sends: `seen` is its mean of the transfer function, `share` of the pixel. */
@@ -120,7 +120,7 @@ void LOM_WIDE(lom_march_transfer)(lom_transfer_result *out, const lom_medium_ray
 {
     lom_transfer_result sum = { .transmittance = lom_splat(1.0f) };
     const lom_float step = step_of(medium, rays), first = rays->enter + (rays->shift - 1.0f) * step;
-    const lom_float per_cell = steps_per_cell(medium->medium, rays, step);
+    const struct cell_walk walk = walk_cells(medium->medium, rays, step);
     const bool skips = !medium->walk && desc->transfer->empty_is_clear;
     lom_mask alive = rays->active;
     LOM_NOTE(LOM_NOTE_RAY, medium->medium, rays->enter, rays->leave, step);
@@ -134,7 +134,7 @@ void LOM_WIDE(lom_march_transfer)(lom_transfer_result *out, const lom_medium_ray
         if (!lom_any(alive))
             break;
         if (skips && !lom_any((front > 0.0f) & alive)) {
-            int empty = skipped_steps(rays, medium->medium, high, alive, per_cell);
+            int empty = skipped_steps(rays, medium->medium, high, alive, &walk);
             if (empty != 0) {
                 i += empty - 1;
                 continue;
@@ -170,14 +170,15 @@ void LOM_WIDE(lom_transfer_depth)(lom_float *depth, const lom_medium_rays *rays,
                                   const lom_transfer_function *transfer, int steps)
 {
     const lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
-    const lom_float per_cell = steps_per_cell(medium->medium, rays, step), far = lom_splat(3e38f);
+    const struct cell_walk walk = walk_cells(medium->medium, rays, step);
+    const lom_float far = lom_splat(3e38f);
     const bool skips = !medium->walk && transfer->empty_is_clear;
     LOM_NOTE(LOM_NOTE_RAY, medium->medium, rays->enter, rays->leave, step);
     lom_float sum = { 0 }, front = value_at(rays, medium, rays->enter, far);
     for (int i = 0; i < steps && lom_any(rays->active); i++) {
         lom_float at = rays->enter + step * (float)(i + 1);
         if (skips && !lom_any((front > 0.0f) & rays->active)) {
-            int empty = skipped_steps(rays, medium->medium, at, rays->active, per_cell);
+            int empty = skipped_steps(rays, medium->medium, at, rays->active, &walk);
             if (empty != 0) {
                 i += empty - 1;
                 continue;

@@ -22,7 +22,8 @@ static inline lom_float find_density(const lom_medium_desc *desc, lom_float3 p, 
 {
     bool fixed = desc->filtering == LOM_FILTERING_FIXED;
     lom_float density = sample_density(desc->medium, fixed, place);
-    if (desc->detail == NULL || !lom_any((density > 0.0f) & (density < 1.0f)))
+    const lom_mask thin = (density > 0.0f) & (density < 1.0f);
+    if (desc->detail == NULL || !lom_any(thin))
         return density;
     lom_float noise = lom_splat(desc->detail->mean);
     lom_float fading = 1.0f - lom_smoothstep(lom_splat(desc->detail_near), lom_splat(desc->detail_far), distance);
@@ -31,7 +32,8 @@ static inline lom_float find_density(const lom_medium_desc *desc, lom_float3 p, 
         noise = lom_mix(noise, fixed ? fixed_detail(desc->detail, q) : lom_sample_detail(desc->detail, q), fading);
     }
     lom_float eaten = noise * desc->detail_strength;
-    return lom_saturate((density - eaten) / (1.0f - eaten));
+    return lom_select(thin, lom_saturate((density - eaten) / (1.0f - eaten)),
+                      density); /* 0 / 0 where all is eaten of 1 */
 }
 
 /* sum over k of weight_k exp(-T / 4^k), the first times the phase, from s = exp(-T / 64): the powers 64, 16, 4, 1, then
@@ -62,36 +64,44 @@ LOM_INLINE lom_light_sample share_surroundings(lom_light_sample light)
     return (lom_light_sample){ light.sun, above, 1.0f - above };
 }
 
-/* Whole steps that are empty for every ray from the places on: cells nearer than the distance are, and a ray is in a cell
- * for at least `per_cell` steps. 1.01 covers the place within its cell and the rounding of positions. */
-static inline int empty_steps(const lom_medium *m, const lom_volume_place *place, lom_mask alive, lom_float per_cell)
-{
-    int32_t index[LOM_LANES];
-    float steps[LOM_LANES], least = 65535;
-    lom_store_int(index, place->index);
-    lom_store(steps, per_cell);
-    for (uint32_t lanes = lom_bits(alive); lanes != 0; lanes &= lanes - 1) {
-        int i = __builtin_ctz(lanes);
-        float room = (float)m->distance[index[i]] - 1.01f;
-        if (room < 0)
-            return 0;
-        least = room * steps[i] < least ? room * steps[i] : least;
-    }
-    return 1 + lom_int_of(least);
-}
-
 LOM_INLINE lom_float largest3(lom_float a, lom_float b, lom_float c)
 {
     return lom_max(lom_max(lom_abs(a), lom_abs(b)), lom_abs(c));
 }
 
-/* Steps that a ray takes from cell to cell along the axis on which it is fastest, or fewer, whatever is rounded. */
-static inline lom_float steps_per_cell(const lom_medium *m, const lom_medium_rays *rays, lom_float step)
+/* How rays go from cell to cell along the axis on which each is fastest. */
+struct cell_walk {
+    lom_float per_cell; /* steps in a cell, or fewer, whatever is rounded */
+    lom_float unsure; /* cells by which a place may be from where it is taken to be: within its cell, and by rounding */
+};
+
+/* A place is the start and a multiple of the direction, of which each, their sum and its product with the cells is rounded to
+ * 2^-24 of what it is: of a start far away 2^-22 of its cells at most. */
+static inline struct cell_walk walk_cells(const lom_medium *m, const lom_medium_rays *rays, lom_float step)
 {
-    lom_float speed = step * largest3(rays->along.x * (float)m->width, rays->along.y * (float)m->height,
-                                      rays->along.z * (float)m->depth) +
-                      1e-6f;
-    return 0.99999f / speed;
+    const float across = (float)m->width, down = (float)m->height, deep = (float)m->depth;
+    lom_float speed = step * largest3(rays->along.x * across, rays->along.y * down, rays->along.z * deep) + 1e-6f;
+    lom_float away = largest3(rays->start.x * across, rays->start.y * down, rays->start.z * deep);
+    return (struct cell_walk){ 0.99999f / speed, 1.01f + 0x1p-21f * away };
+}
+
+/* Whole steps that are empty for every ray from the places on: cells nearer than the distance are. */
+static inline int empty_steps(const lom_medium *m, const lom_volume_place *place, lom_mask alive,
+                              const struct cell_walk *walk)
+{
+    int32_t index[LOM_LANES];
+    float steps[LOM_LANES], unsure[LOM_LANES], least = 65535;
+    lom_store_int(index, place->index);
+    lom_store(steps, walk->per_cell);
+    lom_store(unsure, walk->unsure);
+    for (uint32_t lanes = lom_bits(alive); lanes != 0; lanes &= lanes - 1) {
+        int i = __builtin_ctz(lanes);
+        float room = (float)m->distance[index[i]] - unsure[i];
+        if (!(room >= 0))
+            return 0;
+        least = room * steps[i] < least ? room * steps[i] : least;
+    }
+    return 1 + lom_int_of(least);
 }
 
 /* The step of each ray in metres: the asked one, or longer where the ray would take too many. */

@@ -95,11 +95,14 @@ static struct lom_lit phong_light(const struct lom_view_uniform *view, const str
     const struct lom_material_uniform *m = f->m;
     const lom_float3 normal = f->normal;
     lom_float share = lom_light_share(light, f->offset);
-    lom_float facing = f->model->diffuse(f->reflection, lom_dot3(normal, lom_uniform3(light->to_light)));
-    if (view->entity_shadow.count != 0 && lom_any(facing * share > 0.0f)) {
+    const lom_float cosine = lom_dot3(normal, lom_uniform3(light->to_light));
+    lom_float facing = f->model->diffuse(f->reflection, cosine);
+    /* A surface that looks away has no highlight either; a tone of 0 may have one, so it is not `facing` that decides. */
+    const lom_mask seen = (cosine > 0.0f) & (share > 0.0f);
+    if (view->entity_shadow.count != 0 && lom_any(seen)) {
         lom_float open;
         LOM_WIDE(lom_entity_light)(&view->entity_shadow, &f->offset, &normal, &open);
-        share = share * open;
+        share = lom_select(seen, share * open, share);
     }
     lom_float lambert = facing * share * caustic_light(view, f->offset);
     LOM_NAME_VALUE(normal);

@@ -130,7 +130,8 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     lom_float own[NEIGHBOURS], part[NEIGHBOURS], sum = { 0 };
     look_around(u, &p);
     out->color[0] = color;
-    if (!lom_any(p.ends[0] | p.ends[1] | p.ends[2] | p.ends[3]))
+    const lom_mask ends = p.ends[0] | p.ends[1] | p.ends[2] | p.ends[3];
+    if (!lom_any(ends))
         return;
     find_reach(u->edges, p.x, p.y, own);
     for (int i = 0; i < NEIGHBOURS; i++) {
@@ -140,12 +141,14 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     const lom_float scale = 1.0f / lom_max(sum, lom_splat(1.0f));
     const lom_float4 beyond_edges = { part[0] * scale, part[1] * scale, part[2] * scale, part[3] * scale };
     LOM_NAME_VALUE(beyond_edges);
-    color = lom_scale4(color, 1.0f - sum * scale);
+    lom_float4 mixed = lom_scale4(color, 1.0f - sum * scale);
     for (int i = 0; i < NEIGHBOURS; i++) {
         const lom_float4 beyond = lom_fetch(u->color, p.x + across[i], p.y + down[i], 0);
-        color = lom_add4(color, lom_scale4(beyond, part[i] * scale));
+        mixed = lom_add4(mixed, lom_scale4(beyond, part[i] * scale));
     }
-    out->color[0] = color;
+    /* none of a neighbour that is infinite would be no number */
+    out->color[0] = (lom_float4){ lom_select(ends, mixed.x, color.x), lom_select(ends, mixed.y, color.y),
+                                  lom_select(ends, mixed.z, color.z), lom_select(ends, mixed.w, color.w) };
 }
 
 LOM_SHADER(lom_smooth_shader, vertex, fragment, .reads_position = true, .colors = 1,

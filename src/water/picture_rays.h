@@ -216,15 +216,18 @@ LOM_INLINE lom_float4 lom_blurred(const struct lom_surface_uniforms *u, const st
     lom_float lod = lom_log2(blur.width);
     if (!lom_any(blur.apart > 0.0f))
         return lom_sample(picture->color, hit.s, hit.t, lod);
-    lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
+    lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } }, first = sum;
     const float part = 1.0f / (float)LOM_BLUR_PLACES;
     for (int i = 0; i < LOM_BLUR_PLACES; i++) {
         lom_float at = blur.apart * (((float)i - 0.5f * (float)(LOM_BLUR_PLACES - 1)) * u->pixel[1]);
         lom_float4 texel = lom_sample(picture->color, hit.s, hit.t + at, lod);
+        first = i == 0 ? texel : first;
         sum = (lom_float4){ sum.x + texel.x * part, sum.y + texel.y * part, sum.z + texel.z * part,
                             sum.w + texel.w * part };
     }
-    return sum;
+    const lom_mask apart = blur.apart > 0.0f; /* four quarters of a denormal are not the whole */
+    return (lom_float4){ lom_select(apart, sum.x, first.x), lom_select(apart, sum.y, first.y),
+                         lom_select(apart, sum.z, first.z), lom_select(apart, sum.w, first.w) };
 }
 
 /* What lies beyond the edge of a picture is not known. Under water, where the bed or the shore's rim is everywhere,

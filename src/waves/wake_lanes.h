@@ -24,9 +24,9 @@ static lom_float wake_half(const struct lom_wake_track *track, lom_float way, lo
 }
 
 /* From place to place; beyond its ends a step reaches a quarter as far as to its sides, which closes the outer side of a
- * turn and no more. What is sampled is as much wider as half a pixel is across the way, and has as much less. */
-static void add_wake_step(const struct lom_wake_track *track, const struct lom_wake_place *a, lom_float x, lom_float z,
-                          const struct lom_footprint *f, struct wake_foam *most)
+ * turn and no more. Lanes that are not near the run leave it out, whoever shares their packet. What is sampled is as much wider as half a pixel is across the way, and has as much less. */
+static void add_wake_step(const struct lom_wake_track *track, const struct lom_wake_place *a, lom_mask near,
+                          lom_float x, lom_float z, const struct lom_footprint *f, struct wake_foam *most)
 {
     const struct lom_wake_place *b = a + 1;
     const float dx = b->x - a->x, dz = b->z - a->z, square = dx * dx + dz * dz;
@@ -40,7 +40,7 @@ static void add_wake_step(const struct lom_wake_track *track, const struct lom_w
     lom_float wide = half + lom_sqrt(across * across * (0.25f * inverse)) + 1e-6f;
     lom_float square_off = (away_x * away_x + away_z * away_z + beyond) / (wide * wide);
     lom_float foam = (a->foam + share * (b->foam - a->foam)) * lom_saturate(2.0f - 2.0f * square_off) * (half / wide);
-    lom_mask more = foam > most->foam;
+    lom_mask more = near & (foam > most->foam);
     lom_float moved = 1.0f - 1.0f / spread;
     most->foam = lom_select(more, foam, most->foam);
     most->away_x = lom_select(more, away_x * moved, most->away_x);
@@ -58,11 +58,12 @@ static void add_wakes(const struct lom_wakes_uniform *u, lom_float x, lom_float 
     for (int i = 0; i < u->count; i++)
         for (int k = 0; k < LOM_WAKE_RUNS; k++) {
             const struct lom_wake_run *run = &u->tracks[i].run[k];
-            if (!lom_any((x + reach > run->low[0]) & (x - reach < run->high[0]) & (z + reach > run->low[1]) &
-                         (z - reach < run->high[1])))
+            const lom_mask near = (x + reach > run->low[0]) & (x - reach < run->high[0]) & (z + reach > run->low[1]) &
+                                  (z - reach < run->high[1]);
+            if (!lom_any(near))
                 continue;
             for (int s = 0; s < LOM_WAKE_STEPS; s++)
-                add_wake_step(&u->tracks[i], &run->place[s], x, z, f, &most);
+                add_wake_step(&u->tracks[i], &run->place[s], near, x, z, f, &most);
         }
     w->foam = w->foam + most.foam;
     if (!u->is_carried)

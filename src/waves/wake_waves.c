@@ -87,6 +87,8 @@ static double made_at(const struct lom_wave_site *site, const lom_water_wake *wa
     return lom_smaller(froude / full, 1);
 }
 
+/* Foam widens with the fourth root of the way, which lies above its chords: between two places it is within the reach of the
+ * wider around both. */
 static void grow_box(struct lom_wake_run *run, const struct lom_wake_place *at, float reach)
 {
     const float place[2] = { at->x, at->z };
@@ -106,10 +108,14 @@ static void store_place(struct lom_wake_track *track, int step, const struct lom
             *own = (struct lom_wake_run){ .low = { place->x, place->z }, .high = { place->x, place->z } };
         own->place[at] = *place;
         grow_box(own, place, reach);
+        if (at > 0)
+            grow_box(own, &own->place[at - 1], reach);
     }
     if (at == 0 && run > 0) {
-        track->run[run - 1].place[LOM_WAKE_STEPS] = *place;
-        grow_box(&track->run[run - 1], place, reach);
+        struct lom_wake_run *ended = &track->run[run - 1];
+        ended->place[LOM_WAKE_STEPS] = *place;
+        grow_box(ended, place, reach);
+        grow_box(ended, &ended->place[LOM_WAKE_STEPS - 1], reach);
     }
 }
 

@@ -1,6 +1,6 @@
 /* Proves the models of reflection by their formulas, at each fragment and in the reference, with the sun and with a lamp;
  * that tones are tones, per vertex too; and the lecture's warning: a lamp that lights vertices alone misses a coarse mesh,
- * and is right where the mesh is dense. */
+ * and is right where the mesh is dense; that shadows lie on what has a highlight and no tone. */
 #include "check.h"
 #include "small_scene.h"
 
@@ -167,6 +167,60 @@ static void thresholds_that_fall_are_refused(void)
     lom_free_scene(scene);
 }
 
+/* A ball of radius 1 about (0, 1, 0), of 24 by 12 smooth quads. */
+static bool put_ball(const char *name)
+{
+    enum { ROUND = 24, DOWN = 12 };
+    static char text[100000];
+    lom_error error = { 0 };
+    size_t used = 0;
+    for (int i = 0; i < ROUND * (DOWN + 1); i++) {
+        const double a = 2 * M_PI * (i % ROUND) / ROUND, b = M_PI * (i / ROUND) / DOWN;
+        const double n[3] = { sin(b) * cos(a), cos(b), sin(b) * sin(a) };
+        used += (size_t)snprintf(text + used, sizeof text - used, "v %.6f %.6f %.6f\nvn %.6f %.6f %.6f\n", n[0],
+                                 n[1] + 1, n[2], n[0], n[1], n[2]);
+    }
+    for (int i = 0; i < ROUND * DOWN; i++) {
+        const int a = i + 1, b = i / ROUND * ROUND + (i + 1) % ROUND + 1, c = b + ROUND, d = a + ROUND;
+        used += (size_t)snprintf(text + used, sizeof text - used, "f %d//%d %d//%d %d//%d %d//%d\n", a, a, b, b, c, c,
+                                 d, d);
+    }
+    bool put = small_text(name, text, &error);
+    CHECK(put, "%s", error.text);
+    return put;
+}
+
+/* The tone of a slanting surface is 0 and its highlight may not be: whether a shadow lies on it is asked whatever the tones
+ * beside it are. */
+static void a_tone_of_nothing_is_in_shadow_too(void)
+{
+    static const char scene_text[] =
+        "[output]\nwidth = 240\nheight = 160\nformat = 'rgb32f'\n[camera]\nposition = [0, 1.2, 6]\n"
+        "target = [0, 0.8, 0]\nfield_of_view = 38\n[light]\nazimuth = 50\nelevation = 20\nambient = [0, 0, 0]\n"
+        "[sky]\ncolor = [0, 0, 0]\n[quality]\nreflection = 'toon'\nentity_shadows = 512\n"
+        "[[entity]]\nname = 'large'\nmesh = 'ball.obj'\n[entity.material]\ndiffuse = 0.75\nspecular = 0.6\n"
+        "shininess = 1\n[[entity]]\nname = 'small'\nmesh = 'ball.obj'\nposition = [2.706, 1.79, -1.01]\n"
+        "scale = 0.5\n[entity.material]\ndiffuse = 0.75\nspecular = 0.6\nshininess = 1\n";
+    lom_error error = { 0 };
+    lom_image *pictures[2] = { NULL };
+    if (!put_ball("ball.obj"))
+        return;
+    for (int i = 0; i < 2; i++) {
+        const lom_device_desc desc = { .threads = 1, .lanes = i == 0 ? 4 : 0 }; /* 0: the widest */
+        lom_frame drawn = { .image = NULL };
+        lom_scene *scene = lom_decode_scene(scene_text, strlen(scene_text), small_path("toon.toml"), NULL, 0, &error);
+        lom_renderer *renderer = scene == NULL ? NULL : lom_create_renderer(scene, &desc, &error);
+        CHECK(renderer != NULL && lom_render_frame(renderer, &(lom_frame_desc){ 0 }, &drawn, &error), "%s", error.text);
+        pictures[i] = drawn.image;
+        lom_free_renderer(renderer);
+        lom_free_scene(scene);
+    }
+    CHECK(pictures[0] != NULL && pictures[1] != NULL && lom_hash_image(pictures[0]) == lom_hash_image(pictures[1]),
+          "the least and the widest lanes draw different pictures");
+    for (int i = 0; i < 2; i++)
+        lom_free_image(pictures[i]);
+}
+
 int main(int argc, char **argv)
 {
     if (!make_small_scene())
@@ -175,6 +229,7 @@ int main(int argc, char **argv)
     RUN(tones_are_few);
     RUN(lamps_per_vertex_want_dense_meshes);
     RUN(thresholds_that_fall_are_refused);
+    RUN(a_tone_of_nothing_is_in_shadow_too);
     remove_small_scene();
     return check_result();
 }

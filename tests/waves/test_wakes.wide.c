@@ -5,6 +5,7 @@
 #include "check.h"
 
 #include "base/numbers.h"
+#include "waves/wake_lanes.h"
 #include "waves/wave_field.h"
 
 static lom_device *device;
@@ -139,6 +140,40 @@ static void the_pattern_spreads_with_it(void)
     foam.carried = false;
 }
 
+/* A part of a wake whose box is smaller than its foam, as rounding may make it: a place within gives what it gives alone, one
+ * without has nothing of it, whichever share a packet. */
+static void a_place_does_not_see_its_neighbours(void)
+{
+    static struct lom_wake_track track = { .half = { 2, 0.875f } };
+    struct lom_wake_run *run = &track.run[0];
+    *run = (struct lom_wake_run){ .low = { -6, -0.4f }, .high = { -1, 0.8f } };
+    for (int i = 0; i <= LOM_WAKE_STEPS; i++)
+        run->place[i] = (struct lom_wake_place){ (float)-i, 0.1f * (float)i, (float)i, 1 };
+    const struct lom_wakes_uniform wakes = { &track, 1, true };
+    const struct lom_footprint f = { lom_splat(0.002f), { 0 }, { 0 }, lom_splat(0.002f) };
+    int inside = 0, outside = 0;
+    for (uint64_t n = 0; n < 2000; n++) {
+        lom_float x, z;
+        struct lom_wave_slopes w, own;
+        memset(&w, 0, sizeof w);
+        for (int i = 0; i < LOM_LANES; i++) {
+            x[i] = (float)(-7 + 7 * lom_random_uniform(1, n * LOM_LANES + (uint64_t)i));
+            z[i] = (float)(-1 + 3 * lom_random_uniform(2, n * LOM_LANES + (uint64_t)i));
+        }
+        add_wakes(&wakes, x, z, &f, &w);
+        for (int i = 0; i < LOM_LANES; i++) {
+            memset(&own, 0, sizeof own);
+            add_wakes(&wakes, lom_splat(x[i]), lom_splat(z[i]), &f, &own);
+            CHECK(w.foam[i] == own.foam[i] && w.drift_x[i] == own.drift_x[i] && w.drift_z[i] == own.drift_z[i],
+                  "at %.9g, %.9g foam of %g, %g alone", (double)x[i], (double)z[i], (double)w.foam[i],
+                  (double)own.foam[i]);
+            inside += own.foam[i] > 0;
+            outside += own.foam[i] == 0;
+        }
+    }
+    CHECK(inside > 1000 && outside > 1000, "%d places have foam, %d have none", inside, outside);
+}
+
 int main(int argc, char **argv)
 {
     device = lom_open_device(&(lom_device_desc){ .threads = 1, .lanes = LOM_LANES });
@@ -147,6 +182,7 @@ int main(int argc, char **argv)
     RUN(it_stays_on_the_way_of_the_body);
     RUN(a_wide_sample_has_its_share);
     RUN(the_pattern_spreads_with_it);
+    RUN(a_place_does_not_see_its_neighbours);
     lom_close_device(device);
     return check_result();
 }

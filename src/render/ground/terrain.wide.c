@@ -96,7 +96,7 @@ static lom_float4 sample_sides(const struct lom_laid_uniform *laid, const lom_va
     lom_float3 square = lom_mul3(normal, normal);
     lom_float share[3] = { lom_max(square.x - 0.2f, (lom_float){ 0 }), lom_max(square.y - 0.2f, (lom_float){ 0 }),
                            lom_max(square.z - 0.2f, (lom_float){ 0 }) };
-    lom_float inverse = 1.0f / (share[0] + share[1] + share[2]);
+    lom_float inverse = 1.0f / lom_max(share[0] + share[1] + share[2], lom_splat(0x1p-20f)); /* of no normal, 0 */
     lom_float4 sum = { { 0 }, { 0 }, { 0 }, { 0 } };
     for (int side = 0; side < LOM_SIDES; side++) {
         if (!lom_any(share[side] > 0.0f))
