@@ -32,7 +32,7 @@ END
 }
 
 small_program() {
-    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 6815744
+    strip -o "$folder/stripped" "$lom" && below "bytes" "$(wc -c <"$folder/stripped")" 7340032
 }
 
 lake_in_memory() {
