@@ -61,7 +61,7 @@ selftest() {
     rows=$(grep -o '"[a-z0-9-]*"' src/measure/selftest_rows.c | wc -l)
     exits 0 "$lom" selftest && head -n 1 "$folder/out" >"$folder/hash" && grep -qE '^[0-9a-f]{16}  selftest$' "$folder/hash" &&
         says "on $rows builds of the matrix:" &&
-        [ "$(sed '1,2d' "$folder/out" | wc -w)" -eq "$rows" ] && says s390x-3 &&
+        [ "$(sed '1,2d' "$folder/out" | wc -w)" -eq "$rows" ] && says ppc64-1 &&
         exits 0 "$lom" selftest --badge && says "selftest $(cut -c 1-16 "$folder/hash") (as recorded; seen on" &&
         says "$(uname -m)" && [ "$(wc -l <"$folder/out")" -eq 1 ] &&
         exits 0 "$lom" selftest --parts -o "$folder/sheet.png" && grep -qxF "$(cat "$folder/hash")" "$folder/out" &&
