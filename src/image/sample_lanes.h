@@ -275,6 +275,17 @@ LOM_INLINE lom_float sample_choose_plainly(const lom_texture *texture, const lom
              chosen,                                                                                                   \
              kind == LOM_TEXTURE_CUBE || kind == LOM_TEXTURE_2D_ARRAY ? lom_as_float(point->face) : (lom_float){ 0 })
 
+/* A lane of one level takes nothing of a next one: none of a float that is infinite would be no number, and -0 would be 0. */
+LOM_INLINE lom_float4 sample_mix_next(lom_storage storage, lom_float4 value, lom_float4 next, lom_float fraction)
+{
+    const lom_float4 mixed = sample_mix(storage, value, next, fraction);
+    const lom_mask some = fraction > 0.0f;
+    if (storage == LOM_STORAGE_RGBA8)
+        return mixed;
+    return (lom_float4){ lom_select(some, mixed.x, value.x), lom_select(some, mixed.y, value.y),
+                         lom_select(some, mixed.z, value.z), lom_select(some, mixed.w, value.w) };
+}
+
 LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kind kind, lom_storage storage, bool srgb,
                                      sample_point *point, lom_float lod)
 {
@@ -287,7 +298,7 @@ LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kin
     if (lom_any(fraction > 0.0f)) {
         place = sample_place_of_levels(texture, lom_min_int(level + 1, lom_splat_int(texture->level_count - 1)));
         lom_float4 next = sample_level(texture, kind, storage, srgb, point, &place);
-        value = sample_mix(storage, value, next, fraction);
+        value = sample_mix_next(storage, value, next, fraction);
     }
     return sample_finish(storage, srgb, value);
 }

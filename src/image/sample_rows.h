@@ -41,7 +41,9 @@ LOM_INLINE void sample_mix_register(const lom_texture *const texture[], int coun
         lom_load_row_pairs(texture[k]->texels, square->upper, i, &a, &b);
         lom_load_row_pairs(texture[k]->texels, square->lower, i, &c, &d);
         lom_float value = lom_mix(lom_mix(a, b, r->s[i]), lom_mix(c, d, r->s[i]), r->t[i]);
-        r->row[k][i] = next ? lom_mix(r->row[k][i], value, r->fraction[i]) : value;
+        if (next) /* as sample_mix_next */
+            value = lom_select(r->fraction[i] > 0.0f, lom_mix(r->row[k][i], value, r->fraction[i]), r->row[k][i]);
+        r->row[k][i] = value;
     }
 }
 
