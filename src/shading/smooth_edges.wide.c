@@ -16,12 +16,14 @@
  * other axis' own, where that has one.
  *
  * Invariant: a pixel beside which no depth jumps is the picture's, bit for bit. */
+#include "image/sample_lanes.h"
 #include "shading/smooth_edges.h"
+#include "shading/window_texels.h"
 
 #include <lom/lanes_components.h>
 #include <lom/notes.h>
 
-enum { NEIGHBOURS = 4, FAR = 1024 }; /* to the right, left, down, up; what ends farther away does not end */
+enum { NEIGHBOURS = 4, LOOKS = 2, FAR = 1024 }; /* to the right, left, down, up; what ends farther away does not end */
 
 /* An end between two centres, by its distance from the one: as rounded as the texture has it. */
 static const float between = 1 + 1.0f / 64;
@@ -51,43 +53,79 @@ LOM_INLINE lom_float distance_of(lom_float code)
 /* What is around a pixel. */
 struct place {
     lom_int x, y;
+    bool window; /* these are pixels of a window, and so are those two pixels around them */
     lom_float depth, beside[NEIGHBOURS];
     lom_mask ends[NEIGHBOURS]; /* the depth jumps there */
 };
 
-/* Depth at a place that may lie outside of the picture: there, as far from `near` as that is from `far`, behind it. */
-static lom_float find_depth(const lom_texture *depth, lom_int x, lom_int y, lom_float near, lom_float far)
+/* Texels beside those of the place: of a window its own loads, to the same bytes. */
+LOM_INLINE lom_float depth_beside(const lom_texture *depth, const struct place *p, int dx, int dy)
 {
+    if (p->window && depth->storage == LOM_STORAGE_R32F)
+        return lom_as_float(lom_window_words(depth, p->x[0] + dx, p->y[0] + dy)) + 0.0f;
+    return lom_fetch(depth, p->x + dx, p->y + dy, 0).x;
+}
+
+LOM_INLINE lom_float4 color_beside(const lom_texture *color, const struct place *p, int dx, int dy)
+{
+    if (p->window && color->storage == LOM_STORAGE_RGBA8) {
+        const lom_int words = lom_window_words(color, p->x[0] + dx, p->y[0] + dy);
+        return color->srgb ? sample_finish(LOM_STORAGE_RGBA8, true, sample_unpack(true, words))
+                           : sample_finish(LOM_STORAGE_RGBA8, false, sample_unpack(false, words));
+    }
+    return lom_fetch(color, p->x + dx, p->y + dy, 0);
+}
+
+/* Depth at a place that may lie outside of the picture: there, as far from `near` as that is from `far`, behind it. */
+LOM_INLINE lom_float depth_beyond(const lom_texture *depth, const struct place *p, int dx, int dy, lom_float near,
+                                  lom_float far)
+{
+    if (p->window)
+        return depth_beside(depth, p, dx, dy);
+    const lom_int x = p->x + dx, y = p->y + dy;
     const lom_mask inside = (x >= 0) & (y >= 0) & (x < lom_texture_width(depth)) & (y < lom_texture_height(depth));
     return lom_select(inside, lom_fetch(depth, x, y, 0).x, near + (near - far));
 }
 
 /* Whether the depths of neighbours belong to different surfaces: they differ by more than a part of the nearer one, and
  * by more than what lies on either side of them would let expect. */
-LOM_INLINE lom_mask jumps(lom_float depth, lom_float next, lom_float before, lom_float after)
+LOM_INLINE lom_mask is_gap(lom_float depth, lom_float next)
 {
-    const lom_float gap = lom_abs(depth - next);
+    return lom_abs(depth - next) > lom_max(depth, next) * LOM_EDGE_GAP;
+}
+
+LOM_INLINE lom_mask is_steep(lom_float depth, lom_float next, lom_float before, lom_float after)
+{
     const lom_float slope = lom_min(lom_abs(depth - before), lom_abs(after - next));
-    return (gap > lom_max(depth, next) * LOM_EDGE_GAP) & (gap > LOM_EDGE_SLOPES * slope);
+    return lom_abs(depth - next) > LOM_EDGE_SLOPES * slope;
 }
 
-static void look_around(const struct lom_smooth_uniforms *u, struct place *p)
+/* False: no depth jumps. */
+static bool look_around(const struct lom_smooth_uniforms *u, struct place *p)
 {
-    p->depth = lom_fetch(u->depth, p->x, p->y, 0).x;
-    for (int i = 0; i < NEIGHBOURS; i++)
-        p->beside[i] = lom_fetch(u->depth, p->x + across[i], p->y + down[i], 0).x;
+    lom_mask ends = { 0 };
+    p->depth = depth_beside(u->depth, p, 0, 0);
     for (int i = 0; i < NEIGHBOURS; i++) {
-        const lom_int x = p->x + across[i], y = p->y + down[i];
-        const lom_float before = find_depth(u->depth, p->x - across[i], p->y - down[i], p->depth, p->beside[i]);
-        const lom_float after = find_depth(u->depth, x + across[i], y + down[i], p->beside[i], p->depth);
-        p->ends[i] = jumps(p->depth, p->beside[i], before, after);
+        p->beside[i] = depth_beside(u->depth, p, across[i], down[i]);
+        p->ends[i] = is_gap(p->depth, p->beside[i]);
+        ends |= p->ends[i];
     }
+    if (!lom_any(ends))
+        return false;
+    ends = (lom_mask){ 0 };
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        const lom_float before = depth_beyond(u->depth, p, -across[i], -down[i], p->depth, p->beside[i]);
+        const lom_float after = depth_beyond(u->depth, p, 2 * across[i], 2 * down[i], p->beside[i], p->depth);
+        p->ends[i] &= is_steep(p->depth, p->beside[i], before, after);
+        ends |= p->ends[i];
+    }
+    return lom_any(ends);
 }
 
-/* Distances to the right, left, down, up of what pixel (x, y) shows. */
-static void find_reach(const lom_texture *edges, lom_int x, lom_int y, lom_float reach[NEIGHBOURS])
+/* Distances to the right, left, down, up of what a pixel beside shows. */
+static void find_reach(const lom_texture *edges, const struct place *p, int dx, int dy, lom_float reach[NEIGHBOURS])
 {
-    const lom_float4 code = lom_fetch(edges, x, y, 0);
+    const lom_float4 code = color_beside(edges, p, dx, dy);
     reach[0] = distance_of(code.x);
     reach[1] = distance_of(code.y);
     reach[2] = distance_of(code.z);
@@ -109,10 +147,12 @@ static lom_float part_of(const struct lom_smooth_uniforms *u, const struct place
                          int i)
 {
     const lom_float zero = { 0 };
+    if (!lom_any(p->ends[i]))
+        return zero;
     const lom_mask is_nearer = p->depth > p->beside[i];
     const int side = (i ^ 2) & 2; /* the first of the two directions across */
     lom_float other[NEIGHBOURS];
-    find_reach(u->edges, p->x + across[i], p->y + down[i], other);
+    find_reach(u->edges, p, across[i], down[i], other);
     const lom_float d = lom_select(is_nearer, own[i], other[i ^ 1]), back = lom_select(is_nearer, own[i ^ 1], other[i]);
     const lom_float o = lom_select(is_nearer, lom_min(own[side], own[side + 1]), lom_min(other[side], other[side + 1]));
     const lom_float end = end_of_surface(d, back);
@@ -125,15 +165,17 @@ static lom_float part_of(const struct lom_smooth_uniforms *u, const struct place
 static void fragment(lom_fragment *out, const lom_varyings *in, const void *uniforms)
 {
     const struct lom_smooth_uniforms *u = uniforms;
-    struct place p = { .x = lom_to_int(in->x - u->origin[0]), .y = lom_to_int(in->y - u->origin[1]) };
-    lom_float4 color = lom_fetch(u->color, p.x, p.y, 0);
-    lom_float own[NEIGHBOURS], part[NEIGHBOURS], sum = { 0 };
-    look_around(u, &p);
+    struct place p;
+    p.x = lom_to_int(in->x - u->origin[0]);
+    p.y = lom_to_int(in->y - u->origin[1]);
+    p.window = lom_is_window(u->depth, p.x, p.y, LOOKS);
+    lom_float4 color = color_beside(u->color, &p, 0, 0);
     out->color[0] = color;
-    const lom_mask ends = p.ends[0] | p.ends[1] | p.ends[2] | p.ends[3];
-    if (!lom_any(ends))
+    if (!look_around(u, &p))
         return;
-    find_reach(u->edges, p.x, p.y, own);
+    lom_float own[NEIGHBOURS], part[NEIGHBOURS], sum = { 0 };
+    const lom_mask ends = p.ends[0] | p.ends[1] | p.ends[2] | p.ends[3];
+    find_reach(u->edges, &p, 0, 0, own);
     for (int i = 0; i < NEIGHBOURS; i++) {
         part[i] = part_of(u, &p, own, i);
         sum += part[i];
@@ -143,7 +185,7 @@ static void fragment(lom_fragment *out, const lom_varyings *in, const void *unif
     LOM_NAME_VALUE(beyond_edges);
     lom_float4 mixed = lom_scale4(color, 1.0f - sum * scale);
     for (int i = 0; i < NEIGHBOURS; i++) {
-        const lom_float4 beyond = lom_fetch(u->color, p.x + across[i], p.y + down[i], 0);
+        const lom_float4 beyond = color_beside(u->color, &p, across[i], down[i]);
         mixed = lom_add4(mixed, lom_scale4(beyond, part[i] * scale));
     }
     /* none of a neighbour that is infinite would be no number */

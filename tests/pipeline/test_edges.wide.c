@@ -1,7 +1,7 @@
 /* Proves of edges (lom/pipeline.h): a texel says where the triangle of its pixel ends, or the clip distance that cuts it, as
  * arithmetic in double says, whichever path the triangle takes; colours and depths are those of a pass without; what does
  * not write depth leaves them. Of the filter: beside one straight edge of any slope each pixel has the light of the parts on
- * either side, to a step of what the texture holds; where no depth jumps it changes no byte; bad passes are refused. */
+ * either side, to a step of what the texture holds; where no depth jumps it changes no byte; windows of pixels are as other packets are; bad passes are refused. */
 #include "stage.h"
 
 enum { SIZE = 64, EDGES = 4 }; /* right, left, down, up */
@@ -311,6 +311,42 @@ static void where_no_depth_jumps_no_byte_changes(void)
     }
 }
 
+/* Columns of one pixel are packets of no window: each texel is fetched by its index. */
+static void windows_are_looked_at_as_columns_are(void)
+{
+    static const lom_format formats[] = { LOM_FORMAT_RGBA8, LOM_FORMAT_RGBA8_SRGB, LOM_FORMAT_RGBA32F };
+    static vertex v[120 * 3];
+    for (int f = 0; f < 3; f++) {
+        stage s = open_stage((lom_device_desc){ 0 }, SIZE, SIZE, formats[f], LOM_FORMAT_DEPTH32F);
+        const lom_texture_desc desc = { .width = SIZE, .height = SIZE, .format = formats[f] };
+        lom_texture *edges = lom_make_texture(s.device, &marks), *whole = lom_make_texture(s.device, &desc);
+        lom_texture *columns = lom_make_texture(s.device, &desc);
+        for (int i = 0; i < 120 * 3; i++)
+            v[i] = (vertex){ { random_float(-1, 1), random_float(-1, 1), random_float(0.1f, 1), 1 },
+                             { random_float(0, 1), random_float(0, 1), random_float(0, 1), 1 },
+                             { 0 } };
+        begin_marked(&s, edges, LOM_LOAD_CLEAR);
+        lom_draw_desc draw = draw_of(&shown, v, 120 * 3);
+        lom_draw(s.device, &draw);
+        finish(&s);
+        smooth(&s, edges, whole);
+        const lom_edge_filter filter = { .color = s.color, .edges = edges, .depth = s.depth };
+        for (int x = 0; x < SIZE; x++) {
+            lom_begin_pass(s.device, &(lom_pass_desc){ .color = { columns },
+                                                       .color_load = { x > 0 ? LOM_LOAD_KEEP : LOM_LOAD_CLEAR },
+                                                       .scissor = { x, 0, 1, SIZE } });
+            lom_smooth_edges(s.device, &filter);
+            CHECK(lom_end_pass(s.device), "%s", lom_device_error(s.device)->text);
+        }
+        lom_image *apart = lom_read_texture(columns, 0, 0, NULL), *sharp = lom_read_texture(s.color, 0, 0, NULL);
+        CHECK(same_images(apart, s.image), "windows of format %d differ from columns", f);
+        CHECK(!same_images(sharp, s.image), "no edge of format %d is smoothed", f);
+        lom_free_image(apart);
+        lom_free_image(sharp);
+        close_stage(&s);
+    }
+}
+
 /* ---- what is refused ---- */
 
 static void refuse(lom_pass_desc pass, lom_format format, const char *what)
@@ -342,6 +378,7 @@ int main(int argc, char **argv)
     RUN(colours_and_depths_are_those_of_a_pass_without);
     RUN(a_straight_edge_leaves_each_pixel_the_light_of_its_parts);
     RUN(where_no_depth_jumps_no_byte_changes);
+    RUN(windows_are_looked_at_as_columns_are);
     RUN(bad_passes_are_refused);
     return check_result();
 }
