@@ -1,7 +1,10 @@
 /* Shadows of entities, of what stands before lamps, and of liquids. In: maps of what a light sees, places of surfaces.
  * Out: the share of the light that comes to a place. */
+#include "shading/depth_square.h"
 #include "shading/lamp.h"
 #include "shading/sun_shadow.h"
+
+#include <string.h>
 
 /* The 3 x 3 texels around a place, the middle one's column and row, weighted by the quadratic B-spline (Reeves, Salesin,
  * Cook 1987, with a smooth kernel), so that edges move by less than a texel. */
@@ -19,21 +22,36 @@ LOM_INLINE struct spline spline_at(float size, lom_float s, lom_float t)
                             { 0.5f * (0.5f - dy) * (0.5f - dy), 0.75f - dy * dy, 0.5f * (0.5f + dy) * (0.5f + dy) } };
 }
 
+/* Whether nothing about the places is nearer to the light than they are, by the map's blocks where it has them. */
+LOM_INLINE bool is_open(const struct lom_near_uniform *near, lom_float s, lom_float t, lom_float depth)
+{
+    return LOM_LOADS_SQUARES && near != NULL && near->around != NULL &&
+           lom_all(lom_nearest_around(near, s, t) <= depth);
+}
+
 /* What share of a map's texels around a place has something nearer to the light than it, and what share has not. */
 struct kernel {
     lom_float dark, open;
 };
 
-LOM_INLINE struct kernel compare_texels(const lom_texture *map, float size, float texel, lom_float s, lom_float t,
-                                        lom_float depth)
+LOM_INLINE struct kernel compare_texels(const lom_texture *map, const struct lom_near_uniform *near, float size,
+                                        float texel, lom_float s, lom_float t, lom_float depth)
 {
     const struct spline k = spline_at(size, s, t);
     struct kernel sum = { { 0 }, { 0 } };
+    lom_float at_s[3], at_t[3];
+    for (int i = 0; i < 3; i++) {
+        at_s[i] = (k.column + ((float)i - 0.5f)) * texel;
+        at_t[i] = (k.row + ((float)i - 0.5f)) * texel;
+    }
+    struct lom_depth_square square;
+    if (is_open(near, s, t, depth))
+        memset(&square, 0, sizeof square);
+    else
+        square = lom_find_depth_square(map, at_s, at_t);
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++) {
-            lom_float at_s = (k.column + ((float)i - 0.5f)) * texel;
-            lom_float at_t = (k.row + ((float)j - 0.5f)) * texel;
-            lom_float nearest = lom_sample_depth(map, at_s, at_t), weight = k.across[i] * k.down[j];
+            lom_float nearest = square.at[j][i], weight = k.across[i] * k.down[j];
             lom_mask dark = (nearest > depth) & (nearest > 0.0f);
             sum.dark = sum.dark + lom_select(dark, weight, (lom_float){ 0 });
             sum.open = sum.open + lom_select(dark, (lom_float){ 0 }, weight);
@@ -80,7 +98,9 @@ static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_floa
     lom_float depth = lom_transform_row(shadow->depth, place);
     if (!lom_any((s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f)))
         return one;
-    return one - compare_texels(shadow->map, shadow->size, shadow->texel, s, t, depth).dark;
+    if (is_open(&shadow->near, s, t, depth))
+        return one;
+    return one - compare_texels(shadow->map, NULL, shadow->size, shadow->texel, s, t, depth).dark;
 }
 
 /* A place counts where the kernel of 1.5 texels around it lies in the map; the share of a cascade falls from 1 to 0 over the
@@ -109,7 +129,8 @@ static lom_float cascade_light(const struct lom_sun_shadow_uniform *sun, lom_flo
         rest = rest - weight;
         struct kernel part = { { 0 }, lom_splat(1.0f) };
         if (lom_any((weight > 0.0f) & (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f)))
-            part = compare_texels(map->map, map->size, map->texel, s, t, lom_transform_row(map->depth, place));
+            part =
+                compare_texels(map->map, &map->near, map->size, map->texel, s, t, lom_transform_row(map->depth, place));
         sum.dark = sum.dark + weight * part.dark;
         sum.open = sum.open + weight * part.open;
     }
@@ -187,7 +208,7 @@ static lom_float face_light(const struct lom_lamp_shadow_uniform *shadow, const 
                             lom_float3 way, lom_float depth, lom_mask mine)
 {
     const struct seen_by_face at = look_from(shadow, face, way, depth, mine);
-    struct kernel k = compare_texels(face->map, shadow->size, shadow->texel, at.s, at.t, at.depth);
+    struct kernel k = compare_texels(face->map, NULL, shadow->size, shadow->texel, at.s, at.t, at.depth);
     return lom_select(mine & (k.dark > 0.0f), k.open, lom_splat(1.0f));
 }
 

@@ -4,13 +4,18 @@
 #define LOM_SHADING_SUN_SHADOW_H
 
 #include "shading/liquid_shadow.h"
+#include "shading/near_blocks.h"
+
+/* Blocks of a map, texels: what a shader looks at about a place is less than one of them away. */
+enum { LOM_SHADOW_BLOCK = 8 };
 
 /* How near to the sun entities reach, seen from it. */
 struct lom_shadow_map_uniform {
-    const lom_texture *map;     /* depth, 0 where there is none */
-    float s[4], t[4], depth[4]; /* rows: texture coordinates and depth of an offset (x, y, z, 1) */
-    float size, texel;          /* texels a side, and 1 / size */
-    float offset;               /* metres that a place is moved along its normal, so that it does not shade itself */
+    const lom_texture *map;       /* depth, 0 where there is none */
+    struct lom_near_uniform near; /* how near to the sun anything reaches about a place */
+    float s[4], t[4], depth[4];   /* rows: texture coordinates and depth of an offset (x, y, z, 1) */
+    float size, texel;            /* texels a side, and 1 / size */
+    float offset;                 /* metres that a place is moved along its normal, so that it does not shade itself */
 };
 
 /* Those of a frame that show something: each a part of the entities; or cascades of the view, of which a place takes the

@@ -6,7 +6,7 @@
 #include "shading/eye.h"
 #include "shading/gradient.h"
 #include "shading/sun_shadow.h"
-#include "water/near_blocks.h"
+#include "shading/near_blocks.h"
 #include "waves/wave_lanes.h"
 
 #include <lom/water.h>
@@ -21,6 +21,9 @@ struct lom_picture_uniform {
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
     struct lom_near_uniform near;     /* of a picture that a rough surface blurs */
 };
+
+/* Blocks of a picture that is blurred, texels. */
+enum { LOM_PICTURE_BLOCK = 64 };
 
 /* The coarsest level at which a reflection is looked up: a texel of it is 2^3 pixels. */
 enum { LOM_BLUR_LEVELS = 3, LOM_BLUR_PLACES = 4, LOM_OPEN_TEXELS = 8 };

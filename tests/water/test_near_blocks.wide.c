@@ -82,7 +82,7 @@ static void make_picture(struct picture *p, lom_device *device, bool bytes)
     p->color = make_color(bytes);
     p->depth = make_depth();
     CHECK(p->color != NULL && p->depth != NULL);
-    CHECK(lom_fill_near_blocks(&p->blocks, device, p->color, p->depth, &error));
+    CHECK(lom_fill_near_blocks(&p->blocks, device, p->color, p->depth, LOM_PICTURE_BLOCK, &error));
     p->u.side = 1;
     p->u.reach = 1;
     p->u.pixel[0] = 1.0f / WIDTH;

@@ -82,7 +82,7 @@ static struct lom_sun_casters find_casters(struct frame *f, int number, const lo
     return casters;
 }
 
-bool lom_draw_cascades(struct frame *f, const lom_mat4 *light)
+bool lom_draw_cascades(struct frame *f, const lom_mat4 *light, lom_error *error)
 {
     const int count = f->scene->quality.shadow_cascades;
     const struct range all = find_range(f);
@@ -97,7 +97,7 @@ bool lom_draw_cascades(struct frame *f, const lom_mat4 *light)
         const struct lom_sun_casters casters = find_casters(f, i, i + 1 < count ? &square : NULL, light);
         if (casters.count == 0)
             lom_add_step(f, names[i], false, "nothing casts into it");
-        else if (!lom_draw_sun_map(f, i, names[i], &casters, light))
+        else if (!lom_draw_sun_map(f, i, names[i], &casters, light, error))
             return false;
     }
     return true;

@@ -193,9 +193,11 @@ void lom_draw_caster(lom_renderer *renderer, const struct lom_drawn_entity *enti
 static struct lom_shadow_map_uniform map_uniform(const struct lom_entity_shadow *shadow, lom_vec3 eye)
 {
     const float size = (float)lom_texture_width(shadow->map);
-    struct lom_shadow_map_uniform u = {
-        .map = shadow->map, .size = size, .texel = 1 / size, .offset = (float)(2.5 * shadow->at.texel)
-    };
+    struct lom_shadow_map_uniform u = { .map = shadow->map,
+                                        .near = { shadow->near.around, shadow->near.columns, shadow->near.rows },
+                                        .size = size,
+                                        .texel = 1 / size,
+                                        .offset = (float)(2.5 * shadow->at.texel) };
     lom_set_sun_map_rows(&shadow->at, eye, u.s, u.t, u.depth);
     return u;
 }

@@ -54,7 +54,8 @@ struct lom_drawn_entity {
 /* A map of what entities keep the sun off. */
 struct lom_entity_shadow {
     lom_texture *map;
-    bool falls; /* on something, in this frame */
+    struct lom_near_blocks near; /* of the map */
+    bool falls;                  /* on something, in this frame */
     struct lom_sun_map at;
     uint64_t made_for;
 };

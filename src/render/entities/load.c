@@ -110,6 +110,7 @@ void lom_drop_entity_shadows(lom_renderer *renderer)
 {
     for (int i = 0; i < LOM_ENTITY_SHADOWS; i++) {
         lom_release_texture(renderer->device, renderer->entities.shadows[i].map);
+        lom_free_near_blocks(&renderer->entities.shadows[i].near);
         renderer->entities.shadows[i] = (struct lom_entity_shadow){ .map = NULL };
     }
 }

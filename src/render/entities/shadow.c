@@ -68,7 +68,7 @@ static void sort_casters(struct frame *f, const lom_mat4 *light, struct lom_sun_
     }
 }
 
-static bool draw_two(struct frame *f, const lom_mat4 *light)
+static bool draw_two(struct frame *f, const lom_mat4 *light, lom_error *error)
 {
     static const char *const names[2] = { "near shadow", "far shadow" };
     static const char *const which[2] = { "", " farther than the middle" };
@@ -77,14 +77,13 @@ static bool draw_two(struct frame *f, const lom_mat4 *light)
     for (int i = 0; i < 2; i++)
         if (casters[i].count == 0)
             lom_add_step(f, names[i], false, "no shadow of an entity%s is in view", which[i]);
-        else if (!lom_draw_sun_map(f, i, names[i], &casters[i], light))
+        else if (!lom_draw_sun_map(f, i, names[i], &casters[i], light, error))
             return false;
     return true;
 }
 
 bool lom_prepare_entities(struct frame *f, lom_error *error)
 {
-    (void)error;
     struct lom_drawn_entities *entities = &f->renderer->entities;
     const lom_quality *quality = &f->scene->quality;
     if (entities->count == 0)
@@ -98,5 +97,5 @@ bool lom_prepare_entities(struct frame *f, lom_error *error)
     }
     const lom_mat4 light = lom_sun_view(f->renderer->moment.to_light);
     const size_t count = mark_casters(f);
-    return entities->cascaded && count > 0 ? lom_draw_cascades(f, &light) : draw_two(f, &light);
+    return entities->cascaded && count > 0 ? lom_draw_cascades(f, &light, error) : draw_two(f, &light, error);
 }

@@ -1,5 +1,5 @@
-/* A map of the sun's shadow: what entities look like from there. In: which of them, and their extent. Out: the map, drawn
- * unless it shows that already. */
+/* A map of the sun's shadow: what entities look like from there. In: which of them, and their extent. Out: the map and
+ * its blocks, drawn unless it shows that already. */
 #include "render/entities/sun_map.h"
 
 #include "render/frame.h"
@@ -35,7 +35,7 @@ static uint64_t hash_casters(const lom_renderer *r, int map, const lom_mat4 *pro
 }
 
 bool lom_draw_sun_map(struct frame *f, int number, const char *name, const struct lom_sun_casters *casters,
-                      const lom_mat4 *light)
+                      const lom_mat4 *light, lom_error *error)
 {
     lom_renderer *r = f->renderer;
     struct lom_entity_shadow *shadow = &r->entities.shadows[number];
@@ -57,7 +57,8 @@ bool lom_draw_sun_map(struct frame *f, int number, const char *name, const struc
     for (size_t i = 0; i < r->entities.count; i++)
         if (is_in(&r->entities.items[i], number))
             lom_draw_caster(r, &r->entities.items[i], &shadow->at.clip_from_world);
-    if (!lom_end_pass(r->device))
+    if (!lom_end_pass(r->device) ||
+        !lom_fill_near_blocks(&shadow->near, r->device, NULL, shadow->map, LOM_SHADOW_BLOCK, error))
         return false;
     shadow->made_for = hash;
     return true;

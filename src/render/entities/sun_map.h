@@ -19,9 +19,9 @@ struct lom_sun_casters {
 void lom_add_sun_caster(struct lom_sun_casters *casters, lom_box box);
 /* Draws a map of one or more casters, and adds its step. light: from the world to the sun's view. */
 bool lom_draw_sun_map(struct frame *f, int number, const char *name, const struct lom_sun_casters *casters,
-                      const lom_mat4 *light);
+                      const lom_mat4 *light, lom_error *error);
 
 /* cascades.c: the same for all that is marked with LOM_SHADOW_CASTS, in cascades of the view. */
-bool lom_draw_cascades(struct frame *f, const lom_mat4 *light);
+bool lom_draw_cascades(struct frame *f, const lom_mat4 *light, lom_error *error);
 
 #endif

@@ -180,7 +180,7 @@ static bool find_near_blocks(struct surface *surface, struct frame *f, lom_error
     struct lom_near_blocks *blocks = &f->renderer->water->near;
     if (above->color == NULL)
         return true;
-    if (!lom_fill_near_blocks(blocks, f->renderer->device, above->color, above->depth, error))
+    if (!lom_fill_near_blocks(blocks, f->renderer->device, above->color, above->depth, LOM_PICTURE_BLOCK, error))
         return false;
     above->near = (struct lom_near_uniform){ blocks->around, blocks->columns, blocks->rows };
     return true;

@@ -1,4 +1,4 @@
-#include "water/near_blocks.h"
+#include "shading/near_blocks.h"
 
 #include "base/reserve.h"
 #include "image/texture.h"
@@ -47,12 +47,13 @@ static float look_at_block(const struct work *work, int column, int row)
     const int x = first_texel(column, blocks->columns, width);
     const int count = first_texel(column + 1, blocks->columns, width) - x;
     const int end = first_texel(row + 1, blocks->rows, height);
-    const size_t words = lom_texel_size(work->color) / sizeof(uint32_t);
+    const size_t words = work->color != NULL ? lom_texel_size(work->color) / sizeof(uint32_t) : 0;
     int32_t most = 0;
     uint32_t color = 0;
     for (int y = first_texel(row, blocks->rows, height); y < end; y++) {
         most = greatest_bits(lom_texel(work->depth, 0, x, y, 0), count, most);
-        color = all_bits(lom_texel(work->color, 0, x, y, 0), words * (size_t)count, color);
+        if (work->color != NULL)
+            color = all_bits(lom_texel(work->color, 0, x, y, 0), words * (size_t)count, color);
     }
     float depth;
     memcpy(&depth, &most, sizeof depth);
@@ -79,15 +80,16 @@ static float greatest_around(const struct lom_near_blocks *blocks, int column, i
     return most;
 }
 
-static int count_blocks(int texels)
+static int count_blocks(int texels, int edge)
 {
-    return texels < LOM_NEAR_BLOCK ? 1 : texels / LOM_NEAR_BLOCK;
+    return texels < edge ? 1 : texels / edge;
 }
 
 bool lom_fill_near_blocks(struct lom_near_blocks *blocks, lom_device *device, const lom_texture *color,
-                          const lom_texture *depth, lom_error *error)
+                          const lom_texture *depth, int edge, lom_error *error)
 {
-    const int columns = count_blocks(lom_texture_width(depth)), rows = count_blocks(lom_texture_height(depth));
+    const int columns = count_blocks(lom_texture_width(depth), edge);
+    const int rows = count_blocks(lom_texture_height(depth), edge);
     const size_t count = (size_t)columns * (size_t)rows;
     if (!lom_reserve(&blocks->memory, &blocks->capacity, 2 * count, sizeof *blocks->memory, error))
         return false;

@@ -1,15 +1,13 @@
-/* How near the nearest is that a picture of the scene shows in and about each of its blocks, so that a shader need not look at
- * every texel that a blur reaches where nothing can be near. In: a picture's colour and depth. Out: for each block the
+/* How near the nearest is that a picture or a map shows in and about each of its blocks, so that a shader need not look at
+ * every texel about a place where nothing can be near. In: depth, and what colour a picture has with it. Out: for each block the
  * greatest depth in it and in its neighbours.
  *
- * Invariant: no texel that is less than 64 texels, or the size of a block, from a place is nearer than what stands for the
+ * Invariant: no texel that is less than `edge` texels, or the size of a block, from a place is nearer than what stands for the
  * place's block; where that is 0, all of them have neither colour nor depth, in any level of the picture. */
-#ifndef LOM_WATER_NEAR_BLOCKS_H
-#define LOM_WATER_NEAR_BLOCKS_H
+#ifndef LOM_SHADING_NEAR_BLOCKS_H
+#define LOM_SHADING_NEAR_BLOCKS_H
 
 #include <lom/pipeline.h>
-
-enum { LOM_NEAR_BLOCK = 64 }; /* texels: blocks are as large or larger, or the picture is smaller */
 
 /* Of nothing but colour, which no depth of a place is as small as. */
 static const float lom_only_color = 0x1p-126f;
@@ -27,9 +25,10 @@ struct lom_near_uniform {
     int columns, rows;
 };
 
-/* Fills blocks (zeros at first); memory is kept. False without memory. */
+/* Fills blocks (zeros at first) of `edge` texels or more, or of the whole where that is smaller; color: NULL, there is none;
+ * memory is kept. False without memory. */
 bool lom_fill_near_blocks(struct lom_near_blocks *blocks, lom_device *device, const lom_texture *color,
-                          const lom_texture *depth, lom_error *error);
+                          const lom_texture *depth, int edge, lom_error *error);
 void lom_free_near_blocks(struct lom_near_blocks *blocks);
 
 /* The greatest depth about places in the picture. */
