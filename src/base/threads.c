@@ -34,6 +34,7 @@ struct turn {
 struct lom_pool {
     pid_t process; /* that the workers belong to */
     int size;
+    int entered, found; /* how often it is; the size of it then */
     pthread_t *threads;
     pthread_mutex_t mutex;
     pthread_cond_t wake, finished;
@@ -243,9 +244,25 @@ uint64_t lom_pool_shared(const lom_pool *pool)
     return pool->shared;
 }
 
-int lom_pool_size(const lom_pool *pool)
+static int find_size(const lom_pool *pool)
 {
     return pool->process == getpid() ? pool->size : 1;
+}
+
+int lom_pool_size(const lom_pool *pool)
+{
+    return pool->entered > 0 ? pool->found : find_size(pool);
+}
+
+void lom_enter_pool(lom_pool *pool)
+{
+    if (pool->entered++ == 0)
+        pool->found = find_size(pool);
+}
+
+void lom_leave_pool(lom_pool *pool)
+{
+    pool->entered--;
 }
 
 static void wait_for_workers(lom_pool *pool)

@@ -16,6 +16,9 @@ lom_pool *lom_create_pool(int threads, lom_error *error);
 void lom_free_pool(lom_pool *pool);
 /* Workers of the pool, the caller included. */
 int lom_pool_size(const lom_pool *pool);
+/* Until as many calls of the other the caller is in one process, and nothing asks the system for that before each run. */
+void lom_enter_pool(lom_pool *pool);
+void lom_leave_pool(lom_pool *pool);
 /* One for each of the threads that were asked for, whether or not they are there, for what is handed out by portions: by one
  * caller at a time. */
 lom_portion *lom_pool_portions(lom_pool *pool);

@@ -28,6 +28,16 @@ int lom_pool_size(const lom_pool *pool)
     return 1;
 }
 
+void lom_enter_pool(lom_pool *pool)
+{
+    (void)pool;
+}
+
+void lom_leave_pool(lom_pool *pool)
+{
+    (void)pool;
+}
+
 lom_portion *lom_pool_portions(lom_pool *pool)
 {
     return pool->portions;

@@ -1,5 +1,6 @@
 /* Cameras: view and projection matrices, the frustum and boxes against it. In: cameras in metres and radians. Out:
- * matrices to clip space (0 <= z <= w, reversed depth; or OpenGL's: lom/geometry.h) and a conservative visibility. */
+ * matrices to clip space (0 <= z <= w, reversed depth; or OpenGL's: lom/geometry.h) and a conservative visibility.
+ * Compiled for speed. */
 #include "base/numbers.h"
 
 #include <lom/geometry.h>
@@ -192,6 +193,18 @@ lom_frustum lom_view_frustum(const lom_mat4 *view_projection, bool gl_depth)
     return frustum;
 }
 
+/* What rounding may have made of a plane's value at a corner of a box is a part of this. */
+static double size_at(const double reach[4], const double low[3], const double high[3])
+{
+    double size = reach[3];
+    for (int j = 0; j < 3; j++) {
+        double p = __builtin_fabs(low[j]), q = __builtin_fabs(high[j]);
+        size += reach[j] * (p > q ? p : q);
+    }
+    return size;
+}
+
+/* Of the box only the farthest corner counts, once it crosses a plane; and how far floats are off only near one. */
 lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box)
 {
     const double rounding = 0x1p-20; /* four roundings of a float, four times over */
@@ -203,17 +216,15 @@ lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box)
     lom_visibility visibility = LOM_INSIDE;
     for (int k = 0; k < frustum->count; k++) {
         const double *plane = frustum->plane[k], *reach = frustum->reach[k];
-        double farthest = plane[3], nearest = plane[3], size = reach[3];
+        double farthest = plane[3], nearest = plane[3];
         for (int j = 0; j < 3; j++) {
             double a = plane[j] * low[j], b = plane[j] * high[j];
-            double p = __builtin_fabs(low[j]), q = __builtin_fabs(high[j]);
             farthest += a > b ? a : b;
             nearest += a > b ? b : a;
-            size += reach[j] * (p > q ? p : q);
         }
-        if (farthest < -rounding * size)
+        if (farthest < 0 && farthest < -rounding * size_at(reach, low, high))
             return LOM_OUTSIDE;
-        if (!(nearest > rounding * size))
+        if (visibility == LOM_INSIDE && !(nearest > 0 && nearest > rounding * size_at(reach, low, high)))
             visibility = LOM_CROSSING;
     }
     return visibility;

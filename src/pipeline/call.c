@@ -6,8 +6,8 @@
 #include "pipeline/draw_again.h"
 #include "pipeline/expand.h"
 
-typedef uint64_t pair __attribute__((vector_size(16)));
-enum { PAIRS = 4 }; /* that are compared together */
+typedef uint64_t pair __attribute__((vector_size(16), aligned(1), may_alias)); /* wherever it lies */
+enum { PAIRS = 4 };                                                            /* that are compared together */
 
 /* A caller's structure may have padding that nobody set, and a sanitizer of memory need not hear of it: where that alone
  * differs, both draws have a copy and draw the same. From the end, since what structures of uniforms share stands in front. */
@@ -18,11 +18,10 @@ static bool
 are_same(const void *one, const void *other, size_t size)
 {
     const unsigned char *a = one, *b = other;
-    pair x[PAIRS], y[PAIRS];
     uint64_t different = 0;
-    for (; size >= sizeof x && different == 0; size -= sizeof x) {
-        memcpy(x, a + size - sizeof x, sizeof x);
-        memcpy(y, b + size - sizeof y, sizeof y);
+    for (; size >= PAIRS * sizeof(pair) && different == 0; size -= PAIRS * sizeof(pair)) {
+        const pair *x = (const pair *)(const void *)(a + size) - PAIRS,
+                   *y = (const pair *)(const void *)(b + size) - PAIRS;
         const pair all = (x[0] ^ y[0]) | (x[1] ^ y[1]) | (x[2] ^ y[2]) | (x[3] ^ y[3]);
         different = all[0] | all[1];
     }
@@ -37,16 +36,18 @@ are_same(const void *one, const void *other, size_t size)
     return different == 0;
 }
 
-/* All but uniforms, count and first. */
+/* All but uniforms, count, first and attributes that the shader has not; a is a draw that was checked. */
 static bool are_alike(const lom_draw_desc *a, const lom_draw_desc *b)
 {
-    enum { FROM = offsetof(lom_draw_desc, attribute), TO = offsetof(lom_draw_desc, count) };
+    enum { FROM = offsetof(lom_draw_desc, indices), TO = offsetof(lom_draw_desc, count) };
     enum { REST = offsetof(lom_draw_desc, first) + sizeof(size_t) };
-    _Static_assert(offsetof(lom_draw_desc, uniforms) == sizeof(void *) && FROM == 2 * sizeof(void *) &&
+    _Static_assert(offsetof(lom_draw_desc, attribute) == 2 * sizeof(void *) &&
+                       FROM == 2 * sizeof(void *) + sizeof a->attribute &&
                        offsetof(lom_draw_desc, first) == TO + sizeof(size_t),
-                   "shader, uniforms, attributes ..., count, first, the rest");
+                   "shader, uniforms, attributes, indices ..., count, first, the rest");
     const unsigned char *from[2] = { (const unsigned char *)a, (const unsigned char *)b };
     return a->shader == b->shader && are_same(from[0] + FROM, from[1] + FROM, TO - FROM) &&
+           are_same(a->attribute, b->attribute, (size_t)a->shader->attributes * sizeof *a->attribute) &&
            are_same(from[0] + REST, from[1] + REST, sizeof *a - REST);
 }
 

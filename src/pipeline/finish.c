@@ -10,10 +10,13 @@ enum {
     FACES = 6
 };
 
-/* About how many a texel of a level takes, of the one before. */
-static size_t cost_of(const lom_texture *texture)
+/* About how many a texel of a level takes, of the one before: of an even size, or of three texels weighted along an axis. */
+static size_t cost_of(const lom_texture *texture, int level)
 {
-    return texture->srgb ? 256 : texture->storage == LOM_STORAGE_RGBA8 ? 16 : 32;
+    const lom_level *from = &texture->level[level > 0 ? level - 1 : 0];
+    if (texture->kind != LOM_TEXTURE_3D && from->width % 2 == 0 && from->height % 2 == 0)
+        return texture->srgb ? 256 : texture->storage == LOM_STORAGE_RGBA8 ? 16 : 32;
+    return texture->srgb ? 1024 : texture->storage == LOM_STORAGE_RGBA8 ? 128 : 512;
 }
 
 /* A level and its slices from `layer` on. */
@@ -50,7 +53,7 @@ static void finish_faces(void *context, size_t first, size_t end)
 static void finish_level(lom_device *device, struct finish *f, int count)
 {
     const lom_level *l = &f->texture->level[f->level];
-    const size_t rows = (size_t)l->height * (size_t)count, row = (size_t)l->width * cost_of(f->texture);
+    const size_t rows = (size_t)l->height * (size_t)count, row = (size_t)l->width * cost_of(f->texture, f->level);
     const bool is_cube = f->texture->kind == LOM_TEXTURE_CUBE;
     if (f->shrinks || !is_cube)
         lom_share_out(device->pool, rows, f->shrinks && rows * row >= SHARED ? SHARED / 4 / row + 1 : rows, finish_rows,

@@ -20,23 +20,35 @@ static const uint32_t *indices_of(const struct lom_draw *draw, const struct lom_
     return (const uint32_t *)draw->desc.indices + draw->desc.first + 3 * (size_t)call->first;
 }
 
-static bool have_same_indices(const struct lom_call *a, const struct lom_call *b)
+/* Indices that calls of a draw have had, and the extremes of them. */
+enum { KNOWN_BITS = 6 };
+struct known_indices {
+    uint32_t first, triangles; /* 0: none */
+    uint32_t low, high;
+};
+
+/* Calls have the same few lists of indices time and again (boxes of one mesh, blocks of terrain): each is read once. */
+static const struct known_indices *find_extremes(const struct lom_draw *draw, const struct lom_call *call,
+                                                 struct known_indices known[1 << KNOWN_BITS])
 {
-    return a->first == b->first && a->triangles == b->triangles;
+    struct known_indices *of = &known[(call->first ^ call->triangles) * UINT32_C(2654435769) >> (32 - KNOWN_BITS)];
+    if (of->first != call->first || of->triangles != call->triangles) {
+        *of = (struct known_indices){ .first = call->first, .triangles = call->triangles };
+        lom_stages_of(draw->variant)
+            ->find_extremes(indices_of(draw, call), 3 * (size_t)call->triangles, &of->low, &of->high);
+    }
+    return of;
 }
 
 /* The vertices of a call; false where they are not all there, or not near one another, or of more triangles than a small
- * draw: a chunk of such costs little more than what finding them here would. known: those of the call before are. */
-static bool find_vertices(const struct lom_draw *draw, const struct lom_call *call, bool known, struct lom_part *part)
+ * draw: a chunk of such costs little more than what finding them here would. */
+static bool find_vertices(const struct lom_draw *draw, const struct lom_call *call, struct known_indices *known,
+                          struct lom_part *part)
 {
-    uint32_t low = 0, high = 0;
     if (call->triangles == 0 || call->triangles > SMALL_DRAW)
         return call->triangles == 0;
-    if (known && have_same_indices(call, call - 1)) {
-        low = lom_index_of(part[-1].base, call[-1].base_vertex);
-        high = low + part[-1].vertices - 1;
-    } else
-        lom_stages_of(draw->variant)->find_extremes(indices_of(draw, call), 3 * (size_t)call->triangles, &low, &high);
+    const struct known_indices *extremes = find_extremes(draw, call, known);
+    uint32_t low = extremes->low, high = extremes->high;
     if (!lom_move_vertices(&draw->desc, call->base_vertex, &low, &high))
         return false;
     part->base = low;
@@ -49,11 +61,12 @@ static void join_calls(const struct lom_draw *draw, const struct lom_call *calls
                        struct lom_part *parts)
 {
     size_t begin = 0, triangles = 0, rows = 0; /* of the chunk at hand */
-    bool known = false;                        /* the call before is whole, too */
+    bool is_whole = false;                     /* the call before is */
+    struct known_indices known[1 << KNOWN_BITS] = { { 0 } };
     for (size_t i = 0; i < count; i++) {
-        bool starts = !known || triangles + calls[i].triangles > limit;
-        known = find_vertices(draw, &calls[i], known, &parts[i]);
-        if (starts || !known) {
+        bool starts = !is_whole || triangles + calls[i].triangles > limit;
+        is_whole = find_vertices(draw, &calls[i], known, &parts[i]);
+        if (starts || !is_whole) {
             begin = i;
             triangles = rows = 0;
         }

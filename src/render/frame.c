@@ -4,6 +4,7 @@
  * Invariant: a pass that is left out, or cut by a scissor, changes no byte of the picture. */
 #include "pipeline/check_device.h"
 #include "base/pass_error.h"
+#include "pipeline/device.h"
 #include "render/frame.h"
 #include "render/wires/wires.h"
 
@@ -288,8 +289,10 @@ bool lom_render_frame(lom_renderer *renderer, const lom_frame_desc *desc, lom_fr
     const lom_counters before = lom_device_counters(renderer->device);
     const uint64_t steps = steps_of(renderer), fluid_steps = renderer->fluids.run;
     *out = (lom_frame){ .image = NULL };
+    lom_enter_pool(renderer->device->pool);
     bool drawn = lom_has_views(renderer->scene, desc) ? lom_draw_views(renderer, desc, out, error)
                                                       : lom_draw_part(renderer, desc, out, error);
+    lom_leave_pool(renderer->device->pool);
     out->shallow_steps = steps_of(renderer) - steps;
     out->fluid_steps = renderer->fluids.run - fluid_steps;
     out->counters = subtract(lom_device_counters(renderer->device), before);

@@ -81,12 +81,13 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
         *hash = lom_hash_bytes(*hash, &r->ground.eye, sizeof r->ground.eye);
         *hash = lom_hash_bytes(*hash, &r->ground.errors_allowed, sizeof r->ground.errors_allowed);
     }
-    lom_see_ground(&r->ground, &v->culler, v->reach);
-    for (int i = 0; i < r->ground.across * r->ground.down; i++) {
+    int left = lom_see_ground(&r->ground, &v->culler, v->reach);
+    for (int i = 0; left > 0; i++) {
         lom_draw_desc draw;
         uint32_t number;
         if (lom_find_ground_draw(&r->ground, i, &draw, &number) == NULL)
             continue;
+        left--;
         *hash = lom_hash_bytes(*hash, &draw.base_vertex, sizeof draw.base_vertex);
         *hash = lom_hash_bytes(*hash, &draw.first, sizeof draw.first);
         count++;
@@ -108,11 +109,12 @@ static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
     struct lom_held_draw held;
     lom_take_ground(&r->ground, &draw);
     lom_hold_draw(r->device, &draw, &held);
-    lom_see_ground(&r->ground, &v->culler, v->reach);
-    for (int i = 0; i < r->ground.across * r->ground.down; i++) {
+    for (int i = 0, left = lom_see_ground(&r->ground, &v->culler, v->reach); left > 0; i++) {
         uint32_t number;
-        if (lom_find_ground_draw(&r->ground, i, &draw, &number) != NULL)
-            lom_draw_held(r->device, &held, &draw);
+        if (lom_find_ground_draw(&r->ground, i, &draw, &number) == NULL)
+            continue;
+        lom_draw_held(r->device, &held, &draw);
+        left--;
     }
 }
 

@@ -82,27 +82,37 @@ lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view)
     return lom_multiply(projection, &turned);
 }
 
-/* Whether the highest value of the clip plane over the box, seen from the eye, is below 0 by more than floats round. */
-static bool is_behind_plane(const double plane[4], lom_vec3 eye, const lom_box *box)
+/* Where a box lies to the clip plane, seen from the eye: behind it by more than floats round, or wholly before it. */
+static lom_visibility plane_visibility(const double plane[4], lom_vec3 eye, const lom_box *box)
 {
     const double low[3] = { box->low.x, box->low.y, box->low.z }, high[3] = { box->high.x, box->high.y, box->high.z };
     const double from[3] = { eye.x, eye.y, eye.z };
-    double value = plane[3], size = 0;
+    double value = plane[3];
     for (int i = 0; i < 3; i++)
         value += plane[i] * from[i];
-    size = lom_magnitude(value);
+    double highest = value, lowest = value, size = lom_magnitude(value);
     for (int i = 0; i < 3; i++) {
-        double term = plane[i] * ((plane[i] > 0 ? high[i] : low[i]) - from[i]);
-        value += term;
-        size += lom_magnitude(term);
+        const bool up = plane[i] > 0;
+        const double most = plane[i] * ((up ? high[i] : low[i]) - from[i]);
+        highest += most;
+        lowest += plane[i] * ((up ? low[i] : high[i]) - from[i]);
+        size += lom_magnitude(most);
     }
-    return value < -0x1p-20 * size;
+    return highest < -0x1p-20 * size ? LOM_OUTSIDE : lowest >= 0 ? LOM_INSIDE : LOM_CROSSING;
+}
+
+lom_visibility lom_view_visibility(const struct lom_culler *culler, const lom_box *box)
+{
+    const lom_visibility in_frustum = lom_box_visibility(&culler->frustum, *box);
+    if (in_frustum == LOM_OUTSIDE)
+        return LOM_OUTSIDE;
+    const lom_visibility before = plane_visibility(culler->plane, culler->eye, box);
+    return before == LOM_INSIDE ? in_frustum : before;
 }
 
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box)
 {
-    return lom_box_visibility(&culler->frustum, *box) != LOM_OUTSIDE &&
-           !is_behind_plane(culler->plane, culler->eye, box);
+    return lom_view_visibility(culler, box) != LOM_OUTSIDE;
 }
 
 static struct lom_caustics_uniform caustics_uniform(const struct lom_caustics *caustics, lom_vec3 eye)

@@ -1,13 +1,16 @@
 /* Proves of pools: a range is handed out whole, every number of it once, in pieces that begin at multiples of their
  * size, whatever the count, the piece and the workers; work that is run is run by every worker once; work that is offered is
  * done when the call ends, with nobody left at it, also where workers come late or not at all; the time that is counted as shared holds all of what two workers
- * spent together and never more than has passed; a pool of one shares none. */
+ * spent together and never more than has passed; a pool of one shares none; a pool that is entered runs all workers, and one that
+ * was left is the caller alone in a forked child. */
 #include "base/threads.h"
 
 #include "check.h"
 
 #include <stdatomic.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { MOST = 1000 };
 
@@ -149,11 +152,42 @@ static void shared_time_is_what_two_spend_together(void)
     }
 }
 
+static void count_turn(void *context, int worker)
+{
+    (void)worker;
+    atomic_fetch_add((atomic_int *)context, 1);
+}
+
+static void an_entered_pool_knows_its_process(void)
+{
+    lom_pool *pool = lom_create_pool(3, NULL);
+    const int size = lom_pool_size(pool);
+    atomic_int turns = 0;
+    lom_enter_pool(pool);
+    lom_enter_pool(pool);
+    lom_run_pool(pool, count_turn, &turns);
+    lom_leave_pool(pool);
+    CHECK(lom_pool_size(pool) == size);
+    lom_run_pool(pool, count_turn, &turns);
+    lom_leave_pool(pool);
+    CHECK(lom_pool_size(pool) == size && atomic_load(&turns) == 2 * size, "%d turns", atomic_load(&turns));
+    const pid_t child = fork();
+    if (child == 0) {
+        lom_enter_pool(pool);
+        _exit(lom_pool_size(pool));
+    }
+    int status = 0;
+    CHECK(child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 1,
+          "the child has %d workers", WEXITSTATUS(status));
+    lom_free_pool(pool);
+}
+
 int main(int argc, char **argv)
 {
     RUN(every_number_is_taken_once);
     RUN(offered_work_is_done_by_who_comes);
     RUN(work_is_run_by_every_worker_once);
     RUN(shared_time_is_what_two_spend_together);
+    RUN(an_entered_pool_knows_its_process);
     return check_result();
 }

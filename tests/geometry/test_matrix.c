@@ -321,6 +321,27 @@ static void rays(void)
     }
 }
 
+/* Both ends of a box, and all that rounding may be, at every plane: the specification of lom_box_visibility. */
+static lom_visibility plain_visibility(const lom_frustum *planes, lom_vec3 from, lom_vec3 to)
+{
+    const double low[3] = { from.x, from.y, from.z }, high[3] = { to.x, to.y, to.z };
+    lom_visibility visibility = LOM_INSIDE;
+    for (int k = 0; k < planes->count; k++) {
+        const double *plane = planes->plane[k], *reach = planes->reach[k];
+        double most = plane[3], least = plane[3], size = reach[3];
+        for (int j = 0; j < 3; j++) {
+            most += plane[j] * (plane[j] > 0 ? high : low)[j];
+            least += plane[j] * (plane[j] > 0 ? low : high)[j];
+            const double ends[2] = { __builtin_fabs(low[j]), __builtin_fabs(high[j]) };
+            size += reach[j] * ends[ends[1] > ends[0]];
+        }
+        if (most < -0x1p-20 * size)
+            return LOM_OUTSIDE;
+        visibility = least > 0x1p-20 * size ? visibility : LOM_CROSSING;
+    }
+    return visibility;
+}
+
 static void frustum(void)
 {
     uint64_t counter = 0;
@@ -337,6 +358,7 @@ static void frustum(void)
         lom_visibility seen = lom_box_visibility(&planes, (lom_box){ low, lom_vec3_add(low, size) });
         outside += seen == LOM_OUTSIDE;
         inside += seen == LOM_INSIDE;
+        wrong += seen != plain_visibility(&planes, low, lom_vec3_add(low, size));
         for (int i = 0; i < 200; i++) { /* no point of a box outside is in clip space, every one of a box inside is */
             lom_vec3 p = { low.x + size.x * (i % 6) / 5, low.y + size.y * (i / 6 % 6) / 5,
                            low.z + size.z * (i / 36) / 5 };

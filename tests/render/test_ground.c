@@ -107,7 +107,7 @@ static void what_is_seen_is_each_block_that_is_visible(void)
         const double reach = i % 4 == 0 ? random_between(&draw, 1, 200) : LOM_EVERYWHERE;
         const struct lom_culler culler = { lom_view_frustum(&all, false), plane, eye };
         bool any = false;
-        lom_see_ground(&ground, &culler, reach);
+        int left = lom_see_ground(&ground, &culler, reach);
         for (int k = 0; k < count; k++) {
             const lom_box *box = &ground.blocks[k].bounds;
             const bool visible = lom_is_visible(&culler, box);
@@ -115,7 +115,9 @@ static void what_is_seen_is_each_block_that_is_visible(void)
             CHECK(ground.seen[k] == is_seen, "view %d, block %d: %d", i, k, ground.seen[k]);
             any |= visible;
             seen += is_seen;
+            left -= is_seen;
         }
+        CHECK(left == 0, "view %d: %d more than are seen", i, left);
         shown += any;
         CHECK(lom_shows_ground(&ground, &culler) == any, "view %d", i);
     }

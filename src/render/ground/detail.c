@@ -30,28 +30,30 @@ static int coarsest(const struct lom_ground_block *block, double distance, doubl
     return level;
 }
 
+static int finer(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 /* Sweeps until no block is more than one level coarser than a neighbour: the largest such assignment below the wishes,
  * whatever the order of the sweeps. */
 static void bind_neighbours(struct lom_ground *ground)
 {
-    int across = ground->across, down = ground->down;
+    const int across = ground->across, down = ground->down;
     for (bool changed = true; changed;) {
         changed = false;
-        for (int i = 0; i < across * down; i++) {
-            int *level = &ground->level[i], x = i % across, y = i / across, finest = LOM_GROUND_LEVELS;
-            if (x > 0 && level[-1] < finest)
-                finest = level[-1];
-            if (x + 1 < across && level[1] < finest)
-                finest = level[1];
-            if (y > 0 && level[-across] < finest)
-                finest = level[-across];
-            if (y + 1 < down && level[across] < finest)
-                finest = level[across];
-            if (*level > finest + 1) {
-                *level = finest + 1;
-                changed = true;
+        for (int y = 0; y < down; y++)
+            for (int x = 0; x < across; x++) {
+                int *level = &ground->level[y * across + x], finest = LOM_GROUND_LEVELS;
+                finest = finer(finest, x > 0 ? level[-1] : finest);
+                finest = finer(finest, x + 1 < across ? level[1] : finest);
+                finest = finer(finest, y > 0 ? level[-across] : finest);
+                finest = finer(finest, y + 1 < down ? level[across] : finest);
+                if (*level > finest + 1) {
+                    *level = finest + 1;
+                    changed = true;
+                }
             }
-        }
     }
 }
 
@@ -65,8 +67,9 @@ static void sort_blocks(struct lom_ground *ground)
         farthest = ground->distance[i] > farthest ? ground->distance[i] : farthest;
     for (size_t i = 0; i < count; i++) {
         double part = farthest > 0 ? ground->distance[i] / farthest : 0;
-        ground->distance[i] = lom_double_floor(part * (BUCKETS - 1));
-        next[lom_int_of(ground->distance[i]) + 1]++;
+        const int bucket = lom_int_of(part * (BUCKETS - 1));
+        ground->distance[i] = bucket;
+        next[bucket + 1]++;
     }
     for (int i = 0; i < BUCKETS; i++)
         next[i + 1] += next[i];
@@ -135,12 +138,14 @@ static int joined_quads(int quads, int level)
     return (quads + (1 << level) - 1) >> level;
 }
 
-static bool add_patterns(struct lom_ground *ground, const struct lom_ground_block *block, int level, lom_error *error)
+static bool add_patterns(struct lom_ground *ground, const struct lom_ground_block *block, int level, int *number,
+                         lom_error *error)
 {
     int columns = joined_quads(block->columns, level), rows = joined_quads(block->rows, level);
-    int sets = level + 1 < LOM_GROUND_LEVELS ? 16 : 1; /* nothing is coarser than the coarsest */
+    int sets = level + 1 < LOM_GROUND_LEVELS ? LOM_EDGE_SETS : 1; /* nothing is coarser than the coarsest */
     for (int edges = 0; edges < sets; edges++) {
         size_t i = find_pattern(ground, columns, rows, edges);
+        number[edges] = (int)i;
         if (i < ground->pattern_count)
             continue;
         ground->patterns[i] = (struct lom_ground_pattern){ .columns = columns, .rows = rows, .edges = edges };
@@ -154,28 +159,29 @@ static bool add_patterns(struct lom_ground *ground, const struct lom_ground_bloc
 /* One for each size of a block (those at the far borders may be smaller), level and set of edges. */
 bool lom_make_ground_patterns(struct lom_ground *ground, lom_error *error)
 {
-    const int last[4] = { 0, ground->across - 1, (ground->down - 1) * ground->across,
-                          ground->down * ground->across - 1 };
-    for (int i = 0; i < 4; i++)
+    const int last[LOM_BLOCK_SIZES] = { 0, ground->across - 1, (ground->down - 1) * ground->across,
+                                        ground->down * ground->across - 1 };
+    for (int i = 0; i < LOM_BLOCK_SIZES; i++)
         for (int level = 0; level < LOM_GROUND_LEVELS; level++)
-            if (!add_patterns(ground, &ground->blocks[last[i]], level, error))
+            if (!add_patterns(ground, &ground->blocks[last[i]], level, ground->pattern_of[i][level], error))
                 return false;
     return true;
 }
 
-static int coarser_edges(const struct lom_ground *ground, int block)
+static int choose_pattern(const struct lom_ground *ground, int x, int y)
 {
-    const int *level = &ground->level[block];
-    int x = block % ground->across, y = block / ground->across, edges = 0;
+    const int across = ground->across, *level = &ground->level[y * across + x];
+    const bool is_last = x + 1 == across, is_lowest = y + 1 == ground->down;
+    int edges = 0;
     if (x > 0 && level[-1] > *level)
         edges |= LOM_EDGE_LEFT;
-    if (x + 1 < ground->across && level[1] > *level)
+    if (!is_last && level[1] > *level)
         edges |= LOM_EDGE_RIGHT;
-    if (y > 0 && level[-ground->across] > *level)
+    if (y > 0 && level[-across] > *level)
         edges |= LOM_EDGE_TOP;
-    if (y + 1 < ground->down && level[ground->across] > *level)
+    if (!is_lowest && level[across] > *level)
         edges |= LOM_EDGE_BOTTOM;
-    return edges;
+    return ground->pattern_of[is_last + 2 * is_lowest][*level][edges];
 }
 
 void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, double pixels, bool parallel)
@@ -188,10 +194,7 @@ void lom_choose_ground(struct lom_ground *ground, lom_vec3 eye, double scale, do
     }
     bind_neighbours(ground);
     sort_blocks(ground);
-    for (int i = 0; i < count; i++) {
-        const struct lom_ground_block *b = &ground->blocks[i];
-        int level = ground->level[i];
-        ground->pattern[i] = (int)find_pattern(ground, joined_quads(b->columns, level), joined_quads(b->rows, level),
-                                               coarser_edges(ground, i));
-    }
+    for (int y = 0, i = 0; y < ground->down; y++)
+        for (int x = 0; x < ground->across; x++, i++)
+            ground->pattern[i] = choose_pattern(ground, x, y);
 }

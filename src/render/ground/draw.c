@@ -158,11 +158,11 @@ void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culle
     struct lom_held_draw held;
     (cut ? take_patches : lom_take_ground)(ground, &draw);
     lom_hold_draw(renderer->device, &draw, &held);
-    lom_see_ground(ground, culler, LOM_EVERYWHERE);
-    for (int i = 0; i < ground->across * ground->down; i++) {
+    for (int i = 0, left = lom_see_ground(ground, culler, LOM_EVERYWHERE); left > 0; i++) {
         uint32_t number;
         if (lom_find_ground_draw(ground, i, &draw, &number) == NULL)
             continue;
+        left--;
         if (cut) {
             draw.first = ground->blocks[number].first_corner;
             draw.count = ground->blocks[number].corners;

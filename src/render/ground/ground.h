@@ -16,8 +16,10 @@ enum { LOM_MAX_TERRAIN_LAYERS = 8 };
 enum {
     LOM_GROUND_BLOCK = 32, /* quads along an edge of a block, fewer at the far borders of the map */
     LOM_GROUND_LEVELS = 6, /* level n joins 2^n quads along each axis into one */
-    LOM_GROUND_PATTERNS = 4 * LOM_GROUND_LEVELS * 16, /* sizes of a block, levels, sets of edges */
-    LOM_GROUND_PATCH = 16                             /* quads along an edge of a patch, and segments of it at most */
+    LOM_BLOCK_SIZES = 4,   /* those before the far borders; in the last column; in the last row; in both */
+    LOM_EDGE_SETS = 16,
+    LOM_GROUND_PATTERNS = LOM_BLOCK_SIZES * LOM_GROUND_LEVELS * LOM_EDGE_SETS,
+    LOM_GROUND_PATCH = 16 /* quads along an edge of a patch, and segments of it at most */
 };
 
 /* The edges of a block where the neighbour is one level coarser. */
@@ -63,7 +65,8 @@ struct lom_ground {
     lom_texture *composed;  /* of the device: all layers from above; or NULL */
     struct lom_ground_pattern *patterns;
     size_t pattern_count;
-    uint32_t *indices; /* of all patterns */
+    int pattern_of[LOM_BLOCK_SIZES][LOM_GROUND_LEVELS][LOM_EDGE_SETS]; /* which of them */
+    uint32_t *indices;                                                 /* of all patterns */
     size_t index_count, index_capacity;
     /* With quality.tessellation: column, row, height over the base, metres that the patches around it are off. */
     float (*knot)[4];
@@ -102,9 +105,9 @@ void lom_drop_composed_ground(lom_renderer *renderer);
 /* Composes the layers if quality.terrain_composite asks for it and they are not; the blocks' levels come after. */
 bool lom_compose_ground(struct frame *f, lom_error *error);
 
-/* Finds which blocks are seen: in view (culler NULL: all are), and nearer to its eye than `reach`. */
+/* Finds which blocks are seen: in view (culler NULL: all are), and nearer to its eye than `reach`; how many. */
 #define LOM_EVERYWHERE 1e300
-void lom_see_ground(const struct lom_ground *ground, const struct lom_culler *culler, double reach);
+int lom_see_ground(const struct lom_ground *ground, const struct lom_culler *culler, double reach);
 /* The blocks that the culler leaves (NULL: all), near ones first, each a draw of this description with its vertices. */
 void lom_draw_ground_blocks(const lom_renderer *renderer, const struct lom_culler *culler, const lom_draw_desc *desc);
 /* All triangles, as far as a draw says so: attribute 0 and indices. Those of the i-th block from near to far: which of them,

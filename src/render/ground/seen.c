@@ -1,7 +1,8 @@
 /* Which blocks of terrain a pass sees. In: what it can show of a box, and how far from its eye. Out: a flag for each block.
  *
  * Blocks are asked in squares of GROUP x GROUP: whose box is out of view has no block in view, since what is compared grows and
- * falls with the box's ends, rounded or not. So where most of the map is out of view, most blocks are not asked. */
+ * falls with the box's ends, rounded or not; whose box is within the view has all in view likewise. So only blocks about the
+ * view's borders are asked. Compiled for speed. */
 #include "base/numbers.h"
 #include "render/ground/ground.h"
 #include "render/seen.h"
@@ -39,10 +40,15 @@ bool lom_group_ground_blocks(struct lom_ground *ground, lom_error *error)
     return true;
 }
 
-static bool is_seen(const struct lom_culler *culler, double reach, const lom_box *box)
+/* How much of a box is seen; where the reach ends, what is inside may be out of it. */
+static lom_visibility see(const struct lom_culler *culler, double reach, const lom_box *box)
 {
-    return culler == NULL ||
-           ((reach == LOM_EVERYWHERE || lom_distance_to_box(culler->eye, *box) < reach) && lom_is_visible(culler, box));
+    if (culler == NULL)
+        return LOM_INSIDE;
+    if (reach != LOM_EVERYWHERE && !(lom_distance_to_box(culler->eye, *box) < reach))
+        return LOM_OUTSIDE;
+    const lom_visibility visibility = lom_view_visibility(culler, box);
+    return visibility == LOM_INSIDE && reach != LOM_EVERYWHERE ? LOM_CROSSING : visibility;
 }
 
 /* How many blocks are seen, `enough` at most. */
@@ -51,13 +57,15 @@ static int look(const struct lom_ground *ground, const struct lom_culler *culler
     const int across = groups_along(ground->across), down = groups_along(ground->down);
     int count = 0;
     for (int group = 0; group < across * down; group++) {
-        const bool may_be = is_seen(culler, reach, &ground->groups[group]);
+        const lom_visibility all = see(culler, reach, &ground->groups[group]);
         const int x0 = group % across * GROUP, x1 = lom_smaller_int(x0 + GROUP, ground->across);
         const int y0 = group / across * GROUP, y1 = lom_smaller_int(y0 + GROUP, ground->down);
         for (int y = y0; y < y1; y++)
             for (int x = x0; x < x1; x++) {
                 const int number = y * ground->across + x;
-                ground->seen[number] = may_be && is_seen(culler, reach, &ground->blocks[number].bounds);
+                ground->seen[number] =
+                    all == LOM_INSIDE ||
+                    (all == LOM_CROSSING && see(culler, reach, &ground->blocks[number].bounds) != LOM_OUTSIDE);
                 count += ground->seen[number];
                 if (count == enough)
                     return count;
@@ -66,9 +74,9 @@ static int look(const struct lom_ground *ground, const struct lom_culler *culler
     return count;
 }
 
-void lom_see_ground(const struct lom_ground *ground, const struct lom_culler *culler, double reach)
+int lom_see_ground(const struct lom_ground *ground, const struct lom_culler *culler, double reach)
 {
-    look(ground, culler, reach, INT32_MAX);
+    return look(ground, culler, reach, INT32_MAX);
 }
 
 bool lom_shows_ground(const struct lom_ground *ground, const struct lom_culler *culler)
