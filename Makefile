@@ -12,6 +12,7 @@
 #   make fuzz SECONDS=60        every fuzz target of tests/fuzz under libFuzzer (clang) for that long
 #   make coverage               lines and branches of src/ that make check executes, a file a line
 #   make check-long             every float through every conversion and lane function; runs shared out among workers;
+#                               scenes out of numbers, every way of drawing them, for SECONDS;
 #                               the pictures of the pages drawn again (docs/pictures.sh);
 #                               Mesa, FFTW, MPFR and OpenVDB as witnesses, where they are installed
 #   make docs                   all pages, lessons and the headers' comments as HTML, in build/docs
@@ -302,6 +303,9 @@ $(BUILD)/tests/witness/witness_volume: tests/witness/witness_volume.cc $(BUILD)/
 # Another system's answers.
 $(BUILD)/tests/base/test_cpu: private LDFLAGS += -Wl,--wrap=sysconf -Wl,--wrap=sched_getaffinity
 
+# tests/render/test_shaders tries the shaders of all draws.
+$(foreach v,$(VARIANTS),$(BUILD)/tests/render/test_shaders.w$v): private LDFLAGS += -Wl,--wrap=lom_draw -Wl,--wrap=lom_hold_draw
+
 # tests/world counts which files are opened.
 $(BUILD)/tests/world/test_world: private LDFLAGS += -Wl,--wrap=openat
 
@@ -375,9 +379,9 @@ $(BUILD)/tests/house/coverage.o: tests/house/coverage.c $(BUILD)/flags
 	$(call short,CC)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # Every float through every conversion (a minute) and every unary lane function (a quarter of an hour).
-LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/lanes/test_every_float.w4 $(BUILD)/tests/render/test_key_ranges $(BUILD)/tests/render/test_change $(BUILD)/tests/inspect/test_explain
+LONG_TESTS = $(BUILD)/tests/image/test_convert $(BUILD)/tests/image/test_convert_lanes.w4 $(BUILD)/tests/lanes/test_mathematics.w4 $(BUILD)/tests/lanes/test_every_float.w4 $(BUILD)/tests/render/test_key_ranges $(BUILD)/tests/render/test_change $(BUILD)/tests/render/test_packets $(BUILD)/tests/render/test_shaders.w4 $(BUILD)/tests/inspect/test_explain
 check-long: all $(LONG_TESTS)
-	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 $$program || exit 1; done
+	for program in $(LONG_TESTS); do LOM_EXHAUSTIVE=1 LOM_SECONDS=$(SECONDS) $$program || exit 1; done
 	BUILD='$(BUILD)' docs/pictures.sh --check
 	BUILD='$(BUILD)' tests/house/many_machines.sh
 	MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' VARIANTS='$(VARIANTS)' tests/witness/witnesses.sh

@@ -1,6 +1,7 @@
 /* What the water models of a frame share: where water is seen, and pictures of the scene for it to look up. In: a mask,
  * a view. Out: a rectangle, a picture with depth. Invariant: cutting a picture to what lookups can reach changes no
  * byte. */
+#include "base/numbers.h"
 #include "image/texture.h"
 #include "pipeline/share_work.h"
 #include "render/water/passes.h"
@@ -123,11 +124,27 @@ static void copy_scene(struct frame *f, const struct lom_scene_view *view)
                                           .scissor = f->water });
 }
 
+/* Whether corners are near enough for the margin: where a triangle is cut is rounded to 2^-24 of where its corners are, a few
+ * times. */
+static bool cuts_closely(const struct frame *f, const struct lom_scene_view *view)
+{
+    const lom_renderer *r = f->renderer;
+    const double most = 0x1p15 * lom_magnitude(view->plane[1] * view->eye.y + view->plane[3]);
+    for (size_t i = 0; i < r->entities.count; i++) {
+        const lom_box *box = &r->entities.items[i].at->bounds;
+        const double reach[] = { box->low.x, box->low.y, box->low.z, box->high.x, box->high.y, box->high.z };
+        for (size_t k = 0; k < sizeof reach / sizeof reach[0]; k++)
+            if (!(lom_magnitude(reach[k]) < most))
+                return false;
+    }
+    return true;
+}
+
 /* Copying costs a look at every pixel of the water, and pays where there is ground to be copied. */
 static bool can_copy(const struct frame *f, const struct lom_scene_view *view, const lom_step *step)
 {
-    return f->scene->quality.scissor && f->scene->output.samples <= 1 && step->width == f->width &&
-           step->height == f->height && lom_shows_terrain(f->renderer, view);
+    return f->scene->quality.scissor && cuts_closely(f, view) && f->scene->output.samples <= 1 &&
+           step->width == f->width && step->height == f->height && lom_shows_terrain(f->renderer, view);
 }
 
 /* Liquids over a picture, which is larger by as much as their bent rays look. */

@@ -32,6 +32,7 @@ static bool draw_box(const struct surface *surface, struct frame *f, const lom_b
                                  .attribute = { { corners, sizeof corners, 12, LOM_ATTRIBUTE_FLOAT3 } },
                                  .indices = faces,
                                  .count = 36,
+                                 .depth_clamp = true, /* the near plane does not cut what lies before the water */
                                  .depth_write_off = true };
     return lom_draw_pass(f->renderer->device, &pass, &draw, 1);
 }
