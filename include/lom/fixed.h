@@ -30,11 +30,11 @@ typedef enum lom_filtering {
 #define LOM_FIXED_BYTE   32640.0f /* 255 in 15 bits */
 #define LOM_FIXED_LINEAR 32767.0f /* linear light 1 in 15 bits */
 
-/* -round(2^15 t) in both halves, 0 <= t <= 1: the unit of floats in [2^23, 2^24) is 1, and 1.5 2^23 is a multiple of
- * 2^16. */
+/* -round(2^15 t) in both halves, 0 <= t <= 1: the unit of floats in [2^8, 2^9) is 2^-15, and 1.5 2^8 is a multiple of
+ * 2^16 of them. */
 LOM_INLINE lom_pairs lom_weight_pairs(lom_float t)
 {
-    return lom_twice(lom_as_int(0x1.8p23f - t * 0x1p15f));
+    return lom_twice(lom_as_int(0x1.8p8f - t));
 }
 
 LOM_INLINE lom_pairs lom_mix_pairs(lom_pairs a, lom_pairs b, lom_pairs negated_weight)

@@ -45,6 +45,19 @@ static bool read_text(const char *path, char *text, size_t size)
     return got >= 0;
 }
 
+bool lom_has_fast_gathers(void)
+{
+#if defined __x86_64__
+    char text[64];
+    __builtin_cpu_init();
+    return __builtin_cpu_is("intel") && lom_detect_cpu().avx512 &&
+           read_text("/sys/devices/system/cpu/vulnerabilities/gather_data_sampling", text, sizeof text) &&
+           strcmp(text, "Not affected\n") == 0;
+#else
+    return false;
+#endif
+}
+
 /* Quota over period in CPUs, rounded up; 0 when there is no quota ("max", -1) or no sense in it. */
 static int64_t quota_cpus(const char *quota, const char *period)
 {

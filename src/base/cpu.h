@@ -4,6 +4,11 @@
 
 #include <lom/base.h>
 
+/* Whether gathers of 512 bits take less time than a load a lane. AMD's are microcode; so are Intel's from Skylake to Ice
+ * Lake since they keep data from being sampled through them (INTEL-SA-00828), which is what the system is asked for. It
+ * chooses speed alone. */
+bool lom_has_fast_gathers(void);
+
 /* The CPU quota of the control groups this process is in, in CPUs rounded up; 0 when there is none. membership is the
  * text of /proc/self/cgroup, root the folder where the hierarchies are mounted (/sys/fs/cgroup). */
 int lom_cgroup_cpus(const char *membership, const char *root);

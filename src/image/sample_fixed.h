@@ -4,6 +4,7 @@
 #ifndef LOM_IMAGE_SAMPLE_FIXED_H
 #define LOM_IMAGE_SAMPLE_FIXED_H
 
+#include "lanes/mix_bytes.h"
 #include "sample_lanes.h"
 
 #include <lom/fixed.h>
@@ -18,29 +19,11 @@ LOM_INLINE lom_int sample_linear15(lom_int code)
     return lom_bounded_to_int(lom_float_of_srgb8_lanes(code) * LOM_FIXED_LINEAR + 0.5f);
 }
 
-LOM_INLINE sample_pairs sample_unpack_pairs(bool srgb, lom_int texel)
+LOM_INLINE sample_pairs sample_decode_pairs(lom_int texel)
 {
-    if (!srgb)
-        return (sample_pairs){ lom_even_bytes(texel), lom_odd_bytes(texel) };
     lom_int red = sample_linear15(texel & 255), green = sample_linear15(texel >> 8 & 255);
     lom_int blue = sample_linear15(texel >> 16 & 255);
     return (sample_pairs){ (lom_pairs)(red | blue << 16), (lom_pairs)(green | (texel >> 1 & 0x7f800000)) };
-}
-
-/* Texels index and index + 1 after the one numbered `from`. Decoded ones are two words each: four words in a row. */
-LOM_INLINE void sample_two_pairs(const lom_texture *texture, size_t from, lom_storage storage, bool srgb, lom_int index,
-                                 sample_pairs *first, sample_pairs *second)
-{
-    if (storage == LOM_STORAGE_RGBA32F) {
-        lom_float4 words = lom_gather_rows((const float *)texture->decoded + 2 * from, index + index);
-        *first = (sample_pairs){ (lom_pairs)words.x, (lom_pairs)words.y };
-        *second = (sample_pairs){ (lom_pairs)words.z, (lom_pairs)words.w };
-        return;
-    }
-    lom_int a, b;
-    lom_gather_pairs((const int32_t *)texture->texels + from, index, &a, &b);
-    *first = sample_unpack_pairs(srgb, a);
-    *second = sample_unpack_pairs(srgb, b);
 }
 
 LOM_INLINE sample_pairs sample_mix_pairs(sample_pairs a, sample_pairs b, lom_pairs weight)
@@ -48,13 +31,27 @@ LOM_INLINE sample_pairs sample_mix_pairs(sample_pairs a, sample_pairs b, lom_pai
     return (sample_pairs){ lom_mix_pairs(a.rb, b.rb, weight), lom_mix_pairs(a.ga, b.ga, weight) };
 }
 
+/* Texels index and index + 1 after the one numbered `from`, mixed. Decoded ones are two words each: four in a row. */
+LOM_INLINE sample_pairs sample_mix_two(const lom_texture *texture, size_t from, lom_storage storage, bool srgb,
+                                       lom_int index, lom_pairs weight)
+{
+    if (storage == LOM_STORAGE_RGBA32F) {
+        lom_float4 words = lom_gather_rows((const float *)texture->decoded + 2 * from, index + index);
+        return sample_mix_pairs((sample_pairs){ (lom_pairs)words.x, (lom_pairs)words.y },
+                                (sample_pairs){ (lom_pairs)words.z, (lom_pairs)words.w }, weight);
+    }
+    lom_int a, b;
+    lom_gather_pairs_by(texture->gathers, (const int32_t *)texture->texels + from, index, &a, &b);
+    if (srgb)
+        return sample_mix_pairs(sample_decode_pairs(a), sample_decode_pairs(b), weight);
+    return (sample_pairs){ lom_mix_even_bytes(a, b, weight), lom_mix_odd_bytes(a, b, weight) };
+}
+
 LOM_INLINE sample_pairs sample_square_pairs(const lom_texture *texture, lom_storage storage, bool srgb, lom_int index,
                                             lom_int pitch, lom_pairs s, lom_pairs t)
 {
-    sample_pairs a, b, c, d;
-    sample_two_pairs(texture, 0, storage, srgb, index, &a, &b);
-    sample_two_pairs(texture, 0, storage, srgb, index + pitch, &c, &d);
-    return sample_mix_pairs(sample_mix_pairs(a, b, s), sample_mix_pairs(c, d, s), t);
+    return sample_mix_pairs(sample_mix_two(texture, 0, storage, srgb, index, s),
+                            sample_mix_two(texture, 0, storage, srgb, index + pitch, s), t);
 }
 
 /* As sample_square_apart. */

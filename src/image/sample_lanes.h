@@ -9,6 +9,7 @@
 #define LOM_IMAGE_SAMPLE_LANES_H
 
 #include "convert_lanes.h"
+#include "lanes/gathers.h"
 #include "lanes/notes.h"
 #include "texture.h"
 
@@ -180,7 +181,7 @@ LOM_INLINE void sample_pair(const lom_texture *texture, lom_storage storage, boo
         return;
     }
     lom_int a, b;
-    lom_gather_pairs(texture->texels, index, &a, &b);
+    lom_gather_pairs_by(texture->gathers, texture->texels, index, &a, &b);
     *first = storage == LOM_STORAGE_R32F ? (lom_float4){ .x = lom_as_float(a) } : sample_unpack(srgb, a);
     *second = storage == LOM_STORAGE_R32F ? (lom_float4){ .x = lom_as_float(b) } : sample_unpack(srgb, b);
 }
@@ -264,9 +265,7 @@ LOM_INLINE lom_float sample_choose(const lom_texture *texture, sample_point *poi
 /* The same of a plain texture (texture.h) of several levels, whose lanes all take the square of texels. */
 LOM_INLINE lom_float sample_choose_plainly(const lom_texture *texture, const lom_float *lod)
 {
-    lom_float chosen =
-        lom_clamp(*lod + texture->sampler.lod_bias, lom_splat(texture->lod_min), lom_splat(texture->lod_max));
-    return lom_min(lom_max(chosen, (lom_float){ 0 }), lom_splat((float)(texture->level_count - 1)));
+    return lom_clamp(*lod + texture->sampler.lod_bias, lom_splat(texture->level_min), lom_splat(texture->level_max));
 }
 
 /* For records: where a sampler looks, and which levels it chose. */

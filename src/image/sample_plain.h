@@ -98,10 +98,10 @@ LOM_INLINE bool sample_find_spot(const lom_texture *texture, const lom_float2 *a
 LOM_INLINE sample_pairs sample_in_window(const lom_texture *texture, lom_storage storage, bool srgb, bool apart,
                                          const sample_window *w)
 {
-    sample_pairs a, b, c, d;
-    sample_two_pairs(texture, apart ? 0 : w->from, storage, srgb, w->index, &a, &b);
-    sample_two_pairs(texture, apart ? 0 : w->from + w->pitch, storage, srgb, apart ? w->below : w->index, &c, &d);
-    return sample_mix_pairs(sample_mix_pairs(a, b, w->right), sample_mix_pairs(c, d, w->right), w->down);
+    sample_pairs upper = sample_mix_two(texture, apart ? 0 : w->from, storage, srgb, w->index, w->right);
+    sample_pairs lower =
+        sample_mix_two(texture, apart ? 0 : w->from + w->pitch, storage, srgb, apart ? w->below : w->index, w->right);
+    return sample_mix_pairs(upper, lower, w->down);
 }
 
 LOM_INLINE lom_float4 sample_at_windows(const lom_texture *texture, lom_storage storage, bool srgb, bool apart,

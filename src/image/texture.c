@@ -2,6 +2,8 @@
  * in one of three storages. Invariant: every index that sample_lanes.h can form lies inside texels[]. */
 #include "texture.h"
 
+#include "base/cpu.h"
+
 static const uint64_t most_texels = INT32_MAX, most_bytes = UINT64_C(1) << 33;
 enum { CACHE_LINE = 64 }; /* bytes; memory from lom_allocate begins with one */
 
@@ -113,9 +115,12 @@ static void set_sampler(lom_texture *texture, const lom_texture_desc *desc)
                      !texture->nearest_within[0] && !texture->nearest_within[1] && s->wrap_s != LOM_WRAP_BORDER &&
                      s->wrap_t != LOM_WRAP_BORDER &&
                      (texture->linear_between || (texture->level_count == 1 && !texture->nearest_between));
+    texture->gathers = lom_has_fast_gathers();
     bool bounded = s->lod_min != 0 || s->lod_max != 0;
     texture->lod_min = bounded ? between(s->lod_min, -1000, 1000) : -1000;
     texture->lod_max = bounded ? between(s->lod_max, -1000, 1000) : 1000;
+    texture->level_min = between(texture->lod_min, 0, (float)(texture->level_count - 1));
+    texture->level_max = between(texture->lod_max, 0, (float)(texture->level_count - 1));
     s->lod_bias = between(s->lod_bias, -1000, 1000);
 }
 

@@ -50,10 +50,12 @@ struct lom_texture {
     size_t texel_count; /* in texels[] */
     const void *owner;  /* the device that it was made with; NULL: none, it belongs to the caller */
     /* For the samplers: */
+    bool gathers;                         /* by the processor's own (lom_has_fast_gathers): the same bits */
     bool nearest_within[2];               /* magnified, minified */
     bool nearest_between, linear_between; /* levels */
     bool plain; /* 2D, fixed or four floats, linear within levels and between those there are, and no border */
-    float lod_min, lod_max; /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
+    float lod_min, lod_max;     /* within 0 .. level_count - 1, and the smallest lod may be below 0 */
+    float level_min, level_max; /* lod_min and lod_max within 0 .. level_count - 1 */
     lom_level_row row[LOM_MAX_LEVELS];
     uint8_t *stencil; /* rows of level 0, one after the other, without an apron; NULL: none */
     /* What passes of `samples` samples a pixel left of them; 0: they keep none (pipeline/samples.c). */

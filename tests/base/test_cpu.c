@@ -116,6 +116,7 @@ static void this_machine(void)
     CHECK(threads >= 1 && threads <= 1 << 20, "%d", threads);
     lom_cpu cpu = lom_detect_cpu();
     CHECK(!cpu.avx512 || cpu.avx2);
+    CHECK(!lom_has_fast_gathers() || cpu.avx512);
 }
 
 /* ---- another system: what it answers ---- */

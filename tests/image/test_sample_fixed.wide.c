@@ -215,10 +215,12 @@ static float coordinate(uint64_t key, uint64_t i)
     return bits % 8 == 1 ? floorf(x * 16) / 16 : x;
 }
 
-static void compare_with_definition(const lom_texture *t, int packets, uint64_t key)
+/* Both ways in which texels are fetched in turn, whichever is this processor's. */
+static void compare_with_definition(lom_texture *t, int packets, uint64_t key)
 {
     const lom_sampler_desc *s = &t->sampler;
     for (int n = 0; n < packets * 16 / LOM_LANES; n++) {
+        t->gathers = (n >> 2 & 1) == (key / 1000 & 1);
         lom_float3 at = { 0 };
         lom_float lod = { 0 };
         for (int i = 0; i < LOM_LANES; i++) {

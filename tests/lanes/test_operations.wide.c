@@ -1,6 +1,8 @@
 /* Proves that every override of a lane operation gives, bit for bit, what its definition gives: on special values in
  * every pairing, and on random bit patterns. NaNs are compared as NaN: payloads are not defined. */
 #include "lanes/fours.h"
+#include "lanes/gathers.h"
+#include "lanes/mix_bytes.h"
 #include "lanes/pair_products.h"
 #include "lanes/row_pairs.h"
 
@@ -58,6 +60,9 @@ static void compare_all(lom_int p, lom_int q)
     lom_pairs x = (lom_pairs)p, y = (lom_pairs)q;
     CHECK(same_int((lom_int)lom_multiply_pairs(x, y), (lom_int)lom_defined_multiply_pairs(x, y)),
           "multiply_pairs of %08x, %08x", p[0], q[0]);
+    CHECK(same_int((lom_int)lom_mix_even_bytes(p, q, y), (lom_int)lom_defined_mix_even_bytes(p, q, y)) &&
+              same_int((lom_int)lom_mix_odd_bytes(p, q, y), (lom_int)lom_defined_mix_odd_bytes(p, q, y)),
+          "mix_bytes of %08x, %08x", p[0], q[0]);
     CHECK(same_int((lom_int)lom_twice(p), (lom_int)lom_defined_twice(p)), "twice of %08x", p[0]);
 }
 
@@ -79,6 +84,18 @@ static void overrides_equal_definitions_on_random_bits(void)
         compare_all(pattern(3, n), pattern(4, n));
 }
 
+static void check_gathered_pairs(const int32_t *table, lom_int index)
+{
+    lom_int first[2], second[2];
+    lom_defined_gather_pairs(table, index, &first[1], &second[1]);
+    lom_gather_pairs(table, index, &first[0], &second[0]);
+    CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs %d", index[0]);
+    for (int by = 0; by < 2; by++) {
+        lom_gather_pairs_by(by != 0, table, index, &first[0], &second[0]);
+        CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs_by %d %d", by, index[0]);
+    }
+}
+
 static void gathers_read_what_their_indices_name(void)
 {
     float table[256];
@@ -93,10 +110,7 @@ static void gathers_read_what_their_indices_name(void)
         CHECK(same_int(lom_gather_int((const int32_t *)table, index),
                        lom_defined_gather_int((const int32_t *)table, index)),
               "gather_int %d", index[0]);
-        lom_int first[2], second[2];
-        lom_gather_pairs((const int32_t *)table, index, &first[0], &second[0]);
-        lom_defined_gather_pairs((const int32_t *)table, index, &first[1], &second[1]);
-        CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs %d", index[0]);
+        check_gathered_pairs((const int32_t *)table, index);
         lom_float4 a = lom_load_rows(rows, 1), b = lom_defined_load_rows(rows, 1);
         CHECK(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.w, b.w), "load_rows %d", index[0]);
     }
@@ -134,13 +148,11 @@ static void what_lies_before_is_gathered(void)
     for (int i = 0; i < 256; i++)
         numbers[i] = (float)(table[i] = i * 5 - 7);
     for (uint64_t n = 0; n < 1000; n++) {
-        lom_int index = (pattern(17, n) & 127) - 64, first[2], second[2];
+        lom_int index = (pattern(17, n) & 127) - 64;
         CHECK(same(lom_gather(numbers + 128, index), lom_defined_gather(numbers + 128, index)), "gather %d", index[0]);
         CHECK(same_int(lom_gather_int(table + 128, index), lom_defined_gather_int(table + 128, index)), "gather_int %d",
               index[0]);
-        lom_gather_pairs(table + 128, index, &first[0], &second[0]);
-        lom_defined_gather_pairs(table + 128, index, &first[1], &second[1]);
-        CHECK(same_int(first[0], first[1]) && same_int(second[0], second[1]), "gather_pairs %d", index[0]);
+        check_gathered_pairs(table + 128, index);
     }
 }
 
