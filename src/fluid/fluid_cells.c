@@ -68,22 +68,46 @@ static void connect(void *context, size_t first, size_t end)
     }
 }
 
-void lom_find_wet_cells(struct lom_fluid *f)
+/* Kinds of cells; in the place of the first one's unknown, how many are wet. */
+static void find_kinds(void *context, size_t first, size_t end)
 {
-    size_t wet = 0;
-    lom_return_density(f);
-    for (size_t n = 0; n < f->count; n++) {
-        f->unknown[n] = LOM_FLUID_NONE;
+    struct lom_fluid *f = context;
+    int32_t wet = 0;
+    for (size_t n = first; n < end; n++) {
         if (f->kind[n] == LOM_FLUID_SOLID)
             continue;
         f->kind[n] = f->first[n + 1] > f->first[n] ? LOM_FLUID_LIQUID : LOM_FLUID_AIR;
-        if (f->kind[n] == LOM_FLUID_AIR) {
+        if (f->kind[n] == LOM_FLUID_AIR)
             f->pressure[n] = f->push[n] = 0;
-            continue;
-        }
-        f->unknown[n] = (int32_t)wet;
-        f->cell_of[wet++] = (uint32_t)n;
+        else
+            wet++;
     }
-    f->wet = f->system.count = wet;
-    lom_share_fluid(f, wet, LOM_FLUID_PIECE, connect, f);
+    f->unknown[first] = wet;
+}
+
+/* Unknowns, from the one that stands in the place of the first cell's. */
+static void number_cells(void *context, size_t first, size_t end)
+{
+    struct lom_fluid *f = context;
+    int32_t wet = f->unknown[first];
+    for (size_t n = first; n < end; n++) {
+        f->unknown[n] = f->kind[n] == LOM_FLUID_LIQUID ? wet : LOM_FLUID_NONE;
+        if (f->kind[n] == LOM_FLUID_LIQUID)
+            f->cell_of[wet++] = (uint32_t)n;
+    }
+}
+
+void lom_find_wet_cells(struct lom_fluid *f)
+{
+    int32_t wet = 0;
+    lom_return_density(f);
+    lom_share_fluid(f, f->count, LOM_FLUID_PIECE, find_kinds, f);
+    for (size_t n = 0; n < f->count; n += LOM_FLUID_PIECE) {
+        const int32_t here = f->unknown[n];
+        f->unknown[n] = wet;
+        wet += here;
+    }
+    lom_share_fluid(f, f->count, LOM_FLUID_PIECE, number_cells, f);
+    f->wet = f->system.count = (size_t)wet;
+    lom_share_fluid(f, f->wet, LOM_FLUID_PART, connect, f);
 }

@@ -150,14 +150,14 @@ static void warm_points(void *context, size_t first, size_t end)
 void lom_heat_fluid(struct lom_fluid *f)
 {
     const int rounds = f->desc.latent_heat > 0 ? ROUNDS : 1;
-    lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, begin_cells, f);
+    lom_share_fluid(f, f->wet, LOM_FLUID_PART, begin_cells, f);
     f->rounds[3] = 0;
     for (int i = 0; i < rounds; i++) {
-        lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, fill_rows, f);
+        lom_share_fluid(f, f->wet, LOM_FLUID_PART, fill_rows, f);
         const int own = lom_solve_fluid(f, 1e-8, 400);
         f->rounds[3] += own;
         if (own == 0)
             break;
     }
-    lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, warm_points, f);
+    lom_share_fluid(f, f->wet, LOM_FLUID_PART, warm_points, f);
 }

@@ -164,7 +164,7 @@ static void stop_at_walls(void *context, size_t first, size_t end)
 void lom_project_fluid(struct lom_fluid *f)
 {
     lom_share_fluid(f, f->count, LOM_FLUID_PIECE, stop_at_walls, f);
-    lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, find_divergence, f);
+    lom_share_fluid(f, f->wet, LOM_FLUID_PART, find_divergence, f);
     f->rounds[0] = lom_solve_fluid(f, 1e-4, 400);
     keep(f, f->pressure);
     lom_share_fluid(f, f->count, LOM_FLUID_PIECE, subtract_gradient, f);
@@ -183,7 +183,7 @@ static void find_pushes(void *context, size_t first, size_t end)
 /* Air keeps the potential 0: at the surface particles are pushed less than half a cell, however near it is. */
 void lom_push_fluid(struct lom_fluid *f)
 {
-    lom_share_fluid(f, f->wet, LOM_FLUID_PIECE, find_excess, f);
+    lom_share_fluid(f, f->wet, LOM_FLUID_PART, find_excess, f);
     f->rounds[1] = lom_solve_fluid(f, 1e-2, 100);
     keep(f, f->push);
     lom_share_fluid(f, f->count, LOM_FLUID_PIECE, find_pushes, f);
