@@ -8,6 +8,8 @@
 
 #include <lom/march.h>
 
+#include <assert.h>
+
 /* The bundle as one ray with a width, in cells: every ray stays within `spread` of the centre, which moves by at most
  * `speed` a step (both as the largest of the three axes). */
 typedef struct bundle {
@@ -112,6 +114,7 @@ struct steps {
 
 static inline struct steps plan_steps(const lom_march_rays *rays, const lom_march_desc *desc)
 {
+    assert(desc->opaque >= 0); /* else rays would end at steps that others beside them skip */
     struct steps steps = { .skips = !desc->walk && lom_any(rays->active), .last = desc->steps };
     if (steps.skips) {
         steps.rays = make_bundle(rays, desc, rays->active);

@@ -7,6 +7,8 @@
 
 #include <lom/lanes_mathematics.h>
 
+#include <assert.h>
+
 LOM_INLINE lom_float sample_density(const lom_medium *m, bool fixed, const lom_volume_place *place)
 {
     if (!fixed)
@@ -107,6 +109,7 @@ static inline int empty_steps(const lom_medium *m, const lom_volume_place *place
 /* The step of each ray in metres: the asked one, or longer where the ray would take too many. */
 static inline lom_float step_of(const lom_medium_desc *desc, const lom_medium_rays *rays)
 {
+    assert(desc->stop <= 1); /* else rays would end at steps that others beside them skip */
     lom_float length = lom_max(rays->leave - rays->enter, (lom_float){ 0 });
     return lom_max(lom_splat(desc->step), length * (1.0f / (float)desc->most_steps));
 }

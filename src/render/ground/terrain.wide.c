@@ -150,13 +150,14 @@ static lom_float3 sample_base(const struct lom_terrain_uniforms *terrain, const 
     return (lom_float3){ texel.x, texel.y, texel.z };
 }
 
-/* `above` itself where its share is 1. */
+/* `above` itself where its share is 1, `below` where it is 0. */
 LOM_INLINE lom_float3 lay_over(lom_float3 below, lom_float3 above, lom_float share)
 {
     lom_float3 mixed = lom_mix3(below, above, share);
-    lom_mask seen = share < 1.0f;
-    return (lom_float3){ lom_select(seen, mixed.x, above.x), lom_select(seen, mixed.y, above.y),
-                         lom_select(seen, mixed.z, above.z) };
+    lom_mask seen = share<1.0f, covers = share> 0.0f;
+    return (lom_float3){ lom_select(covers, lom_select(seen, mixed.x, above.x), below.x),
+                         lom_select(covers, lom_select(seen, mixed.y, above.y), below.y),
+                         lom_select(covers, lom_select(seen, mixed.z, above.z), below.z) };
 }
 
 /* Where a layer's weight is 1 it is the colour, exactly. So what lies below a layer that covers the whole packet is not
