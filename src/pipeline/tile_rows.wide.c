@@ -24,6 +24,19 @@ LOM_INLINE void put(const struct lom_rectangle *r, uint32_t *to, lom_int words)
         lom_store_int((int32_t *)to, words);
 }
 
+/* A store waits for its line, which was last in a cache a frame ago: lines of the rows that follow soon are fetched now.
+ * Past the caches no store waits. */
+enum { ROWS_AHEAD = 6, LINE_WORDS = 16 };
+
+LOM_INLINE void fetch_row(const struct lom_rectangle *r, int y)
+{
+    if (y >= r->height || r->streams)
+        return;
+    const uint32_t *row = r->texels + (size_t)y * r->pitch;
+    for (int x = 0; x < r->width; x += LINE_WORDS)
+        __builtin_prefetch(row + x, 1);
+}
+
 /* One row, of which `from` is the block of the pixel `first`; that pixel may be a block's second. */
 static void store_row(const struct lom_rectangle *r, const uint32_t *from, int first, uint32_t *to, int count)
 {
@@ -48,8 +61,9 @@ LOM_INLINE void store_two_rows(const struct lom_rectangle *r, const uint32_t *fr
     store_row(r, from + 2 * x + 2, 0, lower + x, r->width - x);
 }
 
-void LOM_WIDE(lom_store_rectangle)(const struct lom_rectangle *r, const uint32_t *memory)
+void LOM_WIDE(lom_store_rectangle)(const struct lom_rectangle *rectangle, const uint32_t *memory)
 {
+    const struct lom_rectangle copy = *rectangle, *r = &copy; /* which no store of a word may change */
     for (int y = 0; y < r->height;) {
         int row = r->y + y;
         const uint32_t *from = memory + (size_t)(row >> 1) * 2 * (size_t)r->edge + (size_t)(r->x >> 1) * 4;
@@ -59,6 +73,8 @@ void LOM_WIDE(lom_store_rectangle)(const struct lom_rectangle *r, const uint32_t
             y++;
             continue;
         }
+        fetch_row(r, y + ROWS_AHEAD);
+        fetch_row(r, y + ROWS_AHEAD + 1);
         if (r->divisor != 0)
             store_two_rows(r, from, to, true);
         else
@@ -75,6 +91,7 @@ void LOM_WIDE(lom_fill_rectangle)(const struct lom_rectangle *r, uint32_t value)
     for (int y = 0; y < r->height; y++) {
         uint32_t *row = r->texels + (size_t)y * r->pitch;
         int x = 0;
+        fetch_row(r, y + ROWS_AHEAD);
         for (; x + LOM_LANES <= r->width; x += LOM_LANES)
             put(r, row + x, word);
         for (; x < r->width; x++)
