@@ -123,13 +123,21 @@ lom_trochoid_point lom_trochoids_at(const lom_trochoid *trochoids, int count, do
     return p;
 }
 
+/* The derivatives of the displacement are the sum of -b k cos t times (d d^T), d the wave's direction: of its eigenvalues, whose
+ * amounts add up to at most s = the sum of b k, the Jacobian (1 + l) (1 + m) is at least 1 - s. No foam is looked for where
+ * floats cannot round that to the threshold. */
+static bool may_break(const lom_water_foam *foam, double steepness)
+{
+    return foam->amount > 0 && foam->threshold > 1 - steepness - 1e-3;
+}
+
 void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *waves, const lom_water_foam *foam,
                         const double origin[2], double time)
 {
     lom_trochoid trochoids[LOM_MAX_WAVES];
-    lom_trochoid_report unread;
+    lom_trochoid_report report;
     double high = 0, reach = 0, longest = 0;
-    out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER ? make_trochoids(waves, trochoids, &unread) : 0;
+    out->trochoid_count = waves->kind == LOM_WAVES_GERSTNER ? make_trochoids(waves, trochoids, &report) : 0;
     for (int i = 0; i < out->trochoid_count; i++) {
         const lom_trochoid *t = &trochoids[i];
         double x = t->direction[0], z = t->direction[1];
@@ -150,7 +158,7 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
         longest = t->number * longest < lom_two_pi ? lom_two_pi / t->number : longest;
     }
     out->period = (float)(LOM_WAVES_A_PERIOD * longest);
-    bool breaks = out->trochoid_count > 0 && foam->amount > 0;
+    bool breaks = out->trochoid_count > 0 && may_break(foam, report.steepness);
     out->foam_threshold = breaks ? (float)foam->threshold : 0;
     out->foam_window = (float)foam->window;
     out->highest = (float)(high * 1.0001);

@@ -105,7 +105,7 @@ struct lom_waves_uniform {
     float level;           /* y at rest, less the origin's */
     float lowest, highest; /* bounds of h, metres from the level */
     float reach;           /* bound of |(dx, dz)| */
-    float foam_threshold;  /* the Jacobian below which trochoids break; 0: they have no foam */
+    float foam_threshold;  /* the Jacobian below which trochoids break; 0: none of them does, or there is no foam */
     float foam_window;     /* seconds that the foam lasts */
 };
 

@@ -121,6 +121,30 @@ static void w3_foam_is_a_share(void)
     }
 }
 
+/* Where the sum of their steepnesses keeps the Jacobian over the threshold no trochoid is asked, and none would have broken. */
+static void what_cannot_break_is_not_asked(void)
+{
+    int asked = 0, spared = 0;
+    for (int k = 0; k < 40; k++) {
+        lom_water_params water = parameters(0.02 + 0.4 * (k % 8), 0.1 + 0.9 * (k % 5) / 4, 1 + k);
+        struct lom_waves_uniform waves;
+        memset(&waves, 0, sizeof waves);
+        water.foam = (lom_water_foam){ .amount = 1, .threshold = 0.05 + 0.023 * k, .window = 2 };
+        lom_fill_trochoids(&waves, &water.waves, &water.foam, (double[2]){ 0, 0 }, 1);
+        asked += waves.foam_threshold > 0;
+        if (waves.foam_threshold > 0)
+            continue;
+        spared++;
+        waves.foam_threshold = (float)water.foam.threshold;
+        for (int i = 0; i < 2000; i++) {
+            lom_float x = 0.05f * (float)i + 0.3f * lom_to_float(lom_lane_index());
+            lom_float foam = lom_find_slopes(&waves, x, lom_splat(0.031f * (float)i), &point).foam, none = { 0 };
+            CHECK(memcmp(&foam, &none, sizeof foam) == 0, "waves %d foam at %d", k, i);
+        }
+    }
+    CHECK(asked > 5 && spared > 5, "%d waves may break, %d cannot", asked, spared);
+}
+
 /* Foam is what broke at the moments of its window: the Jacobians of the same trochoids in double, at those times. */
 static void foam_is_that_of_its_moments(void)
 {
@@ -374,6 +398,7 @@ int main(int argc, char **argv)
     RUN(found_together_or_apart_waves_are_the_same);
     RUN(w1_crests_never_loop);
     RUN(w3_foam_is_a_share);
+    RUN(what_cannot_break_is_not_asked);
     RUN(foam_is_that_of_its_moments);
     RUN(w2_no_height_is_flat);
     RUN(filtered_slopes_become_variance);
