@@ -58,6 +58,11 @@ LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, lom_f
     return near & (at.s > 0.0f) & (at.s < 1.0f) & (at.t > 0.0f) & (at.t < 1.0f) & (at.w > 0.0f);
 }
 
+LOM_INLINE lom_float lom_largest_part(lom_float3 v)
+{
+    return lom_max(lom_max(lom_abs(v.x), lom_abs(v.y)), lom_abs(v.z));
+}
+
 struct lom_hit {
     lom_mask found;
     lom_float length; /* of the ray */
@@ -68,6 +73,51 @@ struct lom_hit {
 LOM_INLINE lom_float lom_before_surface(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)
 {
     return u->eye.parallel ? p->w - 20.0f * u->eye.pixel : p->w * 0.98f;
+}
+
+/* Records name every texel that the definition looks at. */
+#ifdef LOM_RECORD
+enum { LOM_LOOKS_AROUND = false };
+#else
+enum { LOM_LOOKS_AROUND = true };
+#endif
+
+/* The longest way through a picture of which blocks are asked, in places that are asked. */
+enum { LOM_MOST_PLACES = 16 };
+
+/* Whether a picture shows nothing along all rays of the lanes, by its blocks: then following them finds nothing. A ray that
+ * stays before the eye is a straight way in the picture, to where it leaves it. Places on it are asked 3/2 of a block apart, so
+ * that no texel of it is more than 3/4 of one beside a place, and a place knows of all that is less than one away. What floats round
+ * is less: 8 roundings of sums of at most the largest row times the largest coordinate move a place by at most 2^-12 of the
+ * picture, which has at most 2^8 blocks a side, where w is 2^-9 of that or more. */
+LOM_INLINE bool lom_shows_nothing_along(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                        const struct lom_surface_point *p, lom_float3 d, lom_float range)
+{
+    if (!LOM_LOOKS_AROUND || picture->near.around == NULL || u->eye.parallel || picture->near.columns > 256 ||
+        picture->near.rows > 256)
+        return false;
+    const lom_float3 end = lom_add3(p->offset, lom_scale3(d, range));
+    const struct lom_lookup a = lom_project_point(u, picture, p->offset), b = lom_project_point(u, picture, end);
+    const lom_float large = lom_max(lom_max(lom_largest_part(p->offset), lom_largest_part(end)), lom_splat(1.0f));
+    const lom_float x = b.s - a.s, y = b.t - a.t, nearer = lom_min(a.w, b.w);
+    const lom_mask inside = (a.s >= 0.0f) & (a.s <= 1.0f) & (a.t >= 0.0f) & (a.t <= 1.0f);
+    const lom_mask straight = (large * picture->rows_sum <= nearer * 512.0f) & (lom_max(a.w, b.w) < unseen);
+    if (!lom_all(inside & straight & (lom_abs(x) < 64.0f) & (lom_abs(y) < 64.0f)))
+        return false;
+    const lom_float leaves_s = lom_select(x < 0.0f, -a.s, 1.0f - a.s) / lom_select(x == 0.0f, lom_splat(1.0f), x);
+    const lom_float leaves_t = lom_select(y < 0.0f, -a.t, 1.0f - a.t) / lom_select(y == 0.0f, lom_splat(1.0f), y);
+    const lom_float part = lom_min(lom_min(leaves_s, leaves_t), lom_splat(1.0f));
+    const lom_float blocks = lom_max(lom_abs(x) * (float)picture->near.columns, lom_abs(y) * (float)picture->near.rows);
+    int places = 1;
+    while (places <= LOM_MOST_PLACES && !lom_all(blocks * part <= 1.5f * (float)places))
+        places++;
+    for (int i = 0; i < places; i++) {
+        const lom_float at = part * (((float)i + 0.5f) / (float)places);
+        if (places > LOM_MOST_PLACES ||
+            !lom_all(lom_nearest_around(&picture->near, a.s + x * at, a.t + y * at) <= lom_only_color))
+            return false;
+    }
+    return true;
 }
 
 /* Follows the ray from p along d through the picture: `steps` points whose distances grow as the cube of their number,
@@ -82,6 +132,8 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
 {
     lom_float2 own = lom_own_place(picture, p);
     struct lom_hit hit = { { 0 }, lom_splat(endless), own.x, own.y };
+    if (lom_shows_nothing_along(u, picture, p, d, range))
+        return hit;
     lom_mask going = range > 0.0f, hidden = { 0 };
     lom_float before = { 0 }, last = { 0 }, reached = p->w, rim = lom_splat(endless);
     const lom_float bound = lom_before_surface(u, p);
@@ -137,13 +189,6 @@ LOM_INLINE lom_mask lom_is_hidden(const struct lom_surface_uniforms *u, const st
     }
     return hidden;
 }
-
-/* Records name every texel that the definition looks at. */
-#ifdef LOM_RECORD
-enum { LOM_LOOKS_AROUND = false };
-#else
-enum { LOM_LOOKS_AROUND = true };
-#endif
 
 /* What blocks of a picture (near_blocks.h) tell of all that a blur reaches from the lanes' places: that nothing is nearer than
  * the surface; and that nothing is there at all. A blur reaches 12 pixels from where it begins and is drawn out by 24 more; levels of

@@ -20,6 +20,7 @@ struct lom_picture_uniform {
     float scale[2], shift[2];
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
     struct lom_near_uniform near;     /* of a picture that a rough surface blurs */
+    float rows_sum;                   /* of the matrix, the largest sum of a row's amounts: with near */
 };
 
 /* Blocks of a picture that is blurred, texels. */

@@ -1,6 +1,6 @@
-/* Proves that blocks of a picture know the nearest of all that is about a place, and that what a blur reads of a picture is
- * with them, bit for bit, what it is without: for pictures that show little, things before and behind the surface, colour
- * without depth, places on, beyond and between texels, and lanes that hold no number. */
+/* Proves that blocks of a picture know the nearest of all that is about a place, and that what a blur reads of a picture and
+ * what a ray finds in it are with them, bit for bit, what they are without: for pictures that show little, things before and
+ * behind the surface, colour without depth, places on, beyond and between texels, and lanes that hold no number. */
 #include "check.h"
 
 #include "water/picture_rays.h"
@@ -186,9 +186,63 @@ static void blurs_are_what_they_are_without_blocks(void)
     lom_close_device(device);
 }
 
+/* Rays from about a place before an eye that looks along -z, near one another or anywhere, through pictures that show little. */
+static void rays_find_what_they_find_without_blocks(void)
+{
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 2 });
+    int skipped = 0, found = 0;
+    for (int n = 0; n < 24; n++) {
+        struct picture p;
+        paint(n % 2 == 0 ? n / 2 : 6 * n, n % 4 != 0);
+        make_picture(&p, device, n % 2 == 0);
+        struct lom_picture_uniform *picture = n % 3 == 0 ? &p.u.behind : &p.u.mirrored;
+        const float zoom = 0.7f + 2 * unit();
+        p.u.behind = p.u.mirrored;
+        p.u.steps = 4 + below(30);
+        p.u.reach = n % 5 == 0 ? 0.3f : 1;
+        picture->clip_from_offset = (lom_matrix_uniform){
+            { { zoom, 0, 0.1f * unit(), 0 }, { 0, zoom, 0.1f * unit(), 0 }, { 0, 0, 0, 0.1f }, { 0, 0, -1, 0 } }
+        };
+        picture->rows_sum = zoom + 0.1f;
+        for (int k = 0; k < 500; k++) {
+            const float x = unit() - 0.5f, y = unit() - 0.5f, far = 1 + 40 * unit(), wide = k % 5 == 0 ? 1 : 0.02f;
+            const float side = k % 3 == 0 ? 1 : 0.1f; /* many go away from the eye */
+            const float to[3] = { x + side * (unit() - 0.5f), y + side * (unit() - 0.5f), -unit() };
+            struct lom_surface_point at = { .w = { 0 } };
+            lom_float3 d;
+            lom_float range = lom_splat(0.1f + 300 * unit() * unit());
+            for (int i = 0; i < LOM_LANES; i++) {
+                const bool odd = k % 40 == 0 && i == k % LOM_LANES;
+                at.w[i] = odd ? place(0) : far * (1 + wide * unit());
+                at.offset.x[i] = (x + wide * unit()) * at.w[i];
+                at.offset.y[i] = (y + wide * unit()) * at.w[i];
+                at.offset.z[i] = -at.w[i];
+                at.x[i] = (0.5f + 0.5f * zoom * at.offset.x[i] / at.w[i]) * WIDTH;
+                at.y[i] = (0.5f - 0.5f * zoom * at.offset.y[i] / at.w[i]) * HEIGHT;
+                d.x[i] = to[0] + wide * unit();
+                d.y[i] = to[1] + wide * unit();
+                d.z[i] = odd ? place(0) : to[2] + wide * unit();
+            }
+            picture->near = (struct lom_near_uniform){ .around = NULL };
+            const struct lom_hit plain = lom_follow_ray(&p.u, picture, &at, d, range);
+            picture->near = near_of(&p);
+            const struct lom_hit quick = lom_follow_ray(&p.u, picture, &at, d, range);
+            skipped += lom_shows_nothing_along(&p.u, picture, &at, d, range);
+            found += lom_any(plain.found);
+            CHECK(memcmp(&plain.found, &quick.found, sizeof plain.found) == 0 && same(plain.length, quick.length) &&
+                      same(plain.s, quick.s) && same(plain.t, quick.t),
+                  "picture %d, packet %d", n, k);
+        }
+        free_picture(&p);
+    }
+    CHECK(skipped > 500 && found > 40, "%d packets are spared, %d find something", skipped, found);
+    lom_close_device(device);
+}
+
 int main(int argc, char **argv)
 {
     RUN(blocks_know_the_nearest_about_a_place);
     RUN(blurs_are_what_they_are_without_blocks);
+    RUN(rays_find_what_they_find_without_blocks);
     return check_result();
 }

@@ -173,6 +173,18 @@ static bool draw_behind(struct surface *surface, struct frame *f, lom_error *err
                             is_shown(surface, f), error);
 }
 
+static float find_largest_row(const lom_matrix_uniform *m)
+{
+    float largest = 0;
+    for (int i = 0; i < 4; i++) {
+        float sum = 0;
+        for (int k = 0; k < 4; k++)
+            sum += m->m[i][k] < 0 ? -m->m[i][k] : m->m[i][k];
+        largest = sum > largest ? sum : largest;
+    }
+    return largest;
+}
+
 /* Of the picture of what is above the water, which is looked up blurred. */
 static bool find_near_blocks(struct surface *surface, struct frame *f, lom_error *error)
 {
@@ -183,6 +195,7 @@ static bool find_near_blocks(struct surface *surface, struct frame *f, lom_error
     if (!lom_fill_near_blocks(blocks, f->renderer->device, above->color, above->depth, LOM_PICTURE_BLOCK, error))
         return false;
     above->near = (struct lom_near_uniform){ blocks->around, blocks->columns, blocks->rows };
+    above->rows_sum = find_largest_row(&above->clip_from_offset);
     return true;
 }
 
