@@ -25,6 +25,10 @@ struct lom_impostor {
     double cut;                             /* of two parts: metres along the plate's axis from its eye */
     double sun[3], phase;                   /* of the light and of the shapes when it was made */
     lom_texture *marched[2], *magnified[2]; /* magnified: NULL when the marched picture is shown as it is */
+    struct lom_plate wanted;                /* what the frame would make; whether it is to */
+    int wanted_parts;
+    double wanted_cut;
+    bool is_due;
 };
 
 /* The light a cloud's plates were last made for. */

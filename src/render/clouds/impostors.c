@@ -2,6 +2,7 @@
  * anew where the rule says so and shown the farthest first. Invariant: which plates are made anew, and from where,
  * follows from the places of eye, sun and clouds in the frames of the run; not from crops, tiles, threads or lanes. */
 #include "pipeline/check_device.h"
+#include "pipeline/share_work.h"
 #include "cloud/impostor_draw.h"
 #include "render/frame.h"
 
@@ -116,6 +117,8 @@ struct looking {
     bool has_aircraft;          /* the camera follows it from behind: a plate whose cloud it is in is split */
     lom_vec3 aircraft;          /* in the world */
     int width, height;          /* of the picture */
+    struct lom_impostor *all;
+    const size_t *order; /* clouds in view, the farthest first */
 };
 
 static struct lom_impostor_eye eye_of(const struct lom_scene_view *view, const struct lom_cloud_view *seen, int height)
@@ -284,39 +287,51 @@ static int find_cut(const struct looking *l, const struct lom_plate *plate, cons
     return *cut > l->eye.near_plane ? 2 : 1;
 }
 
-/* Brings one cloud's plate up to date. False: the device failed. */
+/* Whether the cloud is drawn, whether it is about the eye, what plate it has then, and whether that is to be made. */
+static void decide(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud)
+{
+    lom_vec3 corner[8], eye = lom_vec3_subtract(l->seen.eye, cloud->middle);
+    struct lom_plate *plate = &impostor->wanted;
+    lom_cloud_corners(cloud, corner);
+    bool was_around = impostor->is_around, fits = make_plate(l, cloud, corner, eye, plate);
+    double away = distance_to_box(cloud, eye) / longest_side(cloud);
+    impostor->is_around =
+        !fits || away == 0 || (!l->is_reference && lom_switch(was_around, away, around_on, around_off));
+    impostor->is_small = !impostor->is_around && is_small(l, impostor, plate);
+    impostor->is_due = false;
+    if (impostor->is_small)
+        return;
+    if (was_around != impostor->is_around)
+        impostor->is_made = false;
+    if (impostor->is_around)
+        lom_make_screen_plate(eye, &l->eye, l->dials->inside_scale, l->width, l->height, plate);
+    impostor->wanted_parts = find_cut(l, plate, cloud, &impostor->wanted_cut);
+    bool is_whole = impostor->wanted_parts == 1 && impostor->parts == 1; /* a cut moves with the aircraft */
+    impostor->is_due = !is_whole || why_refresh(l, impostor, cloud, corner, eye) != LOM_REFRESH_NONE;
+}
+
+static void decide_some(void *context, size_t first, size_t end)
+{
+    const struct looking *l = context;
+    for (size_t i = first; i < end; i++)
+        decide(l, &l->all[l->order[i]], &l->f->renderer->clouds.set->clouds[l->order[i]]);
+}
+
+/* Brings one cloud's plate up to date, which is decided. False: the device failed. */
 static bool update(const struct looking *l, struct lom_impostor *impostor, const struct lom_placed_cloud *cloud,
                    lom_error *error)
 {
     lom_impostor_counters *counts = l->f->impostors;
-    lom_vec3 corner[8], eye = lom_vec3_subtract(l->seen.eye, cloud->middle);
-    struct lom_plate plate;
-    lom_cloud_corners(cloud, corner);
-    bool was_around = impostor->is_around, fits = make_plate(l, cloud, corner, eye, &plate);
-    double away = distance_to_box(cloud, eye) / longest_side(cloud);
-    impostor->is_around =
-        !fits || away == 0 || (!l->is_reference && lom_switch(was_around, away, around_on, around_off));
-    impostor->is_small = !impostor->is_around && is_small(l, impostor, &plate);
-    if (impostor->is_small) {
-        counts->skipped++;
+    const bool is_drawn = !impostor->is_small;
+    counts->skipped += !is_drawn;
+    counts->plates += is_drawn;
+    counts->split += is_drawn && impostor->wanted_parts == 2;
+    counts->reused += is_drawn && !impostor->is_due;
+    if (!impostor->is_due)
         return true;
-    }
-    if (was_around != impostor->is_around)
-        impostor->is_made = false;
-    if (impostor->is_around)
-        lom_make_screen_plate(eye, &l->eye, l->dials->inside_scale, l->width, l->height, &plate);
-    double cut = 0;
-    int parts = find_cut(l, &plate, cloud, &cut);
-    bool is_whole = parts == 1 && impostor->parts == 1; /* a cut moves with the aircraft */
-    counts->plates++;
-    counts->split += parts == 2;
-    if (is_whole && why_refresh(l, impostor, cloud, corner, eye) == LOM_REFRESH_NONE) {
-        counts->reused++;
-        return true;
-    }
-    impostor->plate = plate;
-    impostor->parts = parts;
-    impostor->cut = cut;
+    impostor->plate = impostor->wanted;
+    impostor->parts = impostor->wanted_parts;
+    impostor->cut = impostor->wanted_cut;
     counts->refreshed++;
     return refresh(l, impostor, cloud, error);
 }
@@ -363,11 +378,15 @@ bool lom_draw_impostors(struct frame *f, const struct lom_scene_view *view, cons
         l.has_aircraft = true;
         l.aircraft = lom_scene_entity_at(&f->scene->entities[camera->followed - 1], f->time).position;
     }
+    enum { SOME = 4 }; /* clouds that a worker decides about at a time: some 10 000 instructions each */
     size_t *order = r->clouds.set->order;
     struct lom_impostor *all = provide_impostors(r, view->mirrored, error);
     bool done = all != NULL;
+    l.all = all;
+    l.order = order;
     *count = done ? lom_order_clouds(r->clouds.set, seen, l.dials->culling, order) : 0;
     f->impostors->culled += done ? (int)(r->clouds.set->count - *count) : 0;
+    lom_share_work(r->device, *count, SOME, decide_some, &l);
     for (size_t i = 0; done && i < *count; i++)
         done = update(&l, &all[order[i]], &r->clouds.set->clouds[order[i]], error);
     if (done && *count != 0) {
