@@ -17,20 +17,18 @@ static double wave_length(const lom_water_waves *waves, int i)
 }
 
 /* Equal slopes of all waves: a = c length, with half the sum of a^2 equal to the variance (height / 4)^2. */
-static double amplitude_factor(const lom_water_waves *waves)
+static double amplitude_factor(const lom_water_waves *waves, const double *length)
 {
     double sum = 0;
-    for (int i = 0; i < waves->count; i++) {
-        double length = wave_length(waves, i);
-        sum += length * length / 2;
-    }
+    for (int i = 0; i < waves->count; i++)
+        sum += length[i] * length[i] / 2;
     return waves->height / 4 / lom_double_sqrt(sum);
 }
 
-static lom_trochoid choose_wave(const lom_water_waves *waves, int i, double factor)
+static lom_trochoid choose_wave(const lom_water_waves *waves, int i, double length, double factor)
 {
     uint64_t key = (uint64_t)waves->seed;
-    double normal[2], length = wave_length(waves, i);
+    double normal[2];
     lom_random_normal(key, 3 * (uint64_t)i + 1, normal);
     double angle = waves->direction + waves->spread * normal[0];
     lom_trochoid t = { .direction = { lom_double_cos(angle), lom_double_sin(angle) },
@@ -65,10 +63,13 @@ static bool check_trochoids(const lom_water_waves *w, lom_error *error)
 static int make_trochoids(const lom_water_waves *waves, lom_trochoid *out, lom_trochoid_report *report)
 {
     int count = waves->height > 0 ? waves->count : 0;
-    double factor = count > 0 ? amplitude_factor(waves) : 0;
+    double length[LOM_MAX_WAVES];
+    for (int i = 0; i < count; i++)
+        length[i] = wave_length(waves, i);
+    double factor = count > 0 ? amplitude_factor(waves, length) : 0;
     *report = (lom_trochoid_report){ .asked = 0 };
     for (int i = 0; i < count; i++) {
-        out[i] = choose_wave(waves, i, factor);
+        out[i] = choose_wave(waves, i, length[i], factor);
         report->asked += waves->steepness * out[i].amplitude * out[i].number;
         report->steepness += out[i].across * out[i].number;
         report->limited += out[i].across < waves->steepness * out[i].amplitude;
@@ -168,16 +169,18 @@ void lom_fill_trochoids(struct lom_waves_uniform *out, const lom_water_waves *wa
 
 double lom_trochoid_height(const struct lom_waves_uniform *waves, double x, double z)
 {
+    enum { STEPS = 12 }; /* to the place at rest that waves bring there; of the last one the height counts */
     double rest_x = x, rest_z = z, height = 0;
-    for (int step = 0; step < 12; step++) {
+    for (int step = 0; step < STEPS; step++) {
         double dx = 0, dz = 0;
-        height = 0;
         for (int i = 0; i < waves->trochoid_count; i++) {
             const struct lom_trochoid_uniform *t = &waves->trochoid[i];
             double angle = (double)t->kx * rest_x + (double)t->kz * rest_z + (double)t->phase;
-            dx -= t->across_x * lom_double_sin(angle);
-            dz -= t->across_z * lom_double_sin(angle);
-            height += t->amplitude * lom_double_cos(angle);
+            const double s = lom_double_sin(angle);
+            dx -= t->across_x * s;
+            dz -= t->across_z * s;
+            if (step + 1 == STEPS)
+                height += t->amplitude * lom_double_cos(angle);
         }
         rest_x = x - dx;
         rest_z = z - dz;
