@@ -3,7 +3,7 @@
  * Invariant: a word's value does not depend on how many go at a time, or past which caches. */
 #include <lom/lanes.h>
 
-#include "pipeline/stages.h"
+#include "pipeline/rows_ahead.h"
 #include "pipeline/variants.h"
 
 /* Two pixels side by side; rows of attachments are aligned to a pixel. */
@@ -24,17 +24,11 @@ LOM_INLINE void put(const struct lom_rectangle *r, uint32_t *to, lom_int words)
         lom_store_int((int32_t *)to, words);
 }
 
-/* A store waits for its line, which was last in a cache a frame ago: lines of the rows that follow soon are fetched now.
- * Past the caches no store waits. */
-enum { ROWS_AHEAD = 6, LINE_WORDS = 16 };
-
+/* Past the caches no store waits. */
 LOM_INLINE void fetch_row(const struct lom_rectangle *r, int y)
 {
-    if (y >= r->height || r->streams)
-        return;
-    const uint32_t *row = r->texels + (size_t)y * r->pitch;
-    for (int x = 0; x < r->width; x += LINE_WORDS)
-        __builtin_prefetch(row + x, 1);
+    if (!r->streams)
+        lom_fetch_row(r, 1, y);
 }
 
 /* One row, of which `from` is the block of the pixel `first`; that pixel may be a block's second. */

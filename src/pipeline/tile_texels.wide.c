@@ -3,7 +3,7 @@
  * moved, never rounded, and a texel does not depend on how many go at a time. */
 #include <lom/lanes.h>
 
-#include "pipeline/stages.h"
+#include "pipeline/rows_ahead.h"
 #include "pipeline/variants.h"
 
 static size_t plane_of(const struct lom_rectangle *r)
@@ -64,6 +64,8 @@ void LOM_WIDE(lom_store_texels)(const struct lom_rectangle *r, int channels, con
             y++;
             continue;
         }
+        lom_fetch_row(r, 4, y + ROWS_AHEAD);
+        lom_fetch_row(r, 4, y + ROWS_AHEAD + 1);
         if (channels == 4)
             store_two_rows(r, 4, from, to);
         else
@@ -122,6 +124,7 @@ void LOM_WIDE(lom_fill_texels)(const struct lom_rectangle *r, const float texel[
     for (int y = 0; y < r->height; y++) {
         float *row = (float *)(void *)(r->texels + (size_t)y * r->pitch);
         int i = 0;
+        lom_fetch_row(r, 4, y + ROWS_AHEAD);
         for (; i + LOM_LANES <= 4 * r->width; i += LOM_LANES)
             lom_store(row + i, texels);
         for (; i < 4 * r->width; i++)
