@@ -8,7 +8,7 @@
 #define LOM_CLOUD_H
 
 #include <lom/geometry.h>
-#include <lom/march.h>
+#include <lom/transfer.h>
 
 LOM_API_BEGIN
 

@@ -23,6 +23,7 @@
 #include <lom/texture.h>
 #include <lom/geometry.h>
 #include <lom/march.h>
+#include <lom/transfer.h>
 #include <lom/cloud.h>
 #include <lom/pipeline.h>
 #include <lom/fluid.h>

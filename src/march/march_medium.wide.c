@@ -25,56 +25,89 @@ void LOM_WIDE(lom_cross_box)(lom_medium_rays *rays)
     rays->active &= (*enter < *leave) & ~still;
 }
 
+/* A step of each ray: what of it lies between the ray's ends, and its middle. */
+struct medium_step {
+    lom_float low, high, middle;
+    lom_float3 p;
+    lom_volume_place place;
+};
+
+LOM_INLINE struct medium_step find_step(const lom_medium *m, const lom_medium_rays *rays, lom_float first,
+                                        lom_float step, int i)
+{
+    struct medium_step s;
+    s.low = lom_max(first + step * (float)i, rays->enter);
+    s.high = lom_min(first + step * (float)(i + 1), rays->leave);
+    s.middle = (s.low + s.high) * 0.5f;
+    s.p = lom_add3(rays->start, lom_scale3(rays->along, s.middle));
+    s.place = lom_find_in_cells(m->width, m->height, m->depth, s.p);
+    return s;
+}
+
+static lom_light_sample light_at(const lom_medium_desc *desc, lom_float3 p)
+{
+    if (desc->light == NULL)
+        return (lom_light_sample){ lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
+    return desc->filtering == LOM_FILTERING_FIXED ? fixed_light(desc->light, p)
+                                                  : read_light(desc->medium->gathers, desc->light, p);
+}
+
+/* Adds what a step of a density sends. */
+LOM_INLINE void add_light(lom_medium_result *sum, const lom_medium_desc *desc, const lom_medium_rays *rays,
+                          const struct medium_step *s, lom_float share)
+{
+    const lom_light_sample light = share_surroundings(light_at(desc, s->p));
+    sum->sun += share * sun_share(desc, rays, light.sun);
+    sum->sky += share * light.sky;
+    sum->ground += share * light.ground;
+    sum->distance += share * s->middle;
+    sum->transmittance -= share;
+    LOM_NOTE(LOM_NOTE_LIGHT, desc->medium, share, sum->transmittance, light.sun, light.sky, light.ground);
+}
+
+/* Behind a step that is not empty comes another one, nearly always: its words are asked for before the light of this one. */
 void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *rays, const lom_medium_desc *desc,
                                 lom_march_count *count)
 {
     const lom_medium *m = desc->medium;
     lom_medium_result sum = { .transmittance = lom_splat(1.0f) };
-    lom_float step = step_of(desc, rays);
+    const lom_float step = step_of(desc, rays), first = rays->enter + (rays->shift - 1.0f) * step;
     const struct cell_walk walk = walk_cells(m, rays, step);
     lom_mask alive = rays->active;
     LOM_NOTE(LOM_NOTE_RAY, m, rays->enter, rays->leave, step);
-    lom_float first = rays->enter + (rays->shift - 1.0f) * step;
     lom_float seen = { 0 };
+    struct medium_step s, next;
+    struct medium_words words;
     uint64_t sampled = 0;
     bool was_empty = true;
     int i = 0;
     for (; lom_any(alive); i++) {
-        lom_float low = lom_max(first + step * (float)i, rays->enter), high = first + step * (float)(i + 1);
-        high = lom_min(high, rays->leave);
-        alive &= low < rays->leave;
+        s = was_empty ? find_step(m, rays, first, step, i) : next;
+        alive &= s.low < rays->leave;
         if (!lom_any(alive))
             break;
-        lom_float length = lom_max(high - low, (lom_float){ 0 }), middle = (low + high) * 0.5f;
-        lom_float3 p = lom_add3(rays->start, lom_scale3(rays->along, middle));
-        lom_volume_place place = lom_find_in_cells(m->width, m->height, m->depth, p);
         if (was_empty && !desc->walk) {
-            int empty = empty_steps(m, &place, alive, &walk);
+            int empty = empty_steps(m, &s.place, alive, &walk);
             if (empty != 0) {
                 i += empty - 1;
                 continue;
             }
         }
+        if (was_empty)
+            load_medium(m, s.place.index, &words);
         sampled++;
-        lom_float density = find_density(desc, p, &place, middle);
-        LOM_NOTE(LOM_NOTE_STEP, m, middle, length, density, lom_as_float(alive));
+        lom_float density = find_density(desc, s.p, &s.place, &words, s.middle);
+        lom_float length = lom_max(s.high - s.low, (lom_float){ 0 });
+        LOM_NOTE(LOM_NOTE_STEP, m, s.middle, length, density, lom_as_float(alive));
         was_empty = !lom_any((density > 0.0f) & alive);
         if (was_empty)
             continue;
+        next = find_step(m, rays, first, step, i + 1);
+        load_medium(m, next.place.index, &words);
         lom_float opacity = -lom_expm1(-(density * length) * desc->extinction);
         lom_float share = lom_as_float(lom_as_int(opacity * sum.transmittance) & alive);
-        lom_light_sample light = { lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
-        if (desc->light != NULL)
-            light =
-                desc->filtering == LOM_FILTERING_FIXED ? fixed_light(desc->light, p) : lom_sample_light(desc->light, p);
-        light = share_surroundings(light);
-        sum.sun += share * sun_share(desc, rays, light.sun);
-        sum.sky += share * light.sky;
-        sum.ground += share * light.ground;
-        sum.distance += share * middle;
+        add_light(&sum, desc, rays, &s, share);
         seen += share;
-        sum.transmittance -= share;
-        LOM_NOTE(LOM_NOTE_LIGHT, m, share, sum.transmittance, light.sun, light.sky, light.ground);
         alive &= sum.transmittance >= desc->stop;
     }
     sum.distance = lom_select(seen > 0.0f, sum.distance / lom_max(seen, lom_splat(1e-30f)), (lom_float){ 0 });
@@ -104,7 +137,9 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
                 continue;
             }
         }
-        lom_float density = find_density(desc, p, &place, lom_splat(3e38f));
+        struct medium_words words;
+        load_medium(m, place.index, &words);
+        lom_float density = find_density(desc, p, &place, &words, lom_splat(3e38f));
         LOM_NOTE(LOM_NOTE_STEP, desc->medium, at, step, density, lom_as_float(rays->active));
         was_empty = !lom_any((density > 0.0f) & rays->active);
         sum += density;

@@ -4,11 +4,15 @@
 #include "lanes/notes.h"
 #include "medium_steps.h"
 
+#include <lom/transfer.h>
+
 /* The value at a place; the noise in it is that of a distance from the eye. One copy of the code for all who ask. */
 static __attribute__((noinline)) lom_float value_in(const lom_medium_desc *desc, lom_float3 p, lom_float eye)
 {
     lom_volume_place place = lom_find_in_cells(desc->medium->width, desc->medium->height, desc->medium->depth, p);
-    return find_density(desc, p, &place, eye);
+    struct medium_words words;
+    load_medium(desc->medium, place.index, &words);
+    return find_density(desc, p, &place, &words, eye);
 }
 
 static inline lom_float value_at(const lom_medium_rays *rays, const lom_medium_desc *desc, lom_float at, lom_float eye)
@@ -52,7 +56,8 @@ static __attribute__((noinline)) lom_light_sample grid_light(const lom_medium_de
 {
     if (desc->light == NULL)
         return (lom_light_sample){ lom_splat(1.0f), lom_splat(1.0f), lom_splat(1.0f) };
-    return desc->filtering == LOM_FILTERING_FIXED ? fixed_light(desc->light, p) : lom_sample_light(desc->light, p);
+    return desc->filtering == LOM_FILTERING_FIXED ? fixed_light(desc->light, p)
+                                                  : read_light(desc->medium->gathers, desc->light, p);
 }
 
 /* Where a surface takes its light from: two voxels of the grid before it, so that it is not in its own shadow. */

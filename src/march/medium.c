@@ -3,6 +3,7 @@
  * distance above 0 has eight corners of density 0. */
 #include "base/numbers.h"
 #include "base/own_float_state.h"
+#include "base/cpu.h"
 #include "march/cells.h"
 
 #include <string.h>
@@ -116,7 +117,9 @@ lom_medium *lom_create_medium(const lom_image *image, lom_error *error)
     lom_medium *medium = lom_allocate(1, sizeof *medium, error);
     if (medium == NULL)
         return NULL;
-    *medium = (lom_medium){ .width = image->width, .height = image->height, .depth = image->depth };
+    *medium = (lom_medium){
+        .width = image->width, .height = image->height, .depth = image->depth, .gathers = lom_has_fast_gathers()
+    };
     size_t cells = cell_index(image->width, image->height, 0, 0, image->depth + 1);
     medium->density = lom_allocate(cells, 2 * sizeof *medium->density, error);
     medium->distance = lom_allocate(cells, 1, error);

@@ -4,26 +4,27 @@
 #define LOM_MARCH_MEDIUM_STEPS_H
 
 #include "fixed_cells.h"
+#include "medium_cells.h"
 
 #include <lom/lanes_mathematics.h>
 
 #include <assert.h>
 
-LOM_INLINE lom_float sample_density(const lom_medium *m, bool fixed, const lom_volume_place *place)
+LOM_INLINE lom_float density_in(const lom_medium_desc *desc, const lom_volume_place *place,
+                                const struct medium_words *words)
 {
-    if (!fixed)
-        return lom_sample_medium(m, *place);
+    if (desc->filtering != LOM_FILTERING_FIXED)
+        return lom_mix_medium(words->near[0], words->near[1], words->far[0], words->far[1], *place);
     struct fixed_place at = fix_place(*place);
-    return fixed_medium(m, &at);
+    return fixed_mix_medium(words->near[0], words->near[1], words->far[0], words->far[1], &at);
 }
 
 /* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below
  * 0 (Schneider and Vos 2015). Far away the noise is its mean. */
 static inline lom_float find_density(const lom_medium_desc *desc, lom_float3 p, const lom_volume_place *place,
-                                     lom_float distance)
+                                     const struct medium_words *words, lom_float distance)
 {
-    bool fixed = desc->filtering == LOM_FILTERING_FIXED;
-    lom_float density = sample_density(desc->medium, fixed, place);
+    lom_float density = density_in(desc, place, words);
     const lom_mask thin = (density > 0.0f) & (density < 1.0f);
     if (desc->detail == NULL || !lom_any(thin))
         return density;
@@ -31,7 +32,10 @@ static inline lom_float find_density(const lom_medium_desc *desc, lom_float3 p, 
     lom_float fading = 1.0f - lom_smoothstep(lom_splat(desc->detail_near), lom_splat(desc->detail_far), distance);
     if (lom_any(fading > 0.0f)) {
         lom_float3 q = { p.x * desc->detail_scale[0], p.y * desc->detail_scale[1], p.z * desc->detail_scale[2] };
-        noise = lom_mix(noise, fixed ? fixed_detail(desc->detail, q) : lom_sample_detail(desc->detail, q), fading);
+        noise = lom_mix(noise,
+                        desc->filtering == LOM_FILTERING_FIXED ? fixed_detail(desc->detail, q)
+                                                               : read_detail(desc->medium->gathers, desc->detail, q),
+                        fading);
     }
     lom_float eaten = noise * desc->detail_strength;
     return lom_select(thin, lom_saturate((density - eaten) / (1.0f - eaten)),
@@ -71,10 +75,10 @@ LOM_INLINE lom_float largest3(lom_float a, lom_float b, lom_float c)
     return lom_max(lom_max(lom_abs(a), lom_abs(b)), lom_abs(c));
 }
 
-/* How rays go from cell to cell along the axis on which each is fastest. */
+/* How a packet's rays go from cell to cell along the axis on which the fastest is fastest. */
 struct cell_walk {
-    lom_float per_cell; /* steps in a cell, or fewer, whatever is rounded */
-    lom_float unsure; /* cells by which a place may be from where it is taken to be: within its cell, and by rounding */
+    float per_cell; /* steps in a cell, or fewer, whatever is rounded */
+    float unsure;   /* cells by which a place may be from where it is taken to be: within its cell, and by rounding */
 };
 
 /* A place is the start and a multiple of the direction, of which each, their sum and its product with the cells is rounded to
@@ -84,26 +88,36 @@ static inline struct cell_walk walk_cells(const lom_medium *m, const lom_medium_
     const float across = (float)m->width, down = (float)m->height, deep = (float)m->depth;
     lom_float speed = step * largest3(rays->along.x * across, rays->along.y * down, rays->along.z * deep) + 1e-6f;
     lom_float away = largest3(rays->start.x * across, rays->start.y * down, rays->start.z * deep);
-    return (struct cell_walk){ 0.99999f / speed, 1.01f + 0x1p-21f * away };
+    float speeds[LOM_LANES], far[LOM_LANES], fastest = 1e-6f, farthest = 0;
+    lom_store(speeds, speed);
+    lom_store(far, away);
+    for (uint32_t lanes = lom_bits(rays->active); lanes != 0; lanes &= lanes - 1) {
+        int i = __builtin_ctz(lanes);
+        if (!(speeds[i] <= 1e30f) || !(far[i] <= 1e30f))
+            return (struct cell_walk){ 0, 1e30f };
+        fastest = speeds[i] > fastest ? speeds[i] : fastest;
+        farthest = far[i] > farthest ? far[i] : farthest;
+    }
+    return (struct cell_walk){ 0.99999f / fastest, 1.01f + 0x1p-21f * farthest };
 }
 
-/* Whole steps that are empty for every ray from the places on: cells nearer than the distance are. */
+/* Whole steps that are empty for every ray from the places on: where no cell is of distance 0 the first is; so are those after
+ * it whose cells are nearer than the distance. */
 static inline int empty_steps(const lom_medium *m, const lom_volume_place *place, lom_mask alive,
                               const struct cell_walk *walk)
 {
-    int32_t index[LOM_LANES];
-    float steps[LOM_LANES], unsure[LOM_LANES], least = 65535;
+    int32_t index[LOM_LANES], dead[LOM_LANES], least = 255;
     lom_store_int(index, place->index);
-    lom_store(steps, walk->per_cell);
-    lom_store(unsure, walk->unsure);
-    for (uint32_t lanes = lom_bits(alive); lanes != 0; lanes &= lanes - 1) {
-        int i = __builtin_ctz(lanes);
-        float room = (float)m->distance[index[i]] - unsure[i];
-        if (!(room >= 0))
-            return 0;
-        least = room * steps[i] < least ? room * steps[i] : least;
+    lom_store_int(dead, ~alive);
+    __asm__("" : "+m"(index), "+m"(dead)); /* gcc would take them out of registers one by one */
+    for (int i = 0; i < LOM_LANES; i++) {  /* no branch that the lanes would have to be guessed for */
+        int32_t distance = m->distance[index[i]] | (dead[i] & 255);
+        least = distance < least ? distance : least;
     }
-    return 1 + lom_int_of(least);
+    if (least == 0)
+        return 0;
+    float room = (float)least - walk->unsure, steps = room * walk->per_cell;
+    return 1 + (room > 0 ? lom_int_of(steps < 65535 ? steps : 65535) : 0);
 }
 
 /* The step of each ray in metres: the asked one, or longer where the ray would take too many. */

@@ -3,7 +3,7 @@
 #include "base/numbers.h"
 #include "base/own_float_state.h"
 
-#include <lom/march.h>
+#include <lom/transfer.h>
 
 static bool check_point(const lom_transfer_point *point, double least, lom_error *error)
 {

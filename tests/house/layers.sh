@@ -31,6 +31,7 @@ public() { # the public headers of each layer
     record.h | stages.h) echo pipeline ;;
     sea.h | shallow.h) echo waves ;;
     particles.h) echo spray ;;
+    transfer.h) echo march ;;
     lom.h) echo cli ;;
     *) basename "$1" .h ;;
     esac

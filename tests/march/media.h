@@ -2,7 +2,7 @@
 #ifndef LOM_TESTS_MARCH_MEDIA_H
 #define LOM_TESTS_MARCH_MEDIA_H
 
-#include <lom/march.h>
+#include <lom/transfer.h>
 
 #define ALL lom_splat_int(-1)
 

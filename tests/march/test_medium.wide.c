@@ -229,6 +229,38 @@ static void skipping_changes_no_byte(void)
           (unsigned long long)count.walked);
 }
 
+/* Whether a processor is said to gather faster than it loads. */
+static void gathers_change_no_byte(void)
+{
+    uint32_t state = 5;
+    float as_it_is[256];
+    for (int i = 0; i < 256; i++)
+        as_it_is[i] = (float)i / 255;
+    for (int round = 0; round < 6; round++) {
+        lom_image *image = blobs(&state, 12 + 9 * round);
+        lom_medium *medium = lom_create_medium(image, NULL);
+        lom_light_grid *light = lom_create_light_grid(image, 0.5, as_it_is, NULL);
+        lom_medium_desc desc = plain(medium, uniform(&state, 0, 40), uniform(&state, 0.003, 0.05));
+        desc.light = light;
+        desc.filtering = round % 2 == 0 ? LOM_FILTERING_FLOAT : LOM_FILTERING_FIXED;
+        for (int i = 0; i < 40; i++) {
+            lom_medium_rays rays = random_rays(&state, i % 3 == 0 ? 0.3 : 0.01);
+            lom_medium_result seen[2];
+            lom_float depth[2];
+            for (int k = 0; k < 2; k++) {
+                medium->gathers = k == 1;
+                LOM_WIDE(lom_march_medium)(&seen[k], &rays, &desc, NULL);
+                LOM_WIDE(lom_medium_depth)(&depth[k], &rays, &desc, 40 + i);
+            }
+            CHECK(memcmp(&seen[0], &seen[1], sizeof seen[0]) == 0, "round %d, rays %d", round, i);
+            CHECK(memcmp(&depth[0], &depth[1], sizeof depth[0]) == 0, "depth: round %d, rays %d", round, i);
+        }
+        lom_free_light_grid(light);
+        lom_free_medium(medium);
+        lom_free_image(image);
+    }
+}
+
 /* V10: ending a ray early changes what it brings by at most `stop` times the largest radiance, which is 1 here. V11:
  * shares stay in [0, 1]. */
 static void v10_early_stop_keeps_its_bound(void)
@@ -376,6 +408,7 @@ int main(int argc, char **argv)
     RUN(v13_order_of_convergence);
     RUN(v5_empty_medium);
     RUN(skipping_changes_no_byte);
+    RUN(gathers_change_no_byte);
     RUN(v10_early_stop_keeps_its_bound);
     RUN(step_keeps_its_error_bound);
     RUN(v6_v7_boxes_are_entered_once);
