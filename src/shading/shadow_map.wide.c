@@ -96,11 +96,11 @@ static lom_float map_light(const struct lom_shadow_map_uniform *shadow, lom_floa
     lom_float one = lom_splat(1.0f);
     lom_float s = lom_transform_row(shadow->s, place), t = lom_transform_row(shadow->t, place);
     lom_float depth = lom_transform_row(shadow->depth, place);
-    if (!lom_any((s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f)))
+    const lom_mask inside = (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f);
+    if (!lom_any(inside) || is_open(&shadow->near, s, t, depth))
         return one;
-    if (is_open(&shadow->near, s, t, depth))
-        return one;
-    return one - compare_texels(shadow->map, NULL, shadow->size, shadow->texel, s, t, depth).dark;
+    const struct kernel k = compare_texels(shadow->map, NULL, shadow->size, shadow->texel, s, t, depth);
+    return lom_select(inside, one - k.dark, one); /* beside the map its border's texels say nothing */
 }
 
 /* A place counts where the kernel of 1.5 texels around it lies in the map; the share of a cascade falls from 1 to 0 over the
@@ -127,10 +127,13 @@ static lom_float cascade_light(const struct lom_sun_shadow_uniform *sun, lom_flo
         }
         cascade = cascade + weight * (float)(i + 1);
         rest = rest - weight;
+        const lom_mask inside = (weight > 0.0f) & (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f);
         struct kernel part = { { 0 }, lom_splat(1.0f) };
-        if (lom_any((weight > 0.0f) & (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f)))
-            part =
+        if (lom_any(inside)) {
+            const struct kernel k =
                 compare_texels(map->map, &map->near, map->size, map->texel, s, t, lom_transform_row(map->depth, place));
+            part = (struct kernel){ lom_select(inside, k.dark, part.dark), lom_select(inside, k.open, part.open) };
+        }
         sum.dark = sum.dark + weight * part.dark;
         sum.open = sum.open + weight * part.open;
     }
@@ -158,8 +161,11 @@ void LOM_WIDE(lom_liquid_light)(const struct lom_liquid_map_uniform *liquid, con
     lom_float depth = lom_transform_row(liquid->depth, place);
     lom_mask seen = (s > 0.0f) & (s < 1.0f) & (t > 0.0f) & (t < 1.0f) & (depth < 1.0f);
     *share = lom_splat3(1, 1, 1);
-    if (lom_any(seen))
-        *share = look_through(liquid->map, liquid->size, s, t, depth);
+    if (lom_any(seen)) {
+        const lom_float3 through = look_through(liquid->map, liquid->size, s, t, depth);
+        *share = (lom_float3){ lom_select(seen, through.x, share->x), lom_select(seen, through.y, share->y),
+                               lom_select(seen, through.z, share->z) };
+    }
 }
 
 static lom_float largest(lom_float3 v)

@@ -107,14 +107,15 @@ LOM_INLINE lom_float lom_foam_cover(const struct lom_surface_uniforms *u, const 
         depths = lom_water_depths(u, p, f);
         shore = lom_abs(depths.middle) < foam->shore_depth + 0.5f * depths.range;
     }
-    if (!lom_any((cover > 0.0f) | shore))
+    const lom_mask some = (cover > 0.0f) | shore;
+    if (!lom_any(some))
         return (lom_float){ 0 };
     lom_float grain = lom_foam_grain(foam, p, p->slopes.drift_x, p->slopes.drift_z, f);
     if (lom_any(p->slopes.again > 0.0f))
         grain = lom_even_mix(grain, lom_foam_grain(foam, p, p->slopes.again_x, p->slopes.again_z, f), p->slopes.again);
     if (!lom_any(shore))
-        return lom_foam_through(cover, grain);
-    return lom_shore_foam(foam, depths, shore, cover, grain);
+        return lom_select(some, lom_foam_through(cover, grain), (lom_float){ 0 });
+    return lom_select(some, lom_shore_foam(foam, depths, shore, cover, grain), (lom_float){ 0 });
 }
 
 LOM_INLINE lom_float3 lom_lamps_on_foam(const struct lom_surface_uniforms *u, const struct lom_surface_point *p)

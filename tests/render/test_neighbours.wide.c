@@ -1,6 +1,6 @@
 /* Proves of shaders, where a scene seldom leads them, that what they give a fragment does not depend on the others of its
  * packet: plates of impostors with colour and no opacity, edges beside infinities, blurs of denormals, ground without a
- * normal. Each fails with what decides for a whole packet alone. */
+ * normal, places beside the maps of shadows. Each fails with what decides for a whole packet alone. */
 #include "neighbours.h"
 
 #include "cloud/cloud_uniforms.h"
@@ -8,6 +8,7 @@
 #include "lanes/variants.h"
 #include "render/ground/shaders.h"
 #include "shading/smooth_edges.h"
+#include "shading/sun_shadow.h"
 #include "water/picture_rays.h"
 
 enum { SIDE = 16, PACKETS = 400 };
@@ -175,11 +176,71 @@ static void ground_without_a_normal(void)
     lom_free_texture(color);
 }
 
+/* ---- shadows ---- */
+
+static void call_shadow(const void *context, const lom_float *in, lom_float *out)
+{
+    const lom_float3 offset = { in[0] * (1.5f / SIDE) - 0.25f, in[1] * (1.5f / SIDE) - 0.25f, in[2] };
+    const lom_float3 normal = { { 0 }, { 0 }, { 0 } };
+    memset(out, 0, 4 * sizeof *out);
+    LOM_WIDE(lom_entity_light)(context, &offset, &normal, out);
+}
+
+/* Casters reach over the border of the map, as of the last cascade, and places lie on either side of it. */
+static void places_beside_a_shadow_map(void)
+{
+    static const float depths[] = { 0, 0.9f, 0.3f };
+    static struct lom_sun_shadow_uniform sun;
+    lom_texture *map = random_texture(LOM_FORMAT_R32F, depths, 3, 9);
+    if (map == NULL)
+        return;
+    map->sampler.wrap_s = map->sampler.wrap_t = LOM_WRAP_BORDER;
+    for (int i = 0; i < 2; i++) {
+        const float scale = i == 0 ? 3 : 1;
+        sun.map[i] = (struct lom_shadow_map_uniform){ .map = map, .size = SIDE, .texel = 1.0f / SIDE };
+        sun.map[i].s[0] = sun.map[i].t[1] = scale;
+        sun.map[i].s[3] = sun.map[i].t[3] = 0.5f * (1 - scale) + 0.003f;
+        sun.map[i].depth[2] = 1;
+    }
+    for (sun.count = 1; sun.count <= 2; sun.count++) {
+        sun.cascaded = false;
+        try_function("shadows", call_shadow, &sun, 3, 1);
+        sun.cascaded = true;
+        try_function("cascades", call_shadow, &sun, 3, 1);
+    }
+    lom_free_texture(map);
+}
+
+static void call_liquid(const void *context, const lom_float *in, lom_float *out)
+{
+    const lom_float3 offset = { in[0] * (1.5f / SIDE) - 0.25f, in[1] * (1.5f / SIDE) - 0.25f, in[2] };
+    const lom_float3 normal = { { 0 }, { 0 }, { 0 } };
+    lom_float3 share;
+    memset(out, 0, 4 * sizeof *out);
+    LOM_WIDE(lom_liquid_light)(context, &offset, &normal, &share);
+    memcpy(out, &share, sizeof share);
+}
+
+static void places_beside_the_shadow_of_a_liquid(void)
+{
+    static const float texels[] = { 0, 0.9f, 0.3f, 2 };
+    static struct lom_liquid_map_uniform liquid;
+    lom_texture *map = random_texture(LOM_FORMAT_RGBA32F, texels, 4, 10);
+    liquid.map = map;
+    liquid.size = SIDE;
+    liquid.s[0] = liquid.t[1] = liquid.depth[2] = 1;
+    if (map != NULL)
+        try_function("the shadow of a liquid", call_liquid, &liquid, 3, 2);
+    lom_free_texture(map);
+}
+
 int main(int argc, char **argv)
 {
     RUN(plates_with_colour_and_no_opacity);
     RUN(edges_beside_infinities);
     RUN(blurs_of_denormals);
     RUN(ground_without_a_normal);
+    RUN(places_beside_a_shadow_map);
+    RUN(places_beside_the_shadow_of_a_liquid);
     return check_result();
 }

@@ -1,7 +1,7 @@
 /* Proves of every shader that a scene is drawn with, in every packet that it is given: what it gives a fragment or a vertex is,
  * bit for bit, what a packet of copies of it gives, and what it gives beside others, of earlier packets and of extreme numbers.
  * The scenes are those of key_bases.h, and scenes out of numbers (numbered_scene.h): LOM_CASE=n draws one alone and shows it,
- * LOM_EXHAUSTIVE=1 goes on for LOM_SECONDS (60), from scene LOM_FIRST on. lom_draw and lom_hold_draw are wrapped. */
+ * LOM_EXHAUSTIVE=1 goes on for LOM_SECONDS (60), from scene LOM_FIRST on, and draws those of assets/. lom_draw and lom_hold_draw are wrapped. */
 #include "neighbours.h"
 
 #include "lanes/variants.h"
@@ -241,16 +241,16 @@ bool __wrap_lom_hold_draw(lom_device *device, const lom_draw_desc *desc, struct 
 
 static int drawn, refused;
 
-static void draw_recipe(const struct recipe *r)
+/* Frees the scene; NULL: it is refused. */
+static void draw_scene(lom_scene *scene, const char *name, uint64_t number, int frame_number)
 {
     lom_error error;
     const lom_device_desc device = { .threads = 1, .lanes = LOM_LANES };
-    const lom_frame_desc desc = { .width = 24, .height = 14, .frame = r->frame };
+    const lom_frame_desc desc = { .width = 24, .height = 14, .frame = frame_number };
     lom_frame frame = { .image = NULL };
-    lom_scene *scene = decode(r, &error);
     lom_renderer *renderer = scene != NULL ? lom_create_renderer(scene, &device, &error) : NULL;
-    scene_name = r->name;
-    scene_number = r->number;
+    scene_name = name;
+    scene_number = number;
     for (int i = 0; i < SHADERS; i++)
         tried[i].fragments = tried[i].vertices = 0;
     if (renderer != NULL && lom_render_frame(renderer, &desc, &frame, &error))
@@ -260,6 +260,12 @@ static void draw_recipe(const struct recipe *r)
     lom_free_image(frame.image);
     lom_free_renderer(renderer);
     lom_free_scene(scene);
+}
+
+static void draw_recipe(const struct recipe *r)
+{
+    lom_error error;
+    draw_scene(decode(r, &error), r->name, r->number, r->frame);
 }
 
 static uint64_t number_of(const char *name, uint64_t otherwise)
@@ -287,6 +293,29 @@ static void small_scenes(void)
             draw_recipe(&r);
     }
     CHECK(refused == 0, "%d of the small scenes are not drawn", refused);
+}
+
+static void scenes_of_a_folder(const char *path)
+{
+    DIR *folder = opendir(path);
+    CHECK(folder != NULL, "%s", path);
+    for (struct dirent *entry; folder != NULL && (entry = readdir(folder)) != NULL;) {
+        char file[512];
+        lom_error error = { 0 };
+        if (strstr(entry->d_name, ".toml") == NULL)
+            continue;
+        snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
+        draw_scene(lom_read_scene(file, NULL, 0, &error), entry->d_name, 0, 1);
+    }
+    if (folder != NULL)
+        closedir(folder);
+}
+
+/* Those of assets/, from the folder in which tests run; minutes. */
+static void scenes_of_assets(void)
+{
+    scenes_of_a_folder("assets/scenes");
+    scenes_of_a_folder("assets/scenes/features");
 }
 
 static void scenes_out_of_numbers(void)
@@ -329,6 +358,8 @@ int main(int argc, char **argv)
     if (getenv("LOM_CASE") == NULL)
         RUN(small_scenes);
     RUN(scenes_out_of_numbers);
+    if (getenv("LOM_EXHAUSTIVE") != NULL)
+        RUN(scenes_of_assets);
     RUN(shaders_are_tried);
     remove_small_scene();
     return check_result();
