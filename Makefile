@@ -89,7 +89,8 @@ endif
 RECORDED          = 4_recorded
 FLAGS_4_recorded  = -DLOM_ALL_LANES -DLOM_LANES=4 -DLOM_VARIANT=4_recorded -DLOM_RECORD $(if $(filter 3,$(O)),-Os)
 FLAGS_4        = -DLOM_ALL_LANES -DLOM_LANES=4 -DLOM_VARIANT=4
-# Nobody waits for the lowered widths, which show on any CPU what the others draw, so they are compiled for size.
+# Nobody waits for the lowered widths, which show on any CPU what the others draw, so they are compiled for size. Only
+# x86-64 has wider ones of its own (lanes/variants.c); without vectors, -O3 of 16 lanes takes minutes and gigabytes a file.
 LOWERED        = -DLOM_LOWERED $(if $(filter 3,$(O)),-Os)
 FLAGS_8_plain  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8_plain $(LOWERED)
 FLAGS_16_plain = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16_plain $(LOWERED)
@@ -97,8 +98,8 @@ ifneq ($(filter x86_64%,$(MACHINE)),)
 FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8 -mavx2
 FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16 $(AVX512)
 else
-FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8
-FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16
+FLAGS_8  = -DLOM_ALL_LANES -DLOM_LANES=8 -DLOM_VARIANT=8 $(LOWERED)
+FLAGS_16 = -DLOM_ALL_LANES -DLOM_LANES=16 -DLOM_VARIANT=16 $(LOWERED)
 endif
 
 # What the system has chooses among files: WebAssembly has no threads, signals and owners of files (docs/wasm.md). Its

@@ -3,9 +3,9 @@
 # vectors, the C library, the locale. Builds the program once for each row below, each into its own folder (rows that
 # only run otherwise share one), and compares with the rows before it: the self-test, the lake at 160x90 at the row's
 # widths, the float stages of the pipeline at these widths, and two frames of the scenes of assets/ at 160x90 at 4 lanes:
-# all of them, or where an emulator draws, a part of the light ones, another one for each row. Prints a table with
-# seconds of processor time, and one hash; status 1 when a row differs, 2 when a build fails. A compiler or an emulator
-# that is not installed is a line with SKIP.
+# all of them; of rows that are slow or like another one a part, so that such rows together draw all; where an emulator
+# draws, a part of the light ones, another one for each row. Prints a table with seconds of processor time, and one hash;
+# status 1 when a row differs, 2 when a build fails. A compiler or an emulator that is not installed is a line with SKIP.
 #
 #   make matrix                                  every row
 #   make matrix ROWS="gcc-3 aarch64-3"           these rows
@@ -31,19 +31,19 @@ wasm_clang=$(basename "$(ls /usr/bin/clang-[1-9][0-9] 2>/dev/null | sort | tail 
 wasm_clang=${wasm_clang:-clang} node='node src/web/lom.mjs'
 
 # Sets what a row is: compiler, archiver, linker flags, what runs its programs, its widths, the part of the scenes that
-# it draws ("0/1" all, "2/14" of the light ones each 14th from the third on), the variable that it runs with, the row
+# it draws ("0/1" all, "2/9" of the light ones each ninth from the third on), the variable that it runs with, the row
 # whose build it shares.
 set_row() {
     archiver=ar flags='' emulator='' widths=4 part=0/1 variable=LC_ALL=C shared=$1
     case $1 in
-    aarch64-*) cross aarch64-linux-gnu aarch64 0/14 ;;
-    armhf-*) cross arm-linux-gnueabihf arm 1/14 ;;
-    riscv64-*) cross riscv64-linux-gnu riscv64 2/14 ;;
-    ppc64el-*) cross powerpc64le-linux-gnu ppc64le 3/14 ;;
-    ppc64-*) cross powerpc64-linux-gnu ppc64 4/14 ;;
-    s390x-*) cross s390x-linux-gnu s390x 5/14 ;;
-    i686-*) cross i686-linux-gnu i386 0/1 && emulator='' compiler="$compiler -march=pentium4 -mfpmath=sse" ;;
-    musl-*) compiler=musl-gcc flags=-static ;;
+    aarch64-*) cross aarch64-linux-gnu aarch64 0/9 ;;
+    armhf-*) cross arm-linux-gnueabihf arm 1/9 ;;
+    riscv64-*) cross riscv64-linux-gnu riscv64 2/9 ;;
+    ppc64el-*) cross powerpc64le-linux-gnu ppc64le 3/9 ;;
+    ppc64-*) cross powerpc64-linux-gnu ppc64 4/9 ;;
+    s390x-*) cross s390x-linux-gnu s390x 5/9 ;;
+    i686-*) cross i686-linux-gnu i386 1/2 && emulator='' compiler="$compiler -march=pentium4 -mfpmath=sse" ;;
+    musl-*) compiler=musl-gcc flags=-static part=0/2 ;;
     mingw-*) compiler=x86_64-w64-mingw32-gcc archiver=x86_64-w64-mingw32-ar emulator=wine ;;
     wasm-*) compiler="$wasm_clang --target=wasm32-wasi" archiver=llvm-ar emulator=$node part=1/2 ;;
     wasm128-*) compiler="$wasm_clang --target=wasm32-wasi -msimd128" archiver=llvm-ar emulator=$node part=0/2 ;;
@@ -54,13 +54,17 @@ set_row() {
     case $1 in
     gcc-3 | clang-3) widths=$every_width ;;
     gcc-[12] | clang-1 | aarch64-3) widths="4 8" ;;
-    s390x-0) widths="4 8" part=9/14 ;;
-    gcc-[0s] | clang-[02] | s390x-3) widths="4 16" ;;
+    s390x-0) widths="4 8" part=8/18 ;;
+    gcc-0) widths="4 16" part=0/3 ;;
+    clang-0) widths="4 16" part=1/3 ;;
+    gcc-s | clang-2 | s390x-3) widths="4 16" ;;
+    gcc-11-* | clang-13-*) part=0/2 ;;
+    clang-19-*) part=1/2 ;;
     *-native) compiler="$compiler -march=native" widths="4 8" ;;
-    *-lto) compiler="$compiler -flto=auto" archiver=gcc-ar ;;
-    *-uchar) compiler="$compiler -funsigned-char" ;;
-    *-schar) compiler="$compiler -fsigned-char" part=6/14 ;;
-    *-masked) shared=gcc-3 emulator="qemu-x86_64 -cpu Nehalem" widths="4 8 16" part=7/14 ;; # neither FMA nor AVX2
+    *-lto) compiler="$compiler -flto=auto" archiver=gcc-ar part=1/2 ;;
+    *-uchar) compiler="$compiler -funsigned-char" part=2/3 ;;
+    *-schar) compiler="$compiler -fsigned-char" part=6/9 ;;
+    *-masked) shared=gcc-3 emulator="qemu-x86_64 -cpu Nehalem" widths="4 8 16" part=7/9 ;; # neither FMA nor AVX2
     *-locale) shared=gcc-3 variable=LC_ALL=de_DE.UTF-8 widths="4 8 16" part=1/2 ;;
     esac
 }
@@ -126,8 +130,8 @@ scenes() {
     local number=0 frame hash
     drawn=0
     # An emulator takes some seventy times as long: scenes above a second are for this machine itself, and WebAssembly.
-    heavy=' bounce clouds-100 clouds-30 cumulus falls flight mackerel storm surf wake '
-    case $part in */14) ;; *) heavy='' ;; esac
+    heavy=' clouds-100 cumulus dusk falls flight foam hits layers mackerel plunging posts sky storm surf tarn tradewind valley_fog wake '
+    case $part in */9 | */18) ;; *) heavy='' ;; esac
     for scene in assets/scenes/*.toml assets/scenes/features/*.toml; do
         case $heavy in *" $(basename "$scene" .toml) "*) continue ;; esac
         if [ $((number++ % ${part#*/})) -eq "${part%/*}" ]; then
