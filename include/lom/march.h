@@ -257,8 +257,7 @@ typedef struct lom_light_desc {
     float extinction;  /* 1/m at density 1 */
     float to_light[3]; /* unit vector in the box's axes */
     float forward; /* Harris's multiple forward scattering: share of a voxel's optical depth that stays in the beam */
-    /* optical depth between where a ray towards the light leaves the box, in parts of the box, and the light; NULL: 0
-     */
+    /* optical depth between where a ray to the light leaves the box, in parts of the box, and the light; NULL: 0 */
     float (*beyond)(void *context, const float exit[3]);
     void *context;
 } lom_light_desc;
@@ -267,17 +266,20 @@ typedef struct lom_light_desc {
  * steepest to; rays are sheared so that each passes every slice at the same fraction of a voxel, and optical depth is
  * carried along them from slice to slice. False when memory runs out. */
 bool lom_sweep_sun(lom_light_grid *grid, const lom_light_desc *desc, lom_error *error);
-/* Takes the sun's share, once it is swept, from what lies below a height over each place of the box, which stands upright: the
- * height of the shadow of something else that stands there, in parts of the box. At the height half of the light is left, half
- * of `edge` below it none, half of it above it all, linearly; the shares that a voxel keeps are those of its middle. */
+
+/* Takes the sun's share, once it is swept, from what lies below a height over each place of the box, which stands
+ * upright: the height of the shadow of something else that stands there, in parts of the box. At the height half of the
+ * light is left, half of `edge` below it none, half of it above it all, linearly; the shares that a voxel keeps are
+ * those of its middle. */
 void lom_shade_light_grid(lom_light_grid *grid, double (*height)(const void *context, double x, double z),
                           const void *context, double edge);
+
 /* Fills the shares of sky and ground: with t the optical depth straight up or down, what diffuse light a layer of
  * droplets lets through that absorb nothing, 1 / (1 + 3/4 (1 - g) t) with g = 0.85 (two-stream, Bohren 1987). */
 void lom_sweep_sky(lom_light_grid *grid, const float size[3], float extinction);
 
-/* What the sun's share is the exponential of a part of: light is told from none to an optical depth of 700, and the first
- * four octaves of a march are powers of it. */
+/* What the sun's share is the exponential of a part of: light is told from none to an optical depth of 700, and the
+ * first four octaves of a march are powers of it. */
 enum { LOM_LIGHT_DEPTH = 64 };
 
 typedef struct lom_light_sample {
@@ -291,9 +293,10 @@ LOM_INLINE lom_light_sample lom_mix_light(const lom_int c[8], lom_volume_place p
     lom_int high[8];
     for (int i = 0; i < 8; i++)
         high[i] = (lom_int)((lom_uint)c[i] >> 24);
-    return (lom_light_sample){ lom_volume_channel(c, 0xffff, place) * (1 / 65535.0f),
+    lom_light_sample light = { lom_volume_channel(c, 0xffff, place) * (1 / 65535.0f),
                                lom_volume_channel(c, 0xff0000, place) * (0x1p-16f / 255.0f),
                                lom_volume_channel(high, 0xff, place) * (1 / 255.0f) };
+    return light;
 }
 
 LOM_INLINE lom_light_sample lom_sample_light(const lom_light_grid *grid, lom_float3 position)
