@@ -19,7 +19,7 @@
  * m c - c, an integer less a c above 1/2, whose rounding is its truncation. */
 LOM_INLINE lom_int lom_unorm_of_unit_lanes(lom_float c, float largest)
 {
-#if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
+#if defined LOM_HAS_AVX512 && !defined LOM_NO_OVERRIDES
     enum { TO_ZERO = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC };
     __m512 p = _mm512_mul_round_ps((__m512)c, _mm512_set1_ps(largest), TO_ZERO);
     return lom_bounded_to_int((lom_float)_mm512_add_round_ps(p, _mm512_set1_ps(0.5f), TO_ZERO));

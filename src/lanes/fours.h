@@ -16,7 +16,7 @@ LOM_INLINE lom_int lom_defined_load_fours(const int32_t *const from[LOM_LANES / 
 
 LOM_INLINE lom_int lom_load_fours(const int32_t *const from[LOM_LANES / 4])
 {
-#if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
+#if defined LOM_HAS_AVX512 && !defined LOM_NO_OVERRIDES
     __m128i t[4];
     for (int i = 0; i < 4; i++)
         t[i] = _mm_loadu_si128((const __m128i *)(const void *)from[i]);
@@ -64,7 +64,7 @@ LOM_INLINE lom_int lom_defined_permute_two(lom_int low, lom_int high, lom_int wh
 
 LOM_INLINE lom_int lom_permute_two(lom_int low, lom_int high, lom_int which)
 {
-#if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
+#if defined LOM_HAS_AVX512 && !defined LOM_NO_OVERRIDES
     return (lom_int)_mm512_permutex2var_epi32((__m512i)low, (__m512i)which, (__m512i)high);
 #else
     return lom_defined_permute_two(low, high, which);

@@ -7,7 +7,7 @@
 /* lom_gather_pairs; by gathers if these are asked for and the lanes have them. */
 LOM_INLINE void lom_gather_pairs_by(bool gathers, const int32_t *from, lom_int index, lom_int *first, lom_int *second)
 {
-#if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
+#if defined LOM_HAS_AVX512 && !defined LOM_NO_OVERRIDES
     if (gathers) {
         const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
         const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);

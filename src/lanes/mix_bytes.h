@@ -15,7 +15,7 @@ LOM_INLINE lom_pairs lom_defined_mix_odd_bytes(lom_int a, lom_int b, lom_pairs n
     return lom_mix_pairs(lom_odd_bytes(a), lom_odd_bytes(b), negated_weight);
 }
 
-#if LOM_LANES > 4 && defined __AVX2__ && !defined LOM_NO_OVERRIDES
+#if ((LOM_LANES == 8 && defined __AVX2__) || defined LOM_HAS_AVX512) && !defined LOM_NO_OVERRIDES
 
 /* Products of two bytes a half with -128 and 0, and their sum, are one instruction in place of a shift and an and;
  * +128 is no signed byte. With A = -128 a and B = -128 b a mix is multiply(B - A, weight) - A. */

@@ -25,7 +25,7 @@ LOM_INLINE lom_int lom_dot_pairs(lom_int a, lom_int b)
     return (lom_int)_mm_madd_epi16((__m128i)a, (__m128i)b);
 #elif LOM_LANES == 8 && defined __AVX2__
     return (lom_int)_mm256_madd_epi16((__m256i)a, (__m256i)b);
-#elif LOM_LANES == 16 && defined __AVX512BW__
+#elif defined LOM_HAS_AVX512
     return (lom_int)_mm512_madd_epi16((__m512i)a, (__m512i)b);
 #else
     return lom_defined_dot_pairs(a, b);

@@ -46,7 +46,7 @@ LOM_INLINE lom_float4 lom_defined_columns_of_rows(const lom_float row[4])
     return x;
 }
 
-#if LOM_LANES == 16 && defined __AVX512F__ && !defined LOM_NO_OVERRIDES
+#if defined LOM_HAS_AVX512 && !defined LOM_NO_OVERRIDES
 
 /* A pair is one load; two registers of two pairs each are put in order by two shuffles. */
 LOM_INLINE void lom_load_row_pairs(const float *from, const int32_t at[LOM_LANES], int i, lom_float *first,

@@ -189,7 +189,7 @@ LOM_INLINE void find_codes(struct lom_tile *tile, const lom_float4 *color, int32
 }
 
 /* A code to those of four samples whose bits are set: stored under a mask, or joined with what is there. */
-#if LOM_LANES == 16 && defined __AVX512VL__ && !defined LOM_NO_OVERRIDES
+#if defined LOM_HAS_AVX512 && !defined LOM_NO_OVERRIDES
 LOM_INLINE void store_row(row *to, int32_t code, uint32_t samples)
 {
     _mm_mask_storeu_epi32(to, (__mmask8)samples, _mm_set1_epi32(code));

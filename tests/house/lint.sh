@@ -25,6 +25,19 @@ if have objdump "the instructions"; then
         grep -cE 'v?f(n?m)(add|sub|addsub|subadd)[0-9]*[ps][sd]|[[:space:]]v?rcp[0-9]*[ps]s|[[:space:]]v?rsqrt[0-9]*[ps]s')
     [ "$fused" -eq 0 ] || found "$fused fused or approximate instructions in $BUILD/liblom.a"
 fi
+# Processors that have a part of the vectors (haswell AVX2, knl AVX-512 without BW): each lane function on its own, as it
+# is for them, so that none takes an instruction that is not there.
+case $($CC -dumpmachine) in x86_64*)
+    lane_headers='lanes/fours.h lanes/gathers.h lanes/mix_bytes.h lanes/pair_products.h lanes/row_pairs.h image/convert_lanes.h'
+    for processor in x86-64 haswell knl skylake-avx512; do
+        for lanes in 8 16; do
+            asked="-std=gnu11 -march=$processor -DLOM_ALL_LANES -DLOM_LANES=$lanes -DLOM_VARIANT=${lanes}_plain"
+            for header in $lane_headers; do echo "#include \"$header\""; done |
+                $CC -E -P $asked -Iinclude -Isrc -x c - | sed 's/^static inline/__attribute__((used)) &/' >"$BUILD/processor.i"
+            $CC -w -O1 -march=$processor -S -o "$BUILD/processor.s" "$BUILD/processor.i" || found "$lanes lanes for $processor"
+        done
+    done ;;
+esac
 headers=$(ls include/lom/*.h | grep -v _wasm)
 case $($CC -dumpmachine) in x86_64*) ;; *) headers=$(echo "$headers" | grep -v _x86) ;; esac
 for header in $headers; do
