@@ -138,7 +138,7 @@ typedef struct lom_march_desc {
     float absorption;        /* a sample's opacity is density * absorption */
     float light_offset[3];   /* from a sample to the place whose density shades it, in volume units */
     float shade;             /* how much: the colour is multiplied by 1 - shade * density there */
-    float opaque;            /* a ray stops when its opacity is above this */
+    float opaque;            /* a ray stops when its opacity is above this, not negative */
     bool walk;               /* evaluate every step; skipping empty space gives the same bytes */
     lom_filtering filtering; /* of densities and colours; places and sums are float */
 } lom_march_desc;
@@ -323,7 +323,7 @@ typedef struct lom_medium_desc {
     float detail_near, detail_far; /* metres: the noise fades into its mean between */
     float extinction;              /* 1/m at density 1 */
     float step;                    /* metres, above 0 */
-    float stop;                    /* a ray ends when its transmittance is below this */
+    float stop;                    /* a ray ends when its transmittance is below this, at most 1 */
     int most_steps;                /* a ray longer than this many steps takes longer ones; 1..65536 */
     int octaves;                   /* 1..LOM_MAX_OCTAVES */
     float weight[LOM_MAX_OCTAVES];

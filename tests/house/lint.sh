@@ -34,7 +34,7 @@ case $($CC -dumpmachine) in x86_64*)
             asked="-std=gnu11 -march=$processor -DLOM_ALL_LANES -DLOM_LANES=$lanes -DLOM_VARIANT=${lanes}_plain"
             for header in $lane_headers; do echo "#include \"$header\""; done |
                 $CC -E -P $asked -Iinclude -Isrc -x c - | sed 's/^static inline/__attribute__((used)) &/' >"$BUILD/processor.i"
-            $CC -w -O1 -march=$processor -S -o "$BUILD/processor.s" "$BUILD/processor.i" || found "$lanes lanes for $processor"
+            $CC -w -Wno-psabi -O1 -march=$processor -S -o "$BUILD/processor.s" "$BUILD/processor.i" || found "$lanes lanes for $processor"
         done
     done ;;
 esac
