@@ -34,7 +34,7 @@ static double density_at(lom_format format, const void *row, int x)
     if (format == LOM_FORMAT_R16)
         return ((const uint16_t *)row)[x] / 65535.0;
     float value = ((const float *)row)[x];
-    return value > 0 ? value < 1 ? value : 1 : 0;
+    return value >= 0x1p-126f ? value < 1 ? value : 1 : 0;
 }
 
 static double erode(const float eroded[256], double density)

@@ -104,7 +104,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
             continue;
         next = find_step(m, rays, first, step, i + 1);
         load_medium(m, next.place.index, &words);
-        lom_float opacity = -lom_expm1(-(density * length) * desc->extinction);
+        lom_float opacity = -lom_expm1(-(density * length) * extinction_of(desc));
         lom_float share = lom_as_float(lom_as_int(opacity * sum.transmittance) & alive);
         add_light(&sum, desc, rays, &s, share);
         seen += share;
@@ -144,5 +144,5 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
         was_empty = !lom_any((density > 0.0f) & rays->active);
         sum += density;
     }
-    *depth = lom_as_float(lom_as_int(sum * (step * desc->extinction)) & rays->active);
+    *depth = lom_as_float(lom_as_int(sum * (step * extinction_of(desc))) & rays->active);
 }

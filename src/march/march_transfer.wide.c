@@ -153,7 +153,7 @@ void LOM_WIDE(lom_march_transfer)(lom_transfer_result *out, const lom_medium_ray
         front = back;
         if (!lom_any((mean.w > 0.0f) & alive))
             continue;
-        lom_float opacity = -lom_expm1(-(mean.w * length) * medium->extinction);
+        lom_float opacity = -lom_expm1(-(mean.w * length) * extinction_of(medium));
         lom_float share = lom_as_float(lom_as_int(opacity * sum.transmittance) & alive);
         lom_light_sample light;
         lom_float3 lit = light_at(medium, desc, rays, middle, &light);
@@ -194,5 +194,5 @@ void LOM_WIDE(lom_transfer_depth)(lom_float *depth, const lom_medium_rays *rays,
         sum += lom_transfer_between(transfer, front, back).w;
         front = back;
     }
-    *depth = lom_as_float(lom_as_int(sum * (step * medium->extinction)) & rays->active);
+    *depth = lom_as_float(lom_as_int(sum * (step * extinction_of(medium))) & rays->active);
 }

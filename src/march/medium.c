@@ -26,7 +26,7 @@ static uint32_t value_at(const lom_image *image, const void *row, int x)
     if (image->format == LOM_FORMAT_R16)
         return ((const uint16_t *)row)[x];
     float value = ((const float *)row)[x];
-    return (uint32_t)lom_count_of((value > 0 ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f, 65535);
+    return (uint32_t)lom_count_of((value >= 0x1p-126f ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f, 65535);
 }
 
 /* Words k = 0, 1 of the cells of a row, from the voxels of rows y + k. */

@@ -120,6 +120,13 @@ static inline int empty_steps(const lom_medium *m, const lom_volume_place *place
     return 1 + (room > 0 ? lom_int_of(steps < 65535 ? steps : 65535) : 0);
 }
 
+/* The extinction of a medium; one without all of a float's digits counts as 0. Nothing that it stops is seen, and some
+ * processors take a hundred times as long for each product of such numbers. */
+static inline float extinction_of(const lom_medium_desc *desc)
+{
+    return desc->extinction < 0x1p-126f ? 0.0f : desc->extinction;
+}
+
 /* The step of each ray in metres: the asked one, or longer where the ray would take too many. */
 static inline lom_float step_of(const lom_medium_desc *desc, const lom_medium_rays *rays)
 {

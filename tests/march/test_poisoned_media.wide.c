@@ -163,8 +163,31 @@ static void numbers_of_a_march(void)
     lom_free_image(image);
 }
 
+static void an_extinction_of_denormals_is_none(void)
+{
+    lom_image *image = voxels_with(0.5f, 2);
+    lom_medium *medium = lom_create_medium(image, NULL);
+    lom_medium_desc none = plain(medium, 0, 0.01), denormal = none;
+    denormal.extinction = 1e-41f;
+    uint32_t state = 5;
+    for (int i = 0; i < 20; i++) {
+        const lom_medium_rays rays = random_rays(&state, 0.02);
+        lom_medium_result result[2];
+        lom_float depth[2];
+        LOM_WIDE(lom_march_medium)(&result[0], &rays, &none, NULL);
+        LOM_WIDE(lom_march_medium)(&result[1], &rays, &denormal, NULL);
+        CHECK(memcmp(&result[0], &result[1], sizeof result[0]) == 0, "what ray %d brings", i);
+        LOM_WIDE(lom_medium_depth)(&depth[0], &rays, &none, 8);
+        LOM_WIDE(lom_medium_depth)(&depth[1], &rays, &denormal, 8);
+        CHECK(memcmp(&depth[0], &depth[1], sizeof depth[0]) == 0, "how deep ray %d is", i);
+    }
+    lom_free_medium(medium);
+    lom_free_image(image);
+}
+
 int main(int argc, char **argv)
 {
+    RUN(an_extinction_of_denormals_is_none);
     RUN(any_voxels_are_those_of_0_to_1);
     RUN(they_take_no_longer_to_make);
     RUN(numbers_of_a_march);

@@ -23,6 +23,7 @@ enum {
     CASES = 24,
     EAGER = 30, /* packets of a shader and scene that are all tried, and of the others every ... */
     SELDOM = 7,
+    RARE = 211, /* of the scenes of assets/, with terrain of a hundred thousand vertices */
     MOST_OUTPUTS = 4 * LOM_MAX_COLORS + 2 > 12 + LOM_MAX_VARYINGS + LOM_MAX_DISTANCES
                        ? 4 * LOM_MAX_COLORS + 2
                        : 12 + LOM_MAX_VARYINGS + LOM_MAX_DISTANCES,
@@ -40,14 +41,14 @@ struct tried {
     bool has_earlier, has_earlier_vertices;
 };
 static struct tried tried[SHADERS];
-static int shader_count, variant;
+static int shader_count, variant, interval = SELDOM;
 static const char *scene_name;
 static uint64_t scene_number, packets;
 
 static bool is_due(uint64_t *count)
 {
     const uint64_t n = (*count)++;
-    return n < EAGER || n % SELDOM == 0;
+    return n < EAGER || n % (uint64_t)interval == 0;
 }
 
 /* ---- lanes ---- */
@@ -314,6 +315,7 @@ static void scenes_of_a_folder(const char *path)
 /* Those of assets/, from the folder in which tests run; minutes. */
 static void scenes_of_assets(void)
 {
+    interval = RARE;
     scenes_of_a_folder("assets/scenes");
     scenes_of_a_folder("assets/scenes/features");
 }
