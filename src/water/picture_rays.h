@@ -111,10 +111,11 @@ LOM_INLINE bool lom_shows_nothing_along(const struct lom_surface_uniforms *u, co
     int places = 1;
     while (places <= LOM_MOST_PLACES && !lom_all(blocks * part <= 1.5f * (float)places))
         places++;
+    if (places > LOM_MOST_PLACES)
+        return false;
     for (int i = 0; i < places; i++) {
         const lom_float at = part * (((float)i + 0.5f) / (float)places);
-        if (places > LOM_MOST_PLACES ||
-            !lom_all(lom_nearest_around(&picture->near, a.s + x * at, a.t + y * at) <= lom_only_color))
+        if (!lom_all(lom_nearest_around(&picture->near, a.s + x * at, a.t + y * at) <= lom_only_color))
             return false;
     }
     return true;
