@@ -108,7 +108,7 @@ LOM_INLINE lom_float4 sample_texture_fixed(const lom_texture *texture, lom_textu
     SAMPLE_NOTE(texture, kind, point, lod, chosen);
     sample_place place = sample_place_of_levels(texture, level);
     sample_pairs value = sample_level_pairs(texture, kind, storage, srgb, point, &place);
-    if (lom_any(fraction > 0.0f)) {
+    if (lom_any_positive(fraction)) {
         place = sample_place_of_levels(texture, lom_min_int(level + 1, lom_splat_int(texture->level_count - 1)));
         sample_pairs next = sample_level_pairs(texture, kind, storage, srgb, point, &place);
         value = sample_mix_pairs(value, next, lom_weight_pairs(fraction));

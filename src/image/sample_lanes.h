@@ -9,6 +9,7 @@
 #define LOM_IMAGE_SAMPLE_LANES_H
 
 #include "convert_lanes.h"
+#include "lanes/decisions.h"
 #include "lanes/gathers.h"
 #include "lanes/notes.h"
 #include "texture.h"
@@ -41,15 +42,12 @@ typedef struct sample_footprint {
 LOM_INLINE lom_float sample_wrap(lom_float s, lom_wrap wrap)
 {
     switch (wrap) {
-    case LOM_WRAP_REPEAT: {
-        lom_float c = s - lom_floor(s); /* rounds to 1 for s in (-2^-25, 0); NaN for infinities */
-        return lom_select(c < 1.0f, c, (lom_float){ 0 });
-    }
+    case LOM_WRAP_REPEAT:
+        return lom_repeated(s); /* which would round to 1 for s in (-2^-25, 0), and be NaN for infinities */
     case LOM_WRAP_MIRROR: {
         lom_float half = lom_abs(s) * 0.5f;
         lom_float c = (half - lom_floor(half)) * 2.0f; /* in [0, 2), exact */
-        c = lom_select(c > 1.0f, 2.0f - c, c);
-        return lom_max(c, (lom_float){ 0 });
+        return lom_max(lom_min(c, 2.0f - c), (lom_float){ 0 });
     }
     case LOM_WRAP_CLAMP:
         return lom_saturate(s);
@@ -107,7 +105,7 @@ LOM_INLINE int sample_foreseen_level(int level)
 LOM_INLINE sample_place sample_place_of_levels(const lom_texture *texture, lom_int level)
 {
     enum { ROW_WORDS = sizeof(lom_level_row) / sizeof(float) };
-    if (lom_all(level == lom_splat_int(level[0])))
+    if (lom_all_equal(level, level[0]))
         return sample_place_of_level(texture, sample_foreseen_level(level[0]));
     lom_float4 row = lom_gather_rows(&texture->row[0].width, level * ROW_WORDS);
     lom_int depth = lom_max_int(lom_splat_int(texture->level[0].depth) >> level, lom_splat_int(1));
@@ -294,7 +292,7 @@ LOM_INLINE lom_float4 sample_texture(const lom_texture *texture, lom_texture_kin
     SAMPLE_NOTE(texture, kind, point, lod, chosen);
     sample_place place = sample_place_of_levels(texture, level);
     lom_float4 value = sample_level(texture, kind, storage, srgb, point, &place);
-    if (lom_any(fraction > 0.0f)) {
+    if (lom_any_positive(fraction)) {
         place = sample_place_of_levels(texture, lom_min_int(level + 1, lom_splat_int(texture->level_count - 1)));
         lom_float4 next = sample_level(texture, kind, storage, srgb, point, &place);
         value = sample_mix_next(storage, value, next, fraction);

@@ -72,15 +72,17 @@ LOM_INLINE bool sample_find_spot(const lom_texture *texture, const lom_float2 *a
         lom_int level = lom_bounded_to_int(chosen);
         fraction = chosen - lom_to_float(level);
         first = level[0];
-        spot->apart = !lom_all(level == first);
+        spot->apart = !lom_all_equal(level, first);
         first = sample_foreseen_level(first - (spot->apart && lom_any(level < first)));
-        upper = level == first + 1;
-        if (spot->apart && !lom_all(upper | (level == first)))
-            return false;
+        if (spot->apart) {
+            upper = level == first + 1;
+            if (!lom_all(upper | (level == first)))
+                return false;
+        }
     }
     const lom_level_row *row = &texture->row[first], *next = row + (first < last), *second = next + (first + 1 < last);
     lom_float s = sample_wrap(at->x, texture->sampler.wrap_s), t = sample_wrap(at->y, texture->sampler.wrap_t);
-    spot->mixes = last > 0 && lom_any(fraction > 0.0f);
+    spot->mixes = last > 0 && lom_any_positive(fraction);
     spot->part = lom_weight_pairs(fraction);
     if (spot->apart) {
         sample_look_at_levels(&spot->window[0], row, next, upper, s, t);

@@ -87,7 +87,7 @@ LOM_INLINE void sample_rows(const lom_texture *const texture[], int count, const
     }
     sample_row_registers r;
     sample_mix_level(texture, count, s, t, level, false, &r);
-    if (lom_any(fraction > 0.0f)) {
+    if (lom_any_positive(fraction)) {
         lom_spread_to_rows(fraction, r.fraction);
         level = lom_min_int(level + 1, lom_splat_int(first->level_count - 1));
         sample_mix_level(texture, count, s, t, level, true, &r);

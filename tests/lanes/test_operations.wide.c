@@ -1,5 +1,6 @@
 /* Proves that every override of a lane operation gives, bit for bit, what its definition gives: on special values in
  * every pairing, and on random bit patterns. NaNs are compared as NaN: payloads are not defined. */
+#include "lanes/decisions.h"
 #include "lanes/fours.h"
 #include "lanes/gathers.h"
 #include "lanes/mix_bytes.h"
@@ -63,6 +64,14 @@ static void compare_all(lom_int p, lom_int q)
     CHECK(same_int((lom_int)lom_mix_even_bytes(p, q, y), (lom_int)lom_defined_mix_even_bytes(p, q, y)) &&
               same_int((lom_int)lom_mix_odd_bytes(p, q, y), (lom_int)lom_defined_mix_odd_bytes(p, q, y)),
           "mix_bytes of %08x, %08x", p[0], q[0]);
+    CHECK(same(lom_repeated(a), lom_defined_repeated(a)), "repeated of %08x", p[0]);
+    CHECK(lom_any_positive(a) == lom_defined_any_positive(a), "any_positive of %08x", p[0]);
+    lom_float one = -lom_abs(a);
+    CHECK(!lom_any_positive(one), "any_positive of -|%08x|", p[0]);
+    one[q[0] & (LOM_LANES - 1)] = b[0];
+    CHECK(lom_any_positive(one) == (b[0] > 0), "any_positive of %08x alone", q[0]);
+    CHECK(lom_all_equal(p, q[0]) == lom_defined_all_equal(p, q[0]), "all_equal of %08x, %08x", p[0], q[0]);
+    CHECK(lom_all_equal(lom_splat_int(q[0]), q[0]), "all_equal of %08x", q[0]);
     CHECK(same_int((lom_int)lom_twice(p), (lom_int)lom_defined_twice(p)), "twice of %08x", p[0]);
 }
 
