@@ -160,39 +160,42 @@ void LOM_WIDE(lom_march_volume)(lom_float4 *out, const lom_march_rays *rays, con
 
 /* ---- media: densities of 16 bits, marched by optical depth ---- */
 
-/* A density, stored for marching like a volume (index as there): 2 words a cell, word y holding the corners (0, y) and
- * (1, y) of the cell's lower z, 16 bits each. Made by lom_create_medium, read only. */
+/* Emptiness of a cell that holds something is below this. */
+enum { LOM_CELL_EMPTY = 16 };
+
+/* A density, stored for marching like a volume (index as there): a word a cell, voxel (x, y, z) in its low 16 bits and
+ * (x, y, z + 1) in its high ones. Made by lom_create_medium, read only. */
 typedef struct lom_medium {
     int width, height, depth;
     int32_t *density;
-    uint8_t *distance; /* as in lom_volume */
-    bool gathers;      /* read by this processor's gathers, which are faster than loads; the same numbers */
-    float bend;        /* largest second difference along an axis and twice the largest mixed one, in densities */
+    /* 1 byte a cell, and 255 behind the last: e < LOM_CELL_EMPTY where it holds something, nowhere more than (16 - e) / 64
+     * unless e is 0; else e - 15 is its Chebyshev distance, in cells and at most 240, to the nearest that does */
+    uint8_t *emptiness;
+    bool gathers; /* read by this processor's gathers, which are faster than loads; the same numbers */
+    float bend;   /* largest second difference along an axis and twice the largest mixed one, in densities */
 } lom_medium;
 
 /* From one channel of 8 or 16 bits or floats (clamped to [0, 1]). NULL on failure; freed with lom_free_medium. */
 lom_medium *lom_create_medium(const lom_image *density, lom_error *error);
 void lom_free_medium(lom_medium *medium);
 
-/* Density in [0, 1], of a cell's words at its lower z and at its upper. */
-LOM_INLINE lom_float lom_mix_medium(lom_int near0, lom_int near1, lom_int far0, lom_int far1, lom_volume_place place)
+/* Density in [0, 1], of a cell's words: those of x and x + 1, at y and at y + 1. */
+LOM_INLINE lom_float lom_mix_medium(const lom_int upper[2], const lom_int lower[2], lom_volume_place place)
 {
-    lom_float v00 = lom_mix(lom_to_float(near0 & 0xffff), lom_to_float(far0 & 0xffff), place.z);
-    lom_float v01 = lom_mix(lom_to_float(near1 & 0xffff), lom_to_float(far1 & 0xffff), place.z);
-    lom_float v10 =
-        lom_mix(lom_to_float((lom_int)((lom_uint)near0 >> 16)), lom_to_float((lom_int)((lom_uint)far0 >> 16)), place.z);
-    lom_float v11 =
-        lom_mix(lom_to_float((lom_int)((lom_uint)near1 >> 16)), lom_to_float((lom_int)((lom_uint)far1 >> 16)), place.z);
-    return lom_mix(lom_mix(v00, v01, place.y), lom_mix(v10, v11, place.y), place.x) * (1 / 65535.0f);
+    lom_float v[4];
+    for (int i = 0; i < 4; i++) {
+        const lom_int word = i < 2 ? upper[i] : lower[i - 2];
+        v[i] = lom_mix(lom_to_float(word & 0xffff), lom_to_float((lom_int)((lom_uint)word >> 16)), place.z);
+    }
+    return lom_mix(lom_mix(v[0], v[2], place.y), lom_mix(v[1], v[3], place.y), place.x) * (1 / 65535.0f);
 }
 
 LOM_INLINE lom_float lom_sample_medium(const lom_medium *medium, lom_volume_place place)
 {
-    int slice = (medium->width + 1) * (medium->height + 1);
-    lom_int near0, near1, far0, far1;
-    lom_gather_pairs(medium->density, place.index + place.index, &near0, &near1);
-    lom_gather_pairs(medium->density + 2 * slice, place.index + place.index, &far0, &far1);
-    return lom_mix_medium(near0, near1, far0, far1, place);
+    lom_int upper[2], lower[2];
+    lom_gather_pairs(medium->density, place.index, &upper[0], &upper[1]);
+    lom_gather_pairs(medium->density + medium->width + 1, place.index, &lower[0], &lower[1]);
+    return lom_mix_medium(upper, lower, place);
 }
 
 /* The step, in metres, at which the midpoint rule's error of the integral of the density along any line through the

@@ -67,22 +67,27 @@ LOM_INLINE lom_pairs fixed_of_words(lom_int words)
     return (lom_pairs)(words >> 1 & 0x7fff7fff);
 }
 
-/* Of a cell's words at its lower z and at its upper (lom_mix_medium). */
-LOM_INLINE lom_float fixed_mix_medium(lom_int near0, lom_int near1, lom_int far0, lom_int far1,
-                                      const struct fixed_place *at)
+/* A row of a cell at both z, whose halves are x and x + 1, along z. */
+LOM_INLINE lom_pairs fixed_medium_row(const lom_int word[2], const struct fixed_place *at)
 {
-    lom_pairs upper = lom_mix_pairs(fixed_of_words(near0), fixed_of_words(far0), at->z);
-    lom_pairs lower = lom_mix_pairs(fixed_of_words(near1), fixed_of_words(far1), at->z);
-    return fixed_mix_halves(lom_mix_pairs(upper, lower, at->y), at->x) * (1 / LOM_FIXED_LINEAR);
+    const lom_int high = (lom_int)lom_splat_uint(0xffff0000);
+    return lom_mix_pairs(fixed_of_words((word[0] & 0xffff) | word[1] << 16),
+                         fixed_of_words((lom_int)((lom_uint)word[0] >> 16) | (word[1] & high)), at->z);
+}
+
+/* lom_mix_medium. */
+LOM_INLINE lom_float fixed_mix_medium(const lom_int upper[2], const lom_int lower[2], const struct fixed_place *at)
+{
+    lom_pairs row = lom_mix_pairs(fixed_medium_row(upper, at), fixed_medium_row(lower, at), at->y);
+    return fixed_mix_halves(row, at->x) * (1 / LOM_FIXED_LINEAR);
 }
 
 LOM_INLINE lom_float fixed_medium(const lom_medium *medium, const struct fixed_place *at)
 {
-    int slice = (medium->width + 1) * (medium->height + 1);
-    lom_int near0, near1, far0, far1;
-    lom_gather_pairs(medium->density, at->index + at->index, &near0, &near1);
-    lom_gather_pairs(medium->density + 2 * slice, at->index + at->index, &far0, &far1);
-    return fixed_mix_medium(near0, near1, far0, far1, at);
+    lom_int upper[2], lower[2];
+    lom_gather_pairs(medium->density, at->index, &upper[0], &upper[1]);
+    lom_gather_pairs(medium->density + medium->width + 1, at->index, &lower[0], &lower[1]);
+    return fixed_mix_medium(upper, lower, at);
 }
 
 LOM_INLINE lom_float fixed_detail(const lom_detail *detail, lom_float3 position)

@@ -72,7 +72,7 @@ void LOM_WIDE(lom_march_medium)(lom_medium_result *out, const lom_medium_rays *r
     const lom_medium *m = desc->medium;
     lom_medium_result sum = { .transmittance = lom_splat(1.0f) };
     const lom_float step = step_of(desc, rays), first = rays->enter + (rays->shift - 1.0f) * step;
-    const struct cell_walk walk = walk_cells(m, rays, step);
+    const struct cell_walk walk = walk_cells(desc, rays, step, rays->enter);
     lom_mask alive = rays->active;
     LOM_NOTE(LOM_NOTE_RAY, m, rays->enter, rays->leave, step);
     lom_float seen = { 0 };
@@ -123,7 +123,7 @@ void LOM_WIDE(lom_medium_depth)(lom_float *depth, const lom_medium_rays *rays, c
     lom_float sum = { 0 };
     lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
     const lom_medium *m = desc->medium;
-    const struct cell_walk walk = walk_cells(m, rays, step);
+    const struct cell_walk walk = walk_cells(desc, rays, step, lom_splat(3e38f));
     bool was_empty = true;
     LOM_NOTE(LOM_NOTE_RAY, desc->medium, rays->enter, rays->leave, step);
     for (int i = 0; i < steps && lom_any(rays->active); i++) {

@@ -125,7 +125,7 @@ void LOM_WIDE(lom_march_transfer)(lom_transfer_result *out, const lom_medium_ray
 {
     lom_transfer_result sum = { .transmittance = lom_splat(1.0f) };
     const lom_float step = step_of(medium, rays), first = rays->enter + (rays->shift - 1.0f) * step;
-    const struct cell_walk walk = walk_cells(medium->medium, rays, step);
+    const struct cell_walk walk = walk_cells(medium, rays, step, rays->enter);
     const bool skips = !medium->walk && desc->transfer->empty_is_clear;
     lom_mask alive = rays->active;
     LOM_NOTE(LOM_NOTE_RAY, medium->medium, rays->enter, rays->leave, step);
@@ -175,7 +175,7 @@ void LOM_WIDE(lom_transfer_depth)(lom_float *depth, const lom_medium_rays *rays,
                                   const lom_transfer_function *transfer, int steps)
 {
     const lom_float step = lom_max(rays->leave - rays->enter, (lom_float){ 0 }) * (1.0f / (float)steps);
-    const struct cell_walk walk = walk_cells(medium->medium, rays, step);
+    const struct cell_walk walk = walk_cells(medium, rays, step, lom_splat(3e38f));
     const lom_float far = lom_splat(3e38f);
     const bool skips = !medium->walk && transfer->empty_is_clear;
     LOM_NOTE(LOM_NOTE_RAY, medium->medium, rays->enter, rays->leave, step);

@@ -1,6 +1,5 @@
-/* Media for marching. In: densities of 8 or 16 bits or floats. Out: cells with the four corners of a slice side by
- * side, how far each cell is from one that holds anything, and how sharply the density bends. Invariant: a cell of
- * distance above 0 has eight corners of density 0. */
+/* Media for marching. In: densities of 8 or 16 bits or floats. Out: cells, each with the voxel behind its own, how empty
+ * each is, and how sharply the density bends. Invariant: no corner of a cell holds more than its emptiness says. */
 #include "base/numbers.h"
 #include "base/own_float_state.h"
 #include "base/cpu.h"
@@ -13,92 +12,140 @@ void lom_free_medium(lom_medium *medium)
     if (medium == NULL)
         return;
     lom_release(medium->density);
-    lom_release(medium->distance);
+    lom_release(medium->emptiness);
     lom_release(medium);
 }
 
-/* Voxel x of a row, or the last one. */
-static uint32_t value_at(const lom_image *image, const void *row, int x)
+/* ---- rows of voxels ---- */
+
+enum { MOST_ROW = LOM_MAX_VOLUME + 2 };
+
+/* Row y of slice z, or the last one of each, as 16 bits; the last voxel twice more. */
+static void read_row(uint16_t row[MOST_ROW], const lom_image *image, int y, int z)
 {
-    x = lom_smaller_int(x, image->width - 1);
-    if (image->format == LOM_FORMAT_R8)
-        return 257u * ((const uint8_t *)row)[x];
+    const int width = image->width;
+    const void *from = lom_image_pixel(image, 0, lom_smaller_int(y > 0 ? y : 0, image->height - 1),
+                                       lom_smaller_int(z > 0 ? z : 0, image->depth - 1));
     if (image->format == LOM_FORMAT_R16)
-        return ((const uint16_t *)row)[x];
-    float value = ((const float *)row)[x];
-    return (uint32_t)lom_count_of((value >= 0x1p-126f ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f, 65535);
+        memcpy(row, from, (size_t)width * sizeof *row);
+    else if (image->format == LOM_FORMAT_R8)
+        for (int x = 0; x < width; x++)
+            row[x] = (uint16_t)(257u * ((const uint8_t *)from)[x]);
+    else
+        for (int x = 0; x < width; x++) {
+            const float value = ((const float *)from)[x];
+            row[x] = (uint16_t)lom_count_of((value >= 0x1p-126f ? value < 1 ? value : 1 : 0) * 65535.0f + 0.5f, 65535);
+        }
+    row[width] = row[width + 1] = row[width - 1];
 }
 
-/* Words k = 0, 1 of the cells of a row, from the voxels of rows y + k. */
+/* The words of the cells of a row. */
 static void store_row(int32_t *to, const lom_image *image, int y, int z)
 {
-    for (int k = 0; k < 2; k++) {
-        const void *row =
-            lom_image_pixel(image, 0, lom_smaller_int(y + k, image->height - 1), lom_smaller_int(z, image->depth - 1));
-        uint32_t value = value_at(image, row, 0);
-        for (int x = 0; x <= image->width; x++) {
-            uint32_t next = value_at(image, row, x + 1), word = value | next << 16;
-            memcpy(&to[2 * x + k], &word, sizeof word);
-            value = next;
-        }
-    }
+    uint16_t low[MOST_ROW], high[MOST_ROW];
+    read_row(low, image, y, z);
+    read_row(high, image, y, z + 1);
+    for (int x = 0; x <= image->width; x++)
+        to[x] = (int32_t)((uint32_t)low[x] | (uint32_t)high[x] << 16);
 }
 
-static void store_corners(lom_medium *m, const lom_image *image)
+/* ---- emptiness ---- */
+
+static uint16_t larger(uint16_t a, uint16_t b)
 {
+    return a > b ? a : b;
+}
+
+/* The largest of the eight corners of each cell of a row. */
+static void find_most(uint16_t most[MOST_ROW], const lom_image *image, int y, int z)
+{
+    uint16_t row[MOST_ROW];
+    memset(most, 0, MOST_ROW * sizeof *most);
+    for (int i = 0; i < 4; i++) {
+        read_row(row, image, y + (i & 1), z + (i >> 1));
+        for (int x = 0; x <= image->width + 1; x++)
+            most[x] = larger(most[x], row[x]);
+    }
+    for (int x = 0; x <= image->width; x++)
+        most[x] = larger(most[x], most[x + 1]);
+}
+
+/* Of a cell that holds at most `most` of 65535, above 0: levels of 2^10 of them, rounded up. */
+static uint8_t level_of(uint16_t most)
+{
+    const int levels = (most + 1023) >> 10;
+    return (uint8_t)(levels < LOM_CELL_EMPTY ? LOM_CELL_EMPTY - levels : 0);
+}
+
+static void find_emptiness(lom_medium *m, const lom_image *image)
+{
+    uint16_t most[MOST_ROW];
     for (int z = 0; z <= m->depth; z++)
-        for (int y = 0; y <= m->height; y++)
-            store_row(m->density + 2 * cell_index(m->width, m->height, 0, y, z), image, y, z);
-    size_t slice = cell_index(m->width, m->height, 0, 0, 1), cells = slice * (size_t)(m->depth + 1);
-    for (size_t cell = 0; cell < cells; cell++) {
-        size_t next = cell + slice < cells ? cell + slice : cell;
-        int32_t any = m->density[2 * cell] | m->density[2 * cell + 1] | m->density[2 * next] | m->density[2 * next + 1];
-        m->distance[cell] = any != 0 ? 0 : 255;
-    }
+        for (int y = 0; y <= m->height; y++) {
+            uint8_t *row = m->emptiness + cell_index(m->width, m->height, 0, y, z);
+            find_most(most, image, y, z);
+            for (int x = 0; x <= m->width; x++)
+                row[x] = most[x] != 0 ? 0 : 255;
+        }
+    lom_spread_distances(m->emptiness, m->width, m->height, m->depth);
+    for (int z = 0; z <= m->depth; z++)
+        for (int y = 0; y <= m->height; y++) {
+            uint8_t *row = m->emptiness + cell_index(m->width, m->height, 0, y, z);
+            find_most(most, image, y, z);
+            for (int x = 0; x <= m->width; x++) {
+                const int away = row[x] < 240 ? row[x] + LOM_CELL_EMPTY - 1 : 255;
+                row[x] = row[x] != 0 ? (uint8_t)away : level_of(most[x]);
+            }
+        }
+    m->emptiness[cell_index(m->width, m->height, 0, 0, m->depth + 1)] = 255;
 }
 
-/* The corner (0, 0) of a cell, and (1, 0); of word 1 (0, 1) and (1, 1). */
-static int low(int32_t word)
+/* ---- how sharply it bends ---- */
+
+/* Voxels of a row and of rows about it; each has a voxel before its first, which is the same. */
+struct rows_about {
+    uint16_t here[1 + MOST_ROW], above[1 + MOST_ROW], below[1 + MOST_ROW], nearer[1 + MOST_ROW], farther[1 + MOST_ROW],
+        across[1 + MOST_ROW];
+};
+
+static void read_rows_about(struct rows_about *r, const lom_image *image, int y, int z)
 {
-    return word & 0xffff;
+    read_row(r->here + 1, image, y, z);
+    r->here[0] = r->here[1];
+    read_row(r->above + 1, image, y - 1, z);
+    read_row(r->below + 1, image, y + 1, z);
+    read_row(r->nearer + 1, image, y, z - 1);
+    read_row(r->farther + 1, image, y, z + 1);
+    read_row(r->across + 1, image, y + 1, z + 1);
 }
 
-static int high(int32_t word)
+static int larger_magnitude(int most, int of)
 {
-    return (int)((uint32_t)word >> 16);
-}
-
-/* The largest mixed second difference of a cell: over two of its axes, at any of its corners. */
-static int mixed_difference(const int32_t *near, const int32_t *far)
-{
-    int most = lom_magnitude_int(low(near[0]) - high(near[0]) - low(near[1]) + high(near[1]));
-    int other = lom_magnitude_int(low(near[0]) - high(near[0]) - low(far[0]) + high(far[0]));
-    most = other > most ? other : most;
-    other = lom_magnitude_int(low(near[0]) - low(near[1]) - low(far[0]) + low(far[1]));
-    return other > most ? other : most;
+    of = of < 0 ? -of : of;
+    return of > most ? of : most;
 }
 
 /* Along a unit line d, |f''| within a cell is at most 2 (|dx dy| + |dy dz| + |dz dx|) <= 2 times the largest mixed
  * difference; the jumps of f' at the cells' faces are, a voxel of length, at most dx^2 + dy^2 + dz^2 = 1 times the
  * largest second difference along an axis. */
-static float find_bend(const lom_medium *m)
+static float find_bend(const lom_image *image)
 {
-    const size_t stride[3] = { 1, cell_index(m->width, m->height, 0, 1, 0), cell_index(m->width, m->height, 0, 0, 1) };
-    int most_mixed = 0, most_along = 0;
-    for (int z = 0; z < m->depth; z++)
-        for (int y = 0; y < m->height; y++)
-            for (int x = 0; x < m->width; x++) {
-                const int at[3] = { x, y, z };
-                const int32_t *cell = m->density + 2 * cell_index(m->width, m->height, x, y, z);
-                int mixed = mixed_difference(cell, cell + 2 * stride[2]);
-                most_mixed = mixed > most_mixed ? mixed : most_mixed;
-                for (int a = 0; a < 3; a++) {
-                    int before = at[a] > 0 ? low(cell[-2 * (ptrdiff_t)stride[a]]) : low(cell[0]);
-                    int along = lom_magnitude_int(before - 2 * low(cell[0]) + low(cell[2 * stride[a]]));
-                    most_along = along > most_along ? along : most_along;
-                }
+    struct rows_about r;
+    int mixed = 0, along = 0;
+    for (int z = 0; z < image->depth; z++)
+        for (int y = 0; y < image->height; y++) {
+            read_rows_about(&r, image, y, z);
+            for (int x = 1; x <= image->width; x++) {
+                const int here = r.here[x], right = here - r.here[x + 1];
+                mixed = larger_magnitude(mixed, right - r.below[x] + r.below[x + 1]);
+                mixed = larger_magnitude(mixed, right - r.farther[x] + r.farther[x + 1]);
+                mixed = larger_magnitude(mixed, here - r.below[x] - r.farther[x] + r.across[x]);
+                along = larger_magnitude(along, r.here[x - 1] - 2 * here + r.here[x + 1]);
+                along = larger_magnitude(along, r.above[x] - 2 * here + r.below[x]);
+                along = larger_magnitude(along, r.nearer[x] - 2 * here + r.farther[x]);
             }
-    return (float)((most_along + 2.0 * most_mixed) / 65535.0);
+        }
+    return (float)((along + 2.0 * mixed) / 65535.0);
 }
 
 lom_medium *lom_create_medium(const lom_image *image, lom_error *error)
@@ -120,16 +167,18 @@ lom_medium *lom_create_medium(const lom_image *image, lom_error *error)
     *medium = (lom_medium){
         .width = image->width, .height = image->height, .depth = image->depth, .gathers = lom_has_fast_gathers()
     };
-    size_t cells = cell_index(image->width, image->height, 0, 0, image->depth + 1);
-    medium->density = lom_allocate(cells, 2 * sizeof *medium->density, error);
-    medium->distance = lom_allocate(cells, 1, error);
-    if (medium->density == NULL || medium->distance == NULL) {
+    size_t slice = cell_index(image->width, image->height, 0, 0, 1), depth = (size_t)image->depth;
+    medium->density = lom_allocate(slice * depth, sizeof *medium->density, error);
+    medium->emptiness = lom_allocate(slice * (depth + 1) + 1, 1, error);
+    if (medium->density == NULL || medium->emptiness == NULL) {
         lom_free_medium(medium);
         return NULL;
     }
-    store_corners(medium, image);
-    lom_spread_distances(medium->distance, image->width, image->height, image->depth);
-    medium->bend = find_bend(medium);
+    for (int z = 0; z < image->depth; z++)
+        for (int y = 0; y <= image->height; y++)
+            store_row(medium->density + cell_index(image->width, image->height, 0, y, z), image, y, z);
+    find_emptiness(medium, image);
+    medium->bend = find_bend(image);
     return medium;
 }
 

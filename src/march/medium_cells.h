@@ -8,16 +8,15 @@
 
 #include <lom/march.h>
 
-/* The words of each lane's cell at its lower z, and at its upper. */
+/* The words of each lane's cell: of x and x + 1, at its y and at the next. */
 struct medium_words {
-    lom_int near[2], far[2];
+    lom_int upper[2], lower[2];
 };
 
 LOM_INLINE void load_medium(const lom_medium *m, lom_int index, struct medium_words *words)
 {
-    const int slice = (m->width + 1) * (m->height + 1);
-    lom_gather_pairs_by(m->gathers, m->density, index + index, &words->near[0], &words->near[1]);
-    lom_gather_pairs_by(m->gathers, m->density + 2 * slice, index + index, &words->far[0], &words->far[1]);
+    lom_gather_pairs_by(m->gathers, m->density, index, &words->upper[0], &words->upper[1]);
+    lom_gather_pairs_by(m->gathers, m->density + m->width + 1, index, &words->lower[0], &words->lower[1]);
 }
 
 /* lom_sample_detail. */

@@ -14,9 +14,9 @@ LOM_INLINE lom_float density_in(const lom_medium_desc *desc, const lom_volume_pl
                                 const struct medium_words *words)
 {
     if (desc->filtering != LOM_FILTERING_FIXED)
-        return lom_mix_medium(words->near[0], words->near[1], words->far[0], words->far[1], *place);
+        return lom_mix_medium(words->upper, words->lower, *place);
     struct fixed_place at = fix_place(*place);
-    return fixed_mix_medium(words->near[0], words->near[1], words->far[0], words->far[1], &at);
+    return fixed_mix_medium(words->upper, words->lower, &at);
 }
 
 /* The density that counts: the medium's, into whose thin parts tiling noise n eats: (d - s n) / (1 - s n), never below
@@ -75,48 +75,73 @@ LOM_INLINE lom_float largest3(lom_float a, lom_float b, lom_float c)
     return lom_max(lom_max(lom_abs(a), lom_abs(b)), lom_abs(c));
 }
 
-/* How a packet's rays go from cell to cell along the axis on which the fastest is fastest. */
+/* How a packet's rays go from cell to cell along the axis on which the fastest is fastest, and which cells are as good as
+ * empty. */
 struct cell_walk {
-    float per_cell; /* steps in a cell, or fewer, whatever is rounded */
-    float unsure;   /* cells by which a place may be from where it is taken to be: within its cell, and by rounding */
+    float per_cell;  /* steps in a cell, or fewer, whatever is rounded */
+    float unsure;    /* cells by which a place may be from where it is taken to be: within its cell, and by rounding */
+    int clear, last; /* the least emptiness of which nothing is left; the index behind all cells */
 };
 
-/* A place is the start and a multiple of the direction, of which each, their sum and its product with the cells is rounded to
- * 2^-24 of what it is: of a start far away 2^-22 of its cells at most. */
-static inline struct cell_walk walk_cells(const lom_medium *m, const lom_medium_rays *rays, lom_float step)
+/* The emptiness from which on noise leaves nothing of a cell that is at least `nearest` away: noise is never below 0, and
+ * eats the more of its mean the more it has faded into it. What rounding and fixed point make of it is below a thousandth;
+ * noise that eats all of 1 may divide 0 by 0. */
+static inline int clear_from(const lom_medium_desc *desc, float nearest)
 {
+    if (desc->detail == NULL || !(desc->detail_strength < 0.99f) || !(desc->detail_near < desc->detail_far))
+        return LOM_CELL_EMPTY;
+    const lom_float faded =
+        lom_smoothstep(lom_splat(desc->detail_near), lom_splat(desc->detail_far), lom_splat(nearest));
+    const float eaten = desc->detail_strength * desc->detail->mean * faded[0] - 1e-3f;
+    const int levels = eaten > 0 ? lom_int_of(eaten * 64) : 0;
+    return levels < LOM_CELL_EMPTY ? LOM_CELL_EMPTY - levels : 1;
+}
+
+/* A place is the start and a multiple of the direction, of which each, their sum and its product with the cells is rounded to
+ * 2^-24 of what it is: of a start far away 2^-22 of its cells at most. `distances` are what the noise fades by, or less. */
+static inline struct cell_walk walk_cells(const lom_medium_desc *desc, const lom_medium_rays *rays, lom_float step,
+                                          lom_float distances)
+{
+    const lom_medium *m = desc->medium;
     const float across = (float)m->width, down = (float)m->height, deep = (float)m->depth;
     lom_float speed = step * largest3(rays->along.x * across, rays->along.y * down, rays->along.z * deep) + 1e-6f;
     lom_float away = largest3(rays->start.x * across, rays->start.y * down, rays->start.z * deep);
-    float speeds[LOM_LANES], far[LOM_LANES], fastest = 1e-6f, farthest = 0;
+    float speeds[LOM_LANES], far[LOM_LANES], from[LOM_LANES], fastest = 1e-6f, farthest = 0, nearest = 3e38f;
     lom_store(speeds, speed);
     lom_store(far, away);
+    lom_store(from, distances);
+    struct cell_walk walk = { 0, 1e30f, LOM_CELL_EMPTY, (m->width + 1) * (m->height + 1) * (m->depth + 1) };
     for (uint32_t lanes = lom_bits(rays->active); lanes != 0; lanes &= lanes - 1) {
         int i = __builtin_ctz(lanes);
         if (!(speeds[i] <= 1e30f) || !(far[i] <= 1e30f))
-            return (struct cell_walk){ 0, 1e30f };
+            return walk;
         fastest = speeds[i] > fastest ? speeds[i] : fastest;
         farthest = far[i] > farthest ? far[i] : farthest;
+        nearest = from[i] < nearest ? from[i] : nearest;
     }
-    return (struct cell_walk){ 0.99999f / fastest, 1.01f + 0x1p-21f * farthest };
+    walk.per_cell = 0.99999f / fastest;
+    walk.unsure = 1.01f + 0x1p-21f * farthest;
+    walk.clear = clear_from(desc, nearest);
+    return walk;
 }
 
-/* Whole steps that are empty for every ray from the places on: where no cell is of distance 0 the first is; so are those after
- * it whose cells are nearer than the distance. */
+/* Whole steps that are empty for every ray from the places on: where each cell is as good as empty the first is; so are those
+ * after it whose cells are nearer than the nearest that holds something. */
 static inline int empty_steps(const lom_medium *m, const lom_volume_place *place, lom_mask alive,
                               const struct cell_walk *walk)
 {
-    int32_t index[LOM_LANES], dead[LOM_LANES], least = 255;
-    lom_store_int(index, place->index);
-    lom_store_int(dead, ~alive);
-    __asm__("" : "+m"(index), "+m"(dead)); /* gcc would take them out of registers one by one */
-    for (int i = 0; i < LOM_LANES; i++) {  /* no branch that the lanes would have to be guessed for */
-        int32_t distance = m->distance[index[i]] | (dead[i] & 255);
-        least = distance < least ? distance : least;
+    int32_t index[LOM_LANES], least[4] = { 255, 255, 255, 255 };
+    lom_store_int(index, lom_select_int(alive, place->index, lom_splat_int(walk->last)));
+    __asm__("" : "+m"(index));            /* gcc would take them out of registers one by one */
+    for (int i = 0; i < LOM_LANES; i++) { /* no branch that the lanes would have to be guessed for */
+        int32_t emptiness = m->emptiness[index[i]];
+        least[i & 3] = emptiness < least[i & 3] ? emptiness : least[i & 3];
     }
-    if (least == 0)
-        return 0;
-    float room = (float)least - walk->unsure, steps = room * walk->per_cell;
+    for (int i = 1; i < 4; i++)
+        least[0] = least[i] < least[0] ? least[i] : least[0];
+    if (least[0] < LOM_CELL_EMPTY)
+        return least[0] >= walk->clear;
+    float room = (float)(least[0] - LOM_CELL_EMPTY + 1) - walk->unsure, steps = room * walk->per_cell;
     return 1 + (room > 0 ? lom_int_of(steps < 65535 ? steps : 65535) : 0);
 }
 

@@ -77,7 +77,7 @@ static struct all make_all(void)
                        { .size = SIZE } };
     all.volume.color = calloc(CELLS + 8, 4);
     all.volume.density = calloc(CELLS + 8, 8);
-    all.medium.density = calloc(CELLS + 8, 8);
+    all.medium.density = calloc(CELLS + 8, 4);
     all.light.light = calloc(CELLS + 8, 4);
     for (int z = 0; z <= SIZE; z++)
         for (int y = 0; y <= SIZE; y++)
@@ -90,9 +90,9 @@ static struct all make_all(void)
                     word = voxel(x, y, z + k) >> 24 | (voxel(x + 1, y, z + k) >> 24) << 8 |
                            (voxel(x, y + 1, z + k) >> 24) << 16 | (voxel(x + 1, y + 1, z + k) >> 24) << 24;
                     memcpy(&all.volume.density[2 * at + (size_t)k], &word, 4);
-                    word = (voxel(x, y + k, z) & 0xffff) | voxel(x + 1, y + k, z) << 16;
-                    memcpy(&all.medium.density[2 * at + (size_t)k], &word, 4);
                 }
+                word = (voxel(x, y, z) & 0xffff) | voxel(x, y, z + 1) << 16;
+                memcpy(&all.medium.density[at], &word, 4);
             }
     return all;
 }

@@ -229,6 +229,81 @@ static void skipping_changes_no_byte(void)
           (unsigned long long)count.walked);
 }
 
+/* Thin clouds and noise that eats into them, near, far and between: what it surely eats is not sampled. */
+static void what_noise_surely_eats_changes_no_byte(void)
+{
+    uint32_t state = 3;
+    lom_image *noise = lom_create_image(16, 16, 16, LOM_FORMAT_R8, NULL);
+    for (int i = 0; i < 16 * 16 * 16; i++) /* nothing in half of its cubes */
+        noise->pixels[i] = ((i >> 2) + (i >> 6) + (i >> 10)) % 2 ? 0 : (uint8_t)uniform(&state, 100, 256);
+    lom_detail *detail = lom_create_detail(noise, NULL);
+    for (int round = 0; round < 12; round++) {
+        lom_image *image = blobs(&state, 40);
+        uint16_t *voxels = (uint16_t *)(void *)image->pixels;
+        const double strength = round == 11 ? 1 : uniform(&state, 0.1, 0.6), eaten = strength * (double)detail->mean;
+        const double most = 65535 * eaten * uniform(&state, 0.9, 1.1);
+        for (int i = 0; i < 40 * 40 * 40; i++) /* nearly as much in all of a blob as is eaten, or anything */
+            if (voxels[i] != 0 && round % 3 != 0)
+                voxels[i] = (uint16_t)lom_count_of(most * uniform(&state, 0.97, 1), 65535);
+        lom_medium *medium = lom_create_medium(image, NULL);
+        lom_medium_desc desc = plain(medium, 40, uniform(&state, 0.003, 0.05));
+        desc.filtering = round % 2 == 0 ? LOM_FILTERING_FLOAT : LOM_FILTERING_FIXED;
+        desc.detail = detail;
+        desc.detail_strength = (float)strength;
+        for (int k = 0; k < 3; k++)
+            desc.detail_scale[k] = (float)uniform(&state, 1, 9);
+        for (int i = 0; i < 60; i++) {
+            lom_medium_rays rays = random_rays(&state, i % 3 == 0 ? 0.3 : 0.01);
+            desc.detail_near = (float)uniform(&state, -1, 1);
+            desc.detail_far = desc.detail_near + (float)uniform(&state, -0.2, 1.5);
+            lom_medium_result seen[2];
+            lom_float depth[2];
+            for (int skip = 0; skip < 2; skip++) {
+                desc.walk = !skip;
+                LOM_WIDE(lom_march_medium)(&seen[skip], &rays, &desc, NULL);
+                LOM_WIDE(lom_medium_depth)(&depth[skip], &rays, &desc, 40 + i);
+            }
+            CHECK(memcmp(&seen[0], &seen[1], sizeof seen[0]) == 0, "round %d, rays %d", round, i);
+            CHECK(memcmp(&depth[0], &depth[1], sizeof depth[0]) == 0, "depth: round %d, rays %d", round, i);
+        }
+        lom_free_medium(medium);
+        lom_free_image(image);
+    }
+    lom_free_detail(detail);
+    lom_free_image(noise);
+}
+
+static double thin(double x)
+{
+    (void)x;
+    return 0.06;
+}
+
+/* Noise whose mean eats all of a medium: far away, where it is its mean, no step is sampled; near by each is. */
+static void what_noise_surely_eats_is_not_sampled(void)
+{
+    lom_medium *medium = medium_along_x(8, thin);
+    lom_image *noise = lom_create_image(4, 4, 4, LOM_FORMAT_R8, NULL);
+    memset(noise->pixels, 127, 64);
+    lom_detail *detail = lom_create_detail(noise, NULL);
+    for (int near = 0; near < 2; near++) {
+        lom_medium_desc desc = plain(medium, 1, 0.01);
+        lom_medium_rays rays = rays_along_x(0, 1);
+        lom_march_count count = { 0 };
+        lom_medium_result seen;
+        desc.detail = detail;
+        desc.detail_strength = 0.4f;
+        desc.detail_near = near ? 2.0f : -2.0f;
+        desc.detail_far = desc.detail_near + 1;
+        LOM_WIDE(lom_march_medium)(&seen, &rays, &desc, &count);
+        CHECK(seen.transmittance[0] == 1 && (count.sampled != 0) == near, "%d: %llu sampled", near,
+              (unsigned long long)count.sampled);
+    }
+    lom_free_detail(detail);
+    lom_free_image(noise);
+    lom_free_medium(medium);
+}
+
 /* Whether a processor is said to gather faster than it loads. */
 static void gathers_change_no_byte(void)
 {
@@ -408,6 +483,8 @@ int main(int argc, char **argv)
     RUN(v13_order_of_convergence);
     RUN(v5_empty_medium);
     RUN(skipping_changes_no_byte);
+    RUN(what_noise_surely_eats_changes_no_byte);
+    RUN(what_noise_surely_eats_is_not_sampled);
     RUN(gathers_change_no_byte);
     RUN(v10_early_stop_keeps_its_bound);
     RUN(step_keeps_its_error_bound);

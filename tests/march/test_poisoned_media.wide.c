@@ -51,11 +51,11 @@ static void check_same(const lom_image *bad, const lom_image *clean, const char 
 {
     lom_medium *medium[2] = { lom_create_medium(bad, NULL), lom_create_medium(clean, NULL) };
     lom_light_grid *grid[2] = { light_of(bad), light_of(clean) };
-    const size_t cells = cell_index(SIDE, SIDE, 0, 0, SIDE + 1);
+    const size_t words = cell_index(SIDE, SIDE, 0, 0, SIDE), cells = cell_index(SIDE, SIDE, 0, 0, SIDE + 1);
     const size_t lit = cell_index(grid[0]->width, grid[0]->height, 0, 0, grid[0]->depth + 1);
-    CHECK(memcmp(medium[0]->density, medium[1]->density, cells * 2 * sizeof *medium[0]->density) == 0,
+    CHECK(memcmp(medium[0]->density, medium[1]->density, words * sizeof *medium[0]->density) == 0,
           "%s in every %dth voxel: densities", name, every);
-    CHECK(memcmp(medium[0]->distance, medium[1]->distance, cells) == 0, "%s in every %dth voxel: distances", name,
+    CHECK(memcmp(medium[0]->emptiness, medium[1]->emptiness, cells) == 0, "%s in every %dth voxel: emptiness", name,
           every);
     CHECK(medium[0]->bend == medium[1]->bend, "%s in every %dth voxel: steps", name, every);
     CHECK(memcmp(grid[0]->light, grid[1]->light, lit * sizeof *grid[0]->light) == 0, "%s in every %dth voxel: light",
