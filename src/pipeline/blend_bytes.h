@@ -1,16 +1,10 @@
-/* Blending of 8-bit channels in exact integers, two channels of a pixel at a time: v = S F + D G, rounded once by
- * t = v + 128, (t + (t >> 8)) >> 8, which is round(v / 255) for every v up to 255^2. */
+/* Blending of 8-bit channels in exact integers, two channels of a pixel at a time: v = S F + D G, rounded once to
+ * round(v / 255). */
 #ifndef LOM_PIPELINE_BLEND_BYTES_H
 #define LOM_PIPELINE_BLEND_BYTES_H
 
+#include "image/narrowed_unorm.h"
 #include "pipeline/packet.h"
-
-/* Two 8-bit channels of a pixel in 16 bits each: red and blue, or green and alpha. Products of two channels fit. */
-typedef uint16_t pairs __attribute__((vector_size(LOM_LANES * 4)));
-
-struct channels {
-    pairs rb, ga;
-};
 
 struct equation {
     lom_factor source, target;
@@ -24,34 +18,11 @@ LOM_INLINE struct equation equation_of(const lom_blend *blend, int c)
     return (struct equation){ blend->source_color, blend->target_color, blend->color_operation };
 }
 
-LOM_INLINE pairs splat_pairs(uint16_t value)
-{
-    return value - (pairs){ 0 };
-}
-
-LOM_INLINE struct channels split(lom_int packed)
-{
-    return (struct channels){ (pairs)(packed & 0xff00ff), (pairs)(packed >> 8 & 0xff00ff) };
-}
-
-LOM_INLINE lom_int join(struct channels c)
-{
-    return (lom_int)c.rb | (lom_int)c.ga << 8;
-}
-
-/* A colour as four bytes, two of them in 16 bits each. */
+/* A colour as four bytes. */
 LOM_INLINE struct channels quantise(const lom_float4 *color)
 {
-    lom_int red = lom_unorm_of_lanes(color->x, 255.0f), green = lom_unorm_of_lanes(color->y, 255.0f);
-    lom_int blue = lom_unorm_of_lanes(color->z, 255.0f), alpha = lom_unorm_of_lanes(color->w, 255.0f);
-    return (struct channels){ (pairs)(red | blue << 16), (pairs)(green | alpha << 16) };
-}
-
-/* Alpha in both halves of each pixel. */
-LOM_INLINE pairs alpha_of(struct channels c)
-{
-    lom_int alpha = (lom_int)((lom_uint)c.ga >> 16);
-    return (pairs)(alpha | alpha << 16);
+    return narrow(lom_narrowed_unorm8_of_lanes(color->x), lom_narrowed_unorm8_of_lanes(color->y),
+                  lom_narrowed_unorm8_of_lanes(color->z), lom_narrowed_unorm8_of_lanes(color->w));
 }
 
 /* What factors are made of, in one half of the channels: values, and the alpha of each in both of its channels. */
@@ -124,13 +95,6 @@ LOM_INLINE pairs select_pairs(pairs mask, pairs a, pairs b)
     return (mask & a) | (~mask & b);
 }
 
-/* round(v / 255), v at most 255^2. */
-LOM_INLINE pairs divide_by_255(pairs v)
-{
-    pairs t = v + 128;
-    return (t + (t >> 8)) >> 8;
-}
-
 /* s + d, s - d or d - s within 0..255^2; a sum that wraps is smaller than its terms. */
 LOM_INLINE pairs combine(lom_blend_operation operation, pairs s, pairs d)
 {
@@ -169,7 +133,7 @@ LOM_INLINE struct channels blend_bytes(const lom_blend *blend, struct channels s
                                        const struct rare_sources *rare)
 {
     struct equation color = equation_of(blend, 0), alpha = equation_of(blend, 3);
-    const pairs one = splat_pairs(255), upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
+    const pairs one = splat_pairs(255);
     struct operands rb = { .source = source.rb, .source_alpha = alpha_of(source), .target = target.rb };
     rb.target_alpha = alpha_of(target);
     rb.saturate =
@@ -186,7 +150,7 @@ LOM_INLINE struct channels blend_bytes(const lom_blend *blend, struct channels s
     struct channels result = { blend_half(color, &rb), blend_half(color, &ga) };
     if (needs_alpha_apart(color, alpha)) {
         ga.saturate = one;
-        result.ga = select_pairs(upper, blend_half(alpha, &ga), result.ga);
+        result.ga = select_pairs(second_channels(), blend_half(alpha, &ga), result.ga);
     }
     return result;
 }
@@ -200,14 +164,12 @@ LOM_INLINE struct channels blend_straight(struct channels source, struct channel
 }
 
 /* What it makes of OUTPUT_MULTIPLIED: round((255 S + D G) / 255) is S + round(D G / 255), and the bound of 255^2 is one
- * of 255 after the division. */
+ * of 255 after the division, which join_bounded has. */
 LOM_INLINE struct channels blend_multiplied(struct channels source, struct channels target)
 {
-    const pairs largest = splat_pairs(255);
     pairs rest = 255 - alpha_of(source);
-    pairs rb = source.rb + divide_by_255(target.rb * rest), ga = source.ga + divide_by_255(target.ga * rest);
-    return (struct channels){ select_pairs((pairs)(rb > largest), largest, rb),
-                              select_pairs((pairs)(ga > largest), largest, ga) };
+    return (struct channels){ source.rb + divide_by_255(target.rb * rest),
+                              source.ga + divide_by_255(target.ga * rest) };
 }
 
 #endif

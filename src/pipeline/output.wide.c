@@ -307,5 +307,5 @@ void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *
         source = blend_multiplied(quantise(color), split(lom_load_places(memory, tile, places)));
         break;
     }
-    lom_store_places(memory, tile, places, *mask, join(source));
+    lom_store_places(memory, tile, places, *mask, join_bounded(source));
 }

@@ -13,7 +13,7 @@ struct constant_blend {
 static bool reduce_blend(const lom_blend *blend, uint32_t bytes, struct constant_blend *reduced)
 {
     struct channels source = split(lom_splat_int((int32_t)bytes));
-    pairs alpha = alpha_of(source), upper = (pairs)lom_splat_int((int32_t)0xffff0000u);
+    pairs alpha = alpha_of(source), upper = second_channels();
     pairs factor[2][2], sum[2][2]; /* of rb and ga, by the colour's and the alpha's equation */
     for (int k = 0; k < 2; k++) {
         struct equation e = equation_of(blend, k == 0 ? 0 : 3);
@@ -28,18 +28,13 @@ static bool reduce_blend(const lom_blend *blend, uint32_t bytes, struct constant
     }
     reduced->factor = (struct channels){ factor[0][0], select_pairs(upper, factor[1][1], factor[1][0]) };
     reduced->add = (struct channels){ sum[0][0], select_pairs(upper, sum[1][1], sum[1][0]) };
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2 * LOM_LANES; i++)
         if (reduced->add.rb[i] + 255u * reduced->factor.rb[i] > 255u * 255u ||
             reduced->add.ga[i] + 255u * reduced->factor.ga[i] > 255u * 255u)
             return false;
     reduced->add.rb += 128;
     reduced->add.ga += 128;
     return true;
-}
-
-static uint32_t first_lane(pairs x)
-{
-    return (uint32_t)((lom_int)x)[0];
 }
 
 void LOM_WIDE(lom_find_paint)(const struct lom_pass *pass, struct lom_draw *draw, const void *uniforms)
@@ -63,33 +58,37 @@ void LOM_WIDE(lom_find_paint)(const struct lom_pass *pass, struct lom_draw *draw
                    desc->mask_off[0] == 0 && desc->logic == LOM_LOGIC_OFF &&
                    (!paint->blends || reduce_blend(&desc->blend[0], paint->bytes, &reduced));
     if (paint->fills && paint->blends) {
-        paint->factor[0] = first_lane(reduced.factor.rb);
-        paint->factor[1] = first_lane(reduced.factor.ga);
-        paint->add[0] = first_lane(reduced.add.rb);
-        paint->add[1] = first_lane(reduced.add.ga);
+        paint->factor[0] = first_pair(reduced.factor.rb);
+        paint->factor[1] = first_pair(reduced.factor.ga);
+        paint->add[0] = first_pair(reduced.add.rb);
+        paint->add[1] = first_pair(reduced.add.ga);
     }
 }
 
-LOM_INLINE lom_int blend_paint(const struct lom_paint *paint, lom_int old)
+LOM_INLINE struct constant_blend blend_of(const struct lom_paint *paint)
+{
+    return (struct constant_blend){ { splat_pair(paint->factor[0]), splat_pair(paint->factor[1]) },
+                                    { splat_pair(paint->add[0]), splat_pair(paint->add[1]) } };
+}
+
+LOM_INLINE lom_int blend_constant(const struct constant_blend *b, lom_int old)
 {
     struct channels target = split(old);
-    pairs rb =
-        target.rb * (pairs)lom_splat_int((int32_t)paint->factor[0]) + (pairs)lom_splat_int((int32_t)paint->add[0]);
-    pairs ga =
-        target.ga * (pairs)lom_splat_int((int32_t)paint->factor[1]) + (pairs)lom_splat_int((int32_t)paint->add[1]);
-    return join((struct channels){ (rb + (rb >> 8)) >> 8, (ga + (ga >> 8)) >> 8 });
+    return join((struct channels){ divide_shifted_by_255(target.rb * b->factor.rb + b->add.rb),
+                                   divide_shifted_by_255(target.ga * b->factor.ga + b->add.ga) });
 }
 
 /* A run of pixels, a whole number of packets or half a packet more. */
 static void blend_run(const struct lom_paint *paint, int32_t *memory, int count)
 {
+    const struct constant_blend blend = blend_of(paint);
     int i = 0;
     for (; i + LOM_LANES <= count; i += LOM_LANES)
-        lom_store_int(memory + i, blend_paint(paint, lom_load_int(memory + i)));
+        lom_store_int(memory + i, blend_constant(&blend, lom_load_int(memory + i)));
     if (i < count) {
         lom_int rest = { 0 };
         memcpy(&rest, memory + i, (size_t)(count - i) * sizeof *memory);
-        rest = blend_paint(paint, rest);
+        rest = blend_constant(&blend, rest);
         memcpy(memory + i, &rest, (size_t)(count - i) * sizeof *memory);
     }
 }
@@ -98,6 +97,12 @@ static void fill_run(const struct lom_paint *paint, int32_t *memory, int count)
 {
     for (int i = 0; i < count; i++)
         memory[i] = (int32_t)paint->bytes;
+}
+
+LOM_INLINE lom_int paint_over(const struct lom_paint *paint, lom_int old)
+{
+    const struct constant_blend blend = blend_of(paint);
+    return paint->blends ? blend_constant(&blend, old) : lom_splat_int((int32_t)paint->bytes);
 }
 
 /* Each window is two runs of 8 pixels, two rows of blocks apart; side by side they make two long runs. */
@@ -112,17 +117,14 @@ void LOM_WIDE(lom_fill_windows)(struct lom_tile *tile, int base, int count)
 
 void LOM_WIDE(lom_fill_part)(struct lom_tile *tile, int place, const lom_mask *covered)
 {
-    const struct lom_paint *paint = &tile->draw->paint;
     int32_t *memory = (int32_t *)tile->color[0] + place;
-    lom_int old = lom_load_block(memory, tile);
-    lom_int value = paint->blends ? blend_paint(paint, old) : lom_splat_int((int32_t)paint->bytes);
+    lom_int old = lom_load_block(memory, tile), value = paint_over(&tile->draw->paint, old);
     lom_store_block(memory, tile, lom_select_int(*covered, value, old));
     tile->fragments += lom_count(*covered);
 }
 
 void LOM_WIDE(lom_fill_tile)(struct lom_tile *tile, int pixels)
 {
-    const struct lom_paint *paint = &tile->draw->paint;
-    tile->whole = paint->blends ? (uint32_t)blend_paint(paint, lom_splat_int((int32_t)tile->whole))[0] : paint->bytes;
+    tile->whole = (uint32_t)paint_over(&tile->draw->paint, lom_splat_int((int32_t)tile->whole))[0];
     tile->fragments += (uint64_t)pixels;
 }

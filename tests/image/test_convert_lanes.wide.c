@@ -2,7 +2,7 @@
  * LOM_EXHAUSTIVE=1) and around every threshold. */
 #include "check.h"
 
-#include "image/convert_lanes.h"
+#include "image/narrowed_unorm.h"
 
 /* Compares all conversions of LOM_LANES floats. */
 static void check_floats(const uint32_t bits[LOM_LANES])
@@ -12,9 +12,11 @@ static void check_floats(const uint32_t bits[LOM_LANES])
     lom_float lanes = lom_load(x);
     lom_int unorm8 = lom_unorm_of_lanes(lanes, 255), unorm16 = lom_unorm_of_lanes(lanes, 65535);
     lom_int unorm24 = lom_unorm_of_lanes(lanes, 16777215);
+    lom_int number = lom_narrowed_unorm8_of_lanes(lanes), byte = join(narrow(number, number, number, number)) & 255;
     lom_int srgb = lom_srgb8_of_lanes(lanes), half = lom_half_of_lanes(lanes);
     for (int i = 0; i < LOM_LANES; i++) {
         CHECK(unorm8[i] == (int32_t)lom_unorm_of(x[i], 255), "%08x to %d", bits[i], unorm8[i]);
+        CHECK(byte[i] == unorm8[i], "%08x to %d and narrowed to %d", bits[i], unorm8[i], byte[i]);
         CHECK(unorm16[i] == (int32_t)lom_unorm_of(x[i], 65535), "%08x to %d", bits[i], unorm16[i]);
         CHECK(unorm24[i] == (int32_t)lom_unorm_of(x[i], 16777215), "%08x to %d", bits[i], unorm24[i]);
         CHECK(srgb[i] == lom_srgb8_of(x[i]), "%08x to %d", bits[i], srgb[i]);

@@ -450,11 +450,11 @@ static void equations_with_code_of_their_own_are_the_general_ones(void)
     for (int alpha = 0; alpha < 256; alpha++)
         for (int n = 0; n < 65536; n += LOM_LANES) {
             lom_int each = lom_lane_index() + n, from = each & 255, onto = each >> 8;
-            struct channels from_pixel = { (pairs)(from | (255 - from) << 16), (pairs)(from | alpha << 16) };
-            struct channels onto_pixel = { (pairs)(onto | onto << 16), (pairs)((255 - onto) | onto << 16) };
+            struct channels from_pixel = narrow(from, from, 255 - from, lom_splat_int(alpha));
+            struct channels onto_pixel = narrow(onto, 255 - onto, onto, onto);
             lom_int a = join(blend_straight(from_pixel, onto_pixel)),
                     b = join(blend_bytes(&straight, from_pixel, onto_pixel, &rare));
-            lom_int c = join(blend_multiplied(from_pixel, onto_pixel)),
+            lom_int c = join_bounded(blend_multiplied(from_pixel, onto_pixel)),
                     d = join(blend_bytes(&multiplied, from_pixel, onto_pixel, &rare));
             CHECK(lom_all(a == b) && lom_all(c == d), "alpha %d, sources and targets from %d on", alpha, n);
         }
