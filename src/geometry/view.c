@@ -2,8 +2,11 @@
  * matrices to clip space (0 <= z <= w, reversed depth; or OpenGL's: lom/geometry.h) and a conservative visibility.
  * Compiled for speed. */
 #include "base/numbers.h"
+#include "geometry/frustum.h"
 
 #include <lom/geometry.h>
+
+#include <string.h>
 
 /* ---- views ---- */
 
@@ -204,10 +207,27 @@ static double size_at(const double reach[4], const double low[3], const double h
     return size;
 }
 
-/* Of the box only the farthest corner counts, once it crosses a plane; and how far floats are off only near one. */
-lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box)
+/* How far floats are off counts only near a plane. */
+static inline lom_visibility side_of(const lom_frustum *frustum, int k, const double low[3], const double high[3],
+                                     bool may_be_inside)
 {
     const double rounding = 0x1p-20; /* four roundings of a float, four times over */
+    const double *plane = frustum->plane[k], *reach = frustum->reach[k];
+    double farthest = plane[3], nearest = plane[3];
+    for (int j = 0; j < 3; j++) {
+        double a = plane[j] * low[j], b = plane[j] * high[j];
+        farthest += a > b ? a : b;
+        nearest += a > b ? b : a;
+    }
+    if (farthest < 0 && farthest < -rounding * size_at(reach, low, high))
+        return LOM_OUTSIDE;
+    const bool inside = may_be_inside && nearest > 0 && nearest > rounding * size_at(reach, low, high);
+    return inside ? LOM_INSIDE : LOM_CROSSING;
+}
+
+/* Of the box only the farthest corner counts, once it crosses a plane. */
+lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box)
+{
     double low[3] = { box.low.x, box.low.y, box.low.z }, high[3] = { box.high.x, box.high.y, box.high.z };
     if (holds_nan(box))
         return LOM_CROSSING;
@@ -215,17 +235,30 @@ lom_visibility lom_box_visibility(const lom_frustum *frustum, lom_box box)
         return LOM_OUTSIDE;
     lom_visibility visibility = LOM_INSIDE;
     for (int k = 0; k < frustum->count; k++) {
-        const double *plane = frustum->plane[k], *reach = frustum->reach[k];
-        double farthest = plane[3], nearest = plane[3];
-        for (int j = 0; j < 3; j++) {
-            double a = plane[j] * low[j], b = plane[j] * high[j];
-            farthest += a > b ? a : b;
-            nearest += a > b ? b : a;
-        }
-        if (farthest < 0 && farthest < -rounding * size_at(reach, low, high))
+        const lom_visibility side = side_of(frustum, k, low, high, visibility == LOM_INSIDE);
+        if (side == LOM_OUTSIDE)
             return LOM_OUTSIDE;
-        if (visibility == LOM_INSIDE && !(nearest > 0 && nearest > rounding * size_at(reach, low, high)))
-            visibility = LOM_CROSSING;
+        visibility = side;
     }
     return visibility;
+}
+
+lom_visibility lom_find_crossed(const lom_frustum *frustum, lom_box box, lom_frustum *crossed)
+{
+    double low[3] = { box.low.x, box.low.y, box.low.z }, high[3] = { box.high.x, box.high.y, box.high.z };
+    const bool is_odd = holds_nan(box);
+    if (!is_odd && empty_box(box))
+        return LOM_OUTSIDE;
+    crossed->count = 0;
+    for (int k = 0; k < frustum->count; k++) {
+        const lom_visibility side = is_odd ? LOM_CROSSING : side_of(frustum, k, low, high, true);
+        if (side == LOM_OUTSIDE)
+            return LOM_OUTSIDE;
+        if (side == LOM_INSIDE)
+            continue;
+        memcpy(crossed->plane[crossed->count], frustum->plane[k], sizeof frustum->plane[k]);
+        memcpy(crossed->reach[crossed->count], frustum->reach[k], sizeof frustum->reach[k]);
+        crossed->count++;
+    }
+    return crossed->count > 0 || is_odd ? LOM_CROSSING : LOM_INSIDE;
 }

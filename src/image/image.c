@@ -1,11 +1,12 @@
 /* Plain images in memory. In: sizes and a format; out: an image whose pixels are tightly packed, row 0 on top, samples
  * in the machine's byte order. Invariant: sizes are 1..LOM_MAX_SIZE and the bytes fit the limit, so that pixel
  * addresses never overflow. */
-#include <lom/image.h>
+#include "base/reserve.h"
+#include "image/bare_image.h"
 
 #include <string.h>
 
-lom_image *lom_create_image(int width, int height, int depth, lom_format format, lom_error *error)
+lom_image *lom_create_bare_image(int width, int height, int depth, lom_format format, lom_error *error)
 {
     uint64_t pixel = lom_format_size(format);
     if (width < 1 || height < 1 || depth < 1 || pixel == 0) {
@@ -25,11 +26,19 @@ lom_image *lom_create_image(int width, int height, int depth, lom_format format,
     if (image == NULL)
         return NULL;
     *image = (lom_image){ .width = width, .height = height, .depth = depth, .format = format };
-    image->pixels = lom_allocate((size_t)width * (size_t)height * (size_t)depth, (size_t)pixel, error);
+    image->pixels = lom_allocate_bare((size_t)width * (size_t)height * (size_t)depth, (size_t)pixel, error);
     if (image->pixels == NULL) {
         lom_release(image);
         return NULL;
     }
+    return image;
+}
+
+lom_image *lom_create_image(int width, int height, int depth, lom_format format, lom_error *error)
+{
+    lom_image *image = lom_create_bare_image(width, height, depth, format, error);
+    if (image != NULL)
+        memset(image->pixels, 0, lom_image_size(image));
     return image;
 }
 

@@ -66,8 +66,8 @@ static bool is_caster(const struct face_view *v, const struct lom_drawn_entity *
     return lom_throws_shadow(entity) && is_in_range(v, entity->at->bounds);
 }
 
-/* How many things cast, and the hash of all that decides what the map shows. */
-static size_t count_casters(const lom_renderer *r, const struct face_view *v, uint64_t *hash)
+/* How many things cast, of which so many are blocks of terrain, and the hash of all that decides what the map shows. */
+static size_t count_casters(const lom_renderer *r, const struct face_view *v, int *blocks, uint64_t *hash)
 {
     size_t count = 0;
     *hash = lom_hash_bytes(LOM_HASH_START, &v->clip_from_world, sizeof v->clip_from_world);
@@ -81,8 +81,8 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
         *hash = lom_hash_bytes(*hash, &r->ground.eye, sizeof r->ground.eye);
         *hash = lom_hash_bytes(*hash, &r->ground.errors_allowed, sizeof r->ground.errors_allowed);
     }
-    int left = lom_see_ground(&r->ground, &v->culler, v->reach);
-    for (int i = 0; left > 0; i++) {
+    *blocks = lom_see_ground(&r->ground, &v->culler, v->reach);
+    for (int i = 0, left = *blocks; left > 0; i++) {
         lom_draw_desc draw;
         uint32_t number;
         if (lom_find_ground_draw(&r->ground, i, &draw, &number) == NULL)
@@ -95,7 +95,8 @@ static size_t count_casters(const lom_renderer *r, const struct face_view *v, ui
     return count;
 }
 
-static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
+/* The blocks that were counted are those that are seen still. */
+static void draw_ground_casters(lom_renderer *r, const struct face_view *v, int blocks)
 {
     if (r->ground.knot != NULL) { /* cut as the frame cuts them: from its eye */
         lom_draw_cut_wires(r, &v->from, &v->culler, &(lom_draw_desc){ .label = "terrain" }, NULL);
@@ -109,7 +110,7 @@ static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
     struct lom_held_draw held;
     lom_take_ground(&r->ground, &draw);
     lom_hold_draw(r->device, &draw, &held);
-    for (int i = 0, left = lom_see_ground(&r->ground, &v->culler, v->reach); left > 0; i++) {
+    for (int i = 0, left = blocks; left > 0; i++) {
         uint32_t number;
         if (lom_find_ground_draw(&r->ground, i, &draw, &number) == NULL)
             continue;
@@ -118,13 +119,13 @@ static void draw_ground_casters(lom_renderer *r, const struct face_view *v)
     }
 }
 
-static bool draw_map(lom_renderer *r, const struct face_view *v, lom_texture *map)
+static bool draw_map(lom_renderer *r, const struct face_view *v, int blocks, lom_texture *map)
 {
     lom_begin_pass(r->device, &(lom_pass_desc){ .depth = map, .label = "lamp shadow" });
     for (size_t i = 0; i < r->entities.count; i++)
         if (is_caster(v, &r->entities.items[i]))
             lom_draw_caster(r, &r->entities.items[i], &v->clip_from_world);
-    draw_ground_casters(r, v);
+    draw_ground_casters(r, v, blocks);
     return lom_end_pass(r->device);
 }
 
@@ -158,7 +159,8 @@ static bool make_face(struct frame *f, const struct face_view *v, struct lom_lam
                       struct tally *tally, lom_error *error)
 {
     uint64_t hash;
-    if (count_casters(f->renderer, v, &hash) == 0)
+    int blocks;
+    if (count_casters(f->renderer, v, &blocks, &hash) == 0)
         return true;
     struct lom_lamp_map *map = find_map(f, tally->maps, error);
     if (map == NULL)
@@ -168,7 +170,7 @@ static bool make_face(struct frame *f, const struct face_view *v, struct lom_lam
     if (map->made_for == hash)
         return true;
     tally->drawn++;
-    if (!draw_map(f->renderer, v, map->texture))
+    if (!draw_map(f->renderer, v, blocks, map->texture))
         return false;
     map->made_for = hash;
     return true;

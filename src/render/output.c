@@ -1,5 +1,6 @@
 /* The finished picture. In: what was drawn. Out: an image in the scene's output format, or rows in the caller's memory,
  * with exposure and curve (tone.h), encoded once. */
+#include "image/bare_image.h"
 #include "image/convert.h"
 #include "image/texture.h"
 #include "lanes/variants.h"
@@ -164,7 +165,7 @@ lom_image *lom_output_target(const lom_scene *scene, lom_device *device, const s
                              lom_error *error)
 {
     const lom_format format = lom_format_of_output(&scene->output);
-    lom_image *image = lom_create_image(targets->asked.width, targets->asked.height, 1, format, error);
+    lom_image *image = lom_create_bare_image(targets->asked.width, targets->asked.height, 1, format, error);
     if (image != NULL)
         lom_output_rows(scene, device, targets, LOM_ORDER_OUTPUT, image->pixels,
                         (size_t)image->width * lom_format_size(format));

@@ -82,9 +82,10 @@ lom_mat4 lom_clip_from_offset(const lom_mat4 *projection, const lom_mat4 *view)
     return lom_multiply(projection, &turned);
 }
 
-/* Where a box lies to the clip plane, seen from the eye: behind it by more than floats round, or wholly before it. */
-static lom_visibility plane_visibility(const double plane[4], lom_vec3 eye, const lom_box *box)
+lom_visibility lom_plane_visibility(const struct lom_culler *culler, const lom_box *box)
 {
+    const double *plane = culler->plane;
+    const lom_vec3 eye = culler->eye;
     const double low[3] = { box->low.x, box->low.y, box->low.z }, high[3] = { box->high.x, box->high.y, box->high.z };
     const double from[3] = { eye.x, eye.y, eye.z };
     double value = plane[3];
@@ -101,18 +102,10 @@ static lom_visibility plane_visibility(const double plane[4], lom_vec3 eye, cons
     return highest < -0x1p-20 * size ? LOM_OUTSIDE : lowest >= 0 ? LOM_INSIDE : LOM_CROSSING;
 }
 
-lom_visibility lom_view_visibility(const struct lom_culler *culler, const lom_box *box)
-{
-    const lom_visibility in_frustum = lom_box_visibility(&culler->frustum, *box);
-    if (in_frustum == LOM_OUTSIDE)
-        return LOM_OUTSIDE;
-    const lom_visibility before = plane_visibility(culler->plane, culler->eye, box);
-    return before == LOM_INSIDE ? in_frustum : before;
-}
-
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box)
 {
-    return lom_view_visibility(culler, box) != LOM_OUTSIDE;
+    return lom_box_visibility(&culler->frustum, *box) != LOM_OUTSIDE &&
+           lom_plane_visibility(culler, box) != LOM_OUTSIDE;
 }
 
 static struct lom_caustics_uniform caustics_uniform(const struct lom_caustics *caustics, lom_vec3 eye)

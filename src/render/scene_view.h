@@ -43,8 +43,9 @@ struct lom_culler {
 };
 /* window: the part of the view that is drawn; NULL: all of it. */
 struct lom_culler lom_culler_of(const struct lom_scene_view *view, const struct lom_window *window);
-/* Where a box lies to the frustum and the plane; whether any of it may be in view. */
-lom_visibility lom_view_visibility(const struct lom_culler *culler, const lom_box *box);
+/* Where a box lies to the clip plane, seen from the eye: behind it by more than floats round, or wholly before it; whether any
+ * of it may be in view. */
+lom_visibility lom_plane_visibility(const struct lom_culler *culler, const lom_box *box);
 bool lom_is_visible(const struct lom_culler *culler, const lom_box *box);
 
 /* What a picture of width x height shows in a part of its pixels, and a pixel around it. */

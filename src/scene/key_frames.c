@@ -1,5 +1,5 @@
 /* Key frames. In: keys and a time. Out: numbers. Invariant: the result depends on the time alone, so any frame can be
- * made without the ones before it. */
+ * made without the ones before it. Compiled for speed: wakes follow bodies back through hundreds of moments. */
 #include "scene/key_frames.h"
 
 #include <string.h>

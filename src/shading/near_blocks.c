@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+enum { SOME = 8 }; /* rows of blocks about which a worker looks at a time */
+
 struct work {
     struct lom_near_blocks *blocks;
     const lom_texture *color, *depth;
@@ -80,6 +82,15 @@ static float greatest_around(const struct lom_near_blocks *blocks, int column, i
     return most;
 }
 
+static void look_around(void *context, size_t first, size_t end)
+{
+    const struct work *work = context;
+    struct lom_near_blocks *blocks = work->blocks;
+    for (int row = (int)first; row < (int)end; row++)
+        for (int column = 0; column < blocks->columns; column++)
+            blocks->around[row * blocks->columns + column] = greatest_around(blocks, column, row);
+}
+
 static int count_blocks(int texels, int edge)
 {
     return texels < edge ? 1 : texels / edge;
@@ -99,9 +110,7 @@ bool lom_fill_near_blocks(struct lom_near_blocks *blocks, lom_device *device, co
     blocks->around = blocks->memory + count;
     struct work work = { blocks, color, depth };
     lom_share_work(device, (size_t)rows, 1, look_at_rows, &work);
-    for (int row = 0; row < rows; row++)
-        for (int column = 0; column < columns; column++)
-            blocks->around[row * columns + column] = greatest_around(blocks, column, row);
+    lom_share_work(device, (size_t)rows, SOME, look_around, &work);
     return true;
 }
 

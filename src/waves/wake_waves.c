@@ -77,12 +77,15 @@ static double way_between(const struct moment *a, const struct moment *b)
     return lom_double_sqrt(x * x + z * z);
 }
 
-/* How much a body foams at a moment, by its speed in the step before it. */
+/* How much a body foams at a moment, by its speed in the step before it, which mostly begins at the moment that is known. */
 static double made_at(const struct lom_wave_site *site, const lom_water_wake *wake, const double origin[3],
-                      const struct moment *now, double step)
+                      const struct moment *now, const struct moment *known, double step)
 {
     struct moment before = { .time = now->time - step };
-    find_bow(site, wake, origin, &before);
+    if (before.time == known->time)
+        before = *known;
+    else
+        find_bow(site, wake, origin, &before);
     const double froude = way_between(now, &before) / step / lom_double_sqrt(gravity * 2 * wake->half[0]);
     return lom_smaller(froude / full, 1);
 }
@@ -134,7 +137,7 @@ static void follow_body(struct lom_wake_track *track, const struct lom_wave_site
         find_bow(site, wake, origin, &before);
         before.way = now.way + way_between(&now, &before);
         const double spread = lom_double_sqrt(lom_double_sqrt(lom_larger(before.way / length, 1)));
-        const double foam = made_at(site, wake, origin, &now, step) * foam_left(time - now.time, window);
+        const double foam = made_at(site, wake, origin, &now, &before, step) * foam_left(time - now.time, window);
         const struct lom_wake_place place = { (float)now.bow[0], (float)now.bow[1], (float)now.way, (float)foam };
         store_place(track, i, &place, (float)(half * spread * 1.0001));
     }
