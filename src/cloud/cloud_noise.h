@@ -31,10 +31,41 @@ LOM_INLINE lom_float lom_hash_signed(lom_uint h)
     return lom_to_float((lom_int)(h & 1023u)) * (2.0f / 1023.0f) - 1.0f;
 }
 
-LOM_INLINE lom_float lom_gradient_corner(lom_int x, lom_int y, lom_int z, uint32_t seed, lom_float3 from)
+/* The gradient of a corner of a cell. */
+LOM_INLINE lom_float3 lom_gradient_of(lom_uint h)
 {
-    lom_uint h = lom_hash_cell(x, y, z, seed);
-    return lom_hash_signed(h) * from.x + lom_hash_signed(h >> 10) * from.y + lom_hash_signed(h >> 20) * from.z;
+    return (lom_float3){ lom_hash_signed(h), lom_hash_signed(h >> 10), lom_hash_signed(h >> 20) };
+}
+
+/* Rows of four corners of the lattice, y and z of each by its number (lom_gradient_noise): what places share that lie in
+ * three cells along x and one along y and z. Only 16 lanes hold four rows, and have permutations of them. */
+#if LOM_LANES == 16 && !defined LOM_LOWERED
+enum { LOM_SHARES_GRADIENTS = true };
+#else
+enum { LOM_SHARES_GRADIENTS = false };
+#endif
+
+LOM_INLINE bool lom_share_gradients(lom_int x, lom_int y, lom_int z, int32_t mask, uint32_t seed, lom_float3 *shared)
+{
+    if (!LOM_SHARES_GRADIENTS)
+        return false;
+    const lom_int first[3] = { lom_splat_int(x[0]), lom_splat_int(y[0]), lom_splat_int(z[0]) };
+    if (!lom_all(((lom_uint)(x - first[0]) < 3u) & (y == first[1]) & (z == first[2])))
+        return false;
+    const lom_int lane = lom_lane_index();
+    *shared = lom_gradient_of(lom_hash_cell((first[0] + (lane & 3)) & mask, (first[1] + (lane >> 2 & 1)) & mask,
+                                            (first[2] + (lane >> 3)) & mask, seed));
+    return true;
+}
+
+LOM_INLINE lom_float3 lom_permute3(lom_float3 v, lom_int which)
+{
+    return (lom_float3){ lom_permute(v.x, which), lom_permute(v.y, which), lom_permute(v.z, which) };
+}
+
+LOM_INLINE lom_float lom_gradient_corner(lom_float3 gradient, lom_float3 from)
+{
+    return gradient.x * from.x + gradient.y * from.y + gradient.z * from.z;
 }
 
 LOM_INLINE lom_float lom_fade(lom_float t)
@@ -48,13 +79,18 @@ LOM_INLINE lom_float lom_gradient_noise(lom_float3 p, int32_t mask, uint32_t see
     lom_float3 below = { lom_floor(p.x), lom_floor(p.y), lom_floor(p.z) };
     lom_int x = lom_to_int(below.x), y = lom_to_int(below.y), z = lom_to_int(below.z);
     lom_float3 f = lom_sub3(p, below);
+    lom_float3 shared;
+    const bool shares = lom_share_gradients(x, y, z, mask, seed, &shared);
     lom_float row[4];
     for (int i = 0; i < 4; i++) {
         lom_int j = (y + (i & 1)) & mask, k = (z + (i >> 1)) & mask;
-        lom_float3 from = { f.x, f.y - (float)(i & 1), f.z - (float)(i >> 1) };
-        lom_float low = lom_gradient_corner(x & mask, j, k, seed, from);
+        lom_float3 from = { f.x, f.y - (float)(i & 1), f.z - (float)(i >> 1) }, gradient[2];
+        for (int a = 0; a < 2; a++)
+            gradient[a] = shares ? lom_permute3(shared, x - x[0] + (4 * i + a))
+                                 : lom_gradient_of(lom_hash_cell((x + a) & mask, j, k, seed));
+        lom_float low = lom_gradient_corner(gradient[0], from);
         from.x = f.x - 1.0f;
-        row[i] = lom_mix(low, lom_gradient_corner((x + 1) & mask, j, k, seed, from), lom_fade(f.x));
+        row[i] = lom_mix(low, lom_gradient_corner(gradient[1], from), lom_fade(f.x));
     }
     lom_float v = lom_fade(f.y);
     return lom_mix(lom_mix(row[0], row[1], v), lom_mix(row[2], row[3], v), lom_fade(f.z)) * 1.3f;

@@ -16,10 +16,16 @@ static lom_float3 slow_noise(lom_float3 p, float size, uint32_t seed)
                          lom_gradient_octaves(q, 2, -1, seed + 202) };
 }
 
-/* Bubbles of a body: those that a row of voxels comes near, and all. */
+/* Bubbles side by side, so that LOM_LANES of them are looked at together. */
 struct bubbles {
-    int near_count, count;
-    const struct lom_cloud_bubble *near[LOM_MAX_BUBBLES], *all[LOM_MAX_BUBBLES];
+    int count;
+    float x[LOM_MAX_BUBBLES], y[LOM_MAX_BUBBLES], z[LOM_MAX_BUBBLES], radius[LOM_MAX_BUBBLES],
+        flatness[LOM_MAX_BUBBLES];
+};
+
+/* Of a body: those that a row of voxels comes near, and all. */
+struct heap {
+    struct bubbles near, all;
 };
 
 /* How far from the surface of its bubbles, to both sides, warp, billows and softness are felt; beyond it there is nothing, or all of
@@ -29,40 +35,87 @@ static float reach_of(const struct lom_cloud_body *body)
     return body->billow + body->softness + body->warp;
 }
 
-/* The square of a distance, as a bubble has it, from which on its surface is more than `outside` away: a thousandth is more
- * than what is rounded. */
-static float square_of_reach(const struct lom_cloud_bubble *b, float outside)
+/* How far from its middle, as a bubble has it, its surface is more than `outside` away: a thousandth is more than what is
+ * rounded. */
+LOM_INLINE lom_float far_from(lom_float radius, lom_float flatness, float outside)
 {
-    const float reach = 1.001f * (b->radius + outside * b->flatness);
-    return reach * reach;
+    return 1.001f * (radius + outside * flatness);
 }
 
-static void find_bubbles(const struct lom_cloud_body *body, float y, float z, struct bubbles *found)
+static void add_bubble(struct bubbles *to, const struct lom_cloud_bubble *b)
 {
-    const float reach = reach_of(body);
-    found->near_count = 0;
-    found->count = body->bubble_count;
+    to->x[to->count] = b->x;
+    to->y[to->count] = b->y;
+    to->z[to->count] = b->z;
+    to->radius[to->count] = b->radius;
+    to->flatness[to->count++] = b->flatness;
+}
+
+static void find_bubbles(const struct lom_cloud_body *body, float y, float z, struct heap *found)
+{
+    const float outside = reach_of(body);
+    found->near.count = found->all.count = 0;
     for (int i = 0; i < body->bubble_count; i++) {
-        const struct lom_cloud_bubble *b = found->all[i] = &body->bubble[i];
-        const float dy = (y - b->y) * b->flatness, dz = z - b->z;
-        if (dy * dy + dz * dz < square_of_reach(b, reach))
-            found->near[found->near_count++] = b;
+        const struct lom_cloud_bubble *b = &body->bubble[i];
+        const float dy = (y - b->y) * b->flatness, dz = z - b->z, reach = 1.001f * (b->radius + outside * b->flatness);
+        add_bubble(&found->all, b);
+        if (dy * dy + dz * dz < reach * reach)
+            add_bubble(&found->near, b);
     }
+}
+
+/* The box about a packet's places. */
+struct box {
+    float low[3], high[3];
+};
+
+static struct box box_about(lom_float3 p)
+{
+    struct box box;
+    float at[3][LOM_LANES];
+    lom_store(at[0], p.x);
+    lom_store(at[1], p.y);
+    lom_store(at[2], p.z);
+    for (int k = 0; k < 3; k++) {
+        box.low[k] = box.high[k] = at[k][0];
+        for (int i = 1; i < LOM_LANES; i++) {
+            box.low[k] = at[k][i] < box.low[k] ? at[k][i] : box.low[k];
+            box.high[k] = at[k][i] > box.high[k] ? at[k][i] : box.high[k];
+        }
+    }
+    return box;
+}
+
+LOM_INLINE lom_float beside(const struct box *box, int axis, lom_float middle)
+{
+    return lom_max(lom_max(box->low[axis] - middle, middle - box->high[axis]), (lom_float){ 0 });
+}
+
+/* Those of LOM_LANES bubbles from `first` on that reach into a box from `outside`, a bit each. No place in the box is nearer than the
+ * box, whatever is rounded: each operation is monotonous, and they are those of depth_inside. */
+static uint32_t reaching_in(const struct bubbles *b, int first, const struct box *box, float outside)
+{
+    const lom_float dx = beside(box, 0, lom_load(b->x + first)), dz = beside(box, 2, lom_load(b->z + first));
+    const lom_float flatness = lom_load(b->flatness + first);
+    const lom_float dy = beside(box, 1, lom_load(b->y + first)) * flatness;
+    const lom_float reach = far_from(lom_load(b->radius + first), flatness, outside);
+    const lom_mask there = lom_lane_index() < b->count - first;
+    return lom_bits((dx * dx + dy * dy + dz * dz < reach * reach) & there);
 }
 
 /* Metres inside the union of the bubbles; negative outside. Where it would be less than -outside it may be any number that
  * is. */
-static lom_float depth_inside(const struct lom_cloud_bubble *const *bubbles, int count, lom_float3 p, float outside)
+static lom_float depth_inside(const struct bubbles *b, lom_float3 p, float outside)
 {
+    const struct box box = box_about(p);
     lom_float depth = lom_splat(-1e9f);
-    for (int i = 0; i < count; i++) {
-        const struct lom_cloud_bubble *b = bubbles[i];
-        lom_float dx = p.x - b->x, dy = (p.y - b->y) * b->flatness, dz = p.z - b->z;
-        lom_float square = dx * dx + dy * dy + dz * dz;
-        if (!lom_any(square < square_of_reach(b, outside)))
-            continue;
-        depth = lom_max(depth, (b->radius - lom_sqrt(square)) * (1 / b->flatness));
-    }
+    for (int first = 0; first < b->count; first += LOM_LANES)
+        for (uint32_t bits = reaching_in(b, first, &box, outside); bits != 0; bits &= bits - 1) {
+            const int i = first + __builtin_ctz(bits);
+            const lom_float dx = p.x - b->x[i], dy = (p.y - b->y[i]) * b->flatness[i], dz = p.z - b->z[i];
+            const lom_float square = dx * dx + dy * dy + dz * dz;
+            depth = lom_max(depth, (b->radius[i] - lom_sqrt(square)) * (1 / b->flatness[i]));
+        }
     return depth;
 }
 
@@ -90,40 +143,61 @@ static lom_float anvil_density(const struct lom_cloud_shape *shape, lom_float3 p
            lom_smoothstep((lom_float){ 0 }, lom_splat(0.5f), rim) * (0.45f + 0.55f * inner);
 }
 
-/* How far billows swell, in parts of `billow`: their noise is at most 1 and at least 1 - sqrt 3, so this is between -2.61 and
- * 1.22. What lies further outside than that is empty, and further inside than that and the soft edge full. */
-static lom_float swell(const struct lom_cloud_body *body, lom_float3 p, uint32_t seed)
+/* How far billows swell, in parts of `billow`, of the sum of their octaves of noise. */
+LOM_INLINE lom_float swell(lom_float sum, float total)
 {
-    return 2.2f * (lom_billow_octaves(lom_scale3(p, lom_splat(1 / body->billow_size)), 5, -1, seed) - 0.45f);
+    return 2.2f * (sum * (1 / total) - 0.45f);
+}
+
+/* The depth with what five octaves of billows add to it. Their noise is at most 1 and at least 1 - sqrt 3, so they swell between
+ * -2.61 and 1.22, and the octaves that are left lie between that much of them: where it is settled for all lanes that a place is
+ * empty, or that it is full, its depth is any that is so too. */
+static lom_float billowed_depth(const struct lom_cloud_body *body, lom_float3 p, lom_float depth, uint32_t seed)
+{
+    const lom_float3 q = lom_scale3(p, lom_splat(1 / body->billow_size));
+    const float all = 1.9375f, unsure = 1e-3f * (body->billow + body->softness);
+    lom_float sum = { 0 };
+    float amplitude = 1, left = all, frequency = 1;
+    for (uint32_t i = 0; i < 5; i++) {
+        sum += (1.0f - lom_cellular_noise(lom_scale3(q, lom_splat(frequency)), -1, seed + i)) * amplitude;
+        left -= amplitude;
+        amplitude *= 0.5f;
+        frequency *= 2;
+        const lom_float highest = depth + body->billow * swell(sum + left, all);
+        const lom_float lowest = depth + body->billow * swell(sum - 0.74f * left, all);
+        if (i < 4 && lom_all((highest < -unsure) | (lowest > body->softness + unsure)))
+            return lom_select(highest < 0.0f, highest, lowest);
+    }
+    return depth + body->billow * swell(sum, all);
 }
 
 /* The depth of the place that slow noise moves p to, and what billows add to it; where that is no body any number below 0,
  * where it is full any that is as deep. */
-static lom_float displaced_depth(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
+static lom_float displaced_depth(const struct lom_cloud_shape *shape, const struct heap *heap, lom_float3 p)
 {
     const struct lom_cloud_body *body = shape->body;
     const lom_float3 moved =
         lom_add3(p, lom_scale3(slow_noise(p, body->warp_size, shape->seed), lom_splat(body->warp)));
-    const lom_float depth = depth_inside(bubbles->all, bubbles->count, moved, 1.25f * body->billow);
+    const lom_float depth = depth_inside(&heap->all, moved, 1.25f * body->billow);
     if (!lom_any(depth > -1.25f * body->billow))
         return lom_splat(-1e9f);
     if (!lom_any(depth < body->softness + 2.7f * body->billow))
         return depth;
-    return depth + body->billow * swell(body, moved, shape->seed + 7);
+    return billowed_depth(body, moved, depth, shape->seed + 7);
 }
 
 /* The tower alone. Noise may move a place further than `warp`, so beyond the reach it is a lane's own depth that decides, whatever
  * its neighbours need. */
-static lom_float heap_density(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
+static lom_float heap_density(const struct lom_cloud_shape *shape, const struct heap *heap, lom_float3 p)
 {
     const struct lom_cloud_body *body = shape->body;
     float reach = reach_of(body);
-    lom_float depth = depth_inside(bubbles->near, bubbles->near_count, p, reach);
+    lom_float depth = depth_inside(&heap->near, p, reach);
     const lom_mask near = (depth > -reach) & (p.y > body->base - body->base_depth);
     if (!lom_any(near))
         return (lom_float){ 0 };
     if (lom_any(near & (depth < reach)))
-        depth = lom_select(depth < reach, displaced_depth(shape, bubbles, p), depth);
+        depth = lom_select(depth < reach, displaced_depth(shape, heap, p), depth);
     depth = lom_select(near, depth, lom_splat(-1e9f));
     lom_float density = lom_smoothstep((lom_float){ 0 }, lom_splat(body->softness), depth);
     lom_float3 flat = { p.x, { 0 }, p.z };
@@ -135,9 +209,9 @@ static lom_float heap_density(const struct lom_cloud_shape *shape, const struct 
     return density * lom_mix(lom_splat(body->thin), lom_splat(1.0f), height);
 }
 
-static lom_float body_density(const struct lom_cloud_shape *shape, const struct bubbles *bubbles, lom_float3 p)
+static lom_float body_density(const struct lom_cloud_shape *shape, const struct heap *heap, lom_float3 p)
 {
-    return lom_max(heap_density(shape, bubbles, p), anvil_density(shape, p));
+    return lom_max(heap_density(shape, heap, p), anvil_density(shape, p));
 }
 
 static lom_float layer_density(const struct lom_cloud_shape *shape, lom_float3 p)
@@ -178,9 +252,9 @@ void LOM_WIDE(lom_shape_row)(uint16_t *row, const struct lom_cloud_shape *shape,
     float share = shape->layer != NULL ? 0.14f : 0.03f;
     float inner_y = ((float)y + 0.5f) / (float)n[1], inner_z = ((float)z + 0.5f) / (float)n[2];
     bool outermost = (y == 0 || y == n[1] - 1 || z == 0 || z == n[2] - 1) && n[1] > 2 && n[2] > 2;
-    struct bubbles bubbles;
+    struct heap heap;
     if (shape->body != NULL)
-        find_bubbles(shape->body, inner_y * shape->size[1], inner_z * shape->size[2], &bubbles);
+        find_bubbles(shape->body, inner_y * shape->size[1], inner_z * shape->size[2], &heap);
     for (int x = 0; x < n[0]; x += LOM_LANES) {
         lom_int voxel = lom_lane_index() + x;
         lom_float inner_x = (lom_to_float(voxel) + 0.5f) / (float)n[0];
@@ -188,7 +262,7 @@ void LOM_WIDE(lom_shape_row)(uint16_t *row, const struct lom_cloud_shape *shape,
         if (!outermost) {
             lom_float3 p = { inner_x * shape->size[0], lom_splat(inner_y * shape->size[1]),
                              lom_splat(inner_z * shape->size[2]) };
-            density = shape->body != NULL ? body_density(shape, &bubbles, p) : layer_density(shape, p);
+            density = shape->body != NULL ? body_density(shape, &heap, p) : layer_density(shape, p);
             density = density * (border(inner_x, share) * border(lom_splat(inner_z), share));
             density = lom_select((voxel == 0) | (voxel == n[0] - 1), (lom_float){ 0 }, density);
         }

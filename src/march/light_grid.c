@@ -5,6 +5,7 @@
 #include "march/light_grid.h"
 
 #include "base/own_float_state.h"
+#include "base/reserve.h"
 #include "lanes/variants.h"
 #include "march/cells.h"
 
@@ -51,28 +52,42 @@ static void find_span(int i, int n, int size, int *first, int *last)
     *last = (int)((int64_t)(i + 1) * size / n);
 }
 
+/* The sum of what voxels x0 to x1 - 1 of a row are eroded to; most hold nothing. */
+static double sum_voxels(lom_format format, const void *row, int x0, int x1, const float eroded[256], double sum)
+{
+    for (int x = x0; x < x1; x++) {
+        const double density = density_at(format, row, x);
+        sum += density == 0 ? (double)eroded[0] : erode(eroded, density);
+    }
+    return sum;
+}
+
+/* A row of the grid. */
+static void average_row(uint16_t *to, const lom_light_grid *grid, const lom_image *image, const float eroded[256],
+                        int y, int z)
+{
+    int x0, x1, y0, y1, z0, z1;
+    find_span(z, grid->depth, image->depth, &z0, &z1);
+    find_span(y, grid->height, image->height, &y0, &y1);
+    const size_t pitch = (size_t)image->width * lom_format_size(image->format), slice = pitch * (size_t)image->height;
+    const uint8_t *const first = lom_image_pixel(image, 0, y0, z0);
+    for (int x = 0; x < grid->width; x++) {
+        find_span(x, grid->width, image->width, &x0, &x1);
+        double sum = 0;
+        for (int k = 0; k < z1 - z0; k++)
+            for (int j = 0; j < y1 - y0; j++)
+                sum = sum_voxels(image->format, first + (size_t)k * slice + (size_t)j * pitch, x0, x1, eroded, sum);
+        double mean = sum / ((double)(x1 - x0) * (y1 - y0) * (z1 - z0));
+        to[x] = (uint16_t)lom_count_of(mean * 65535 + 0.5, 65535);
+    }
+}
+
 static void average_density(lom_light_grid *grid, const lom_image *image, const float eroded[256])
 {
-    uint16_t *to = grid->density;
-    int x0, x1, y0, y1, z0, z1;
-    for (int z = 0; z < grid->depth; z++) {
-        find_span(z, grid->depth, image->depth, &z0, &z1);
-        for (int y = 0; y < grid->height; y++) {
-            find_span(y, grid->height, image->height, &y0, &y1);
-            for (int x = 0; x < grid->width; x++) {
-                find_span(x, grid->width, image->width, &x0, &x1);
-                double sum = 0;
-                for (int k = z0; k < z1; k++)
-                    for (int j = y0; j < y1; j++) {
-                        const void *row = lom_image_pixel(image, 0, j, k);
-                        for (int i = x0; i < x1; i++)
-                            sum += erode(eroded, density_at(image->format, row, i));
-                    }
-                double mean = sum / ((double)(x1 - x0) * (y1 - y0) * (z1 - z0));
-                *to++ = (uint16_t)lom_count_of(mean * 65535 + 0.5, 65535);
-            }
-        }
-    }
+    for (int z = 0; z < grid->depth; z++)
+        for (int y = 0; y < grid->height; y++)
+            average_row(grid->density + ((size_t)z * (size_t)grid->height + (size_t)y) * (size_t)grid->width, grid,
+                        image, eroded, y, z);
 }
 
 static int scaled(int size, double scale)
@@ -99,7 +114,7 @@ lom_light_grid *lom_create_light_grid(const lom_image *density, double scale, co
     size_t cells = cell_index(grid->width, grid->height, 0, 0, grid->depth + 1);
     size_t voxels = (size_t)grid->width * (size_t)grid->height * (size_t)grid->depth;
     grid->density = lom_allocate(voxels + LOM_SLAB, sizeof *grid->density, error); /* blocks of slabs read beyond */
-    grid->light = lom_allocate(cells, sizeof *grid->light, error);
+    grid->light = lom_allocate_bare(cells, sizeof *grid->light, error);
     if (grid->density == NULL || grid->light == NULL) {
         lom_free_light_grid(grid);
         return NULL;

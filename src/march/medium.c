@@ -2,6 +2,7 @@
  * each is, and how sharply the density bends. Invariant: no corner of a cell holds more than its emptiness says. */
 #include "base/numbers.h"
 #include "base/own_float_state.h"
+#include "base/reserve.h"
 #include "base/cpu.h"
 #include "march/cells.h"
 
@@ -168,8 +169,8 @@ lom_medium *lom_create_medium(const lom_image *image, lom_error *error)
         .width = image->width, .height = image->height, .depth = image->depth, .gathers = lom_has_fast_gathers()
     };
     size_t slice = cell_index(image->width, image->height, 0, 0, 1), depth = (size_t)image->depth;
-    medium->density = lom_allocate(slice * depth, sizeof *medium->density, error);
-    medium->emptiness = lom_allocate(slice * (depth + 1) + 1, 1, error);
+    medium->density = lom_allocate_bare(slice * depth, sizeof *medium->density, error);
+    medium->emptiness = lom_allocate_bare(slice * (depth + 1) + 1, 1, error);
     if (medium->density == NULL || medium->emptiness == NULL) {
         lom_free_medium(medium);
         return NULL;

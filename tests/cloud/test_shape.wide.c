@@ -1,5 +1,5 @@
 /* Proves that what shapes of clouds leave out changes no bit: cellular noise that passes over cells against all 27 of them,
- * at random places, on and beside lattice lines, far from the origin, with lattices that repeat; and rows of heaps, whose far
+ * gradient noise whose places share corners against each with its own, at random places, on and beside lattice lines, far from the origin, with lattices that repeat; and rows of heaps, whose far
  * bubbles and billows are left out, against every bubble and every billow. */
 #include "check.h"
 #include "cloud/cloud_noise.h"
@@ -31,6 +31,23 @@ static lom_float plain_cellular(lom_float3 p, int32_t mask, uint32_t seed)
         nearest = lom_min(nearest, dx * dx + dy * dy + dz * dz);
     }
     return lom_sqrt(nearest);
+}
+
+static lom_float plain_gradient(lom_float3 p, int32_t mask, uint32_t seed)
+{
+    const lom_float3 below = { lom_floor(p.x), lom_floor(p.y), lom_floor(p.z) }, f = lom_sub3(p, below);
+    const lom_int x = lom_to_int(below.x), y = lom_to_int(below.y), z = lom_to_int(below.z);
+    lom_float corner[8];
+    for (int i = 0; i < 8; i++) {
+        const int a = i & 1, b = i >> 1 & 1, c = i >> 2;
+        const lom_uint h = lom_hash_cell((x + a) & mask, (y + b) & mask, (z + c) & mask, seed);
+        corner[i] = lom_hash_signed(h) * (f.x - (float)a) + lom_hash_signed(h >> 10) * (f.y - (float)b) +
+                    lom_hash_signed(h >> 20) * (f.z - (float)c);
+    }
+    const lom_float u = lom_fade(f.x), v = lom_fade(f.y), w = lom_fade(f.z);
+    const lom_float near = lom_mix(lom_mix(corner[0], corner[1], u), lom_mix(corner[2], corner[3], u), v);
+    const lom_float far = lom_mix(lom_mix(corner[4], corner[5], u), lom_mix(corner[6], corner[7], u), v);
+    return lom_mix(near, far, w) * 1.3f;
 }
 
 static lom_float plain_billows(lom_float3 p, uint32_t seed)
@@ -141,6 +158,27 @@ static void cellular_noise_is_that_of_all_cells(void)
     }
 }
 
+/* Rows of places within a few cells of each other, which share their corners or just do not, and others. */
+static void gradient_noise_is_that_of_all_corners(void)
+{
+    for (int k = 0; k < 100000; k++) {
+        const int32_t mask = k % 3 == 0 ? 3 : -1;
+        const float spread = k % 7 == 0 ? 9 : k % 2 == 0 ? 2.5f : 0.7f;
+        lom_float3 p = { lom_splat(random_place()), lom_splat(random_place()), lom_splat(random_place()) };
+        for (int i = 1; i < LOM_LANES; i++) {
+            p.x[i] += random_float(k % 5 == 0 ? -spread : 0, spread);
+            if (k % 11 == 0)
+                p.y[i] += random_float(0, spread);
+            if (k % 13 == 0)
+                p.z[i] += random_float(0, spread);
+        }
+        const lom_float found = lom_gradient_noise(p, mask, (uint32_t)k),
+                        expected = plain_gradient(p, mask, (uint32_t)k);
+        CHECK(memcmp(&found, &expected, sizeof found) == 0, "packet %d near %g, %g, %g", k, (double)p.x[0],
+              (double)p.y[0], (double)p.z[0]);
+    }
+}
+
 /* Warped more than it is soft, and steep, noise carries places through all of the reach. */
 static struct lom_cloud_body random_body(const float size[3], bool warped)
 {
@@ -189,6 +227,7 @@ static void rows_are_those_of_all_bubbles_and_billows(void)
 int main(int argc, char **argv)
 {
     RUN(cellular_noise_is_that_of_all_cells);
+    RUN(gradient_noise_is_that_of_all_corners);
     RUN(rows_are_those_of_all_bubbles_and_billows);
     return check_result();
 }
