@@ -1,5 +1,5 @@
 /* Levels of detail of textures by varyings, for shaders (stage 6 of 7). In: a packet's varyings. Out: lom_lod_of of their
- * derivatives. Where those are the same in all packets of a triangle (interpolate.wide.c) a level is found for the first of
+ * derivatives. Where those are the same in all packets of a triangle (facet.wide.c) a level is found for the first of
  * them. Invariant: a level does not depend on whether it was known. */
 #include "image/level_of_detail.h"
 #include "pipeline/packet.h"

@@ -1,6 +1,7 @@
 /* Stage 7 of 7: output. In: shaded colours and where they go. Out: tile memory, blended, masked, in the attachments'
  * formats. 8-bit unorm blends in exact integers; sRGB and float attachments blend in float. */
 #include "pipeline/blend_bytes.h"
+#include "pipeline/window.h"
 
 /* What float factors are made of: channels, of which the second source and the constant only where the draw blends by
  * them. */
@@ -308,4 +309,38 @@ void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *
         break;
     }
     lom_store_places(memory, tile, places, *mask, join_bounded(source));
+}
+
+/* The outputs of bytes in whole windows. */
+LOM_INLINE void write_window_bytes(struct lom_tile *tile, lom_output_kind output, const struct lom_windows *windows,
+                                   const lom_fragment *out)
+{
+    for (int i = 0; i < windows->count; i++) {
+        int32_t *memory = (int32_t *)tile->color[0] + windows->base[i];
+        struct channels source = quantise(out[i].color);
+        if (output == OUTPUT_STRAIGHT)
+            source = blend_straight(source, split(lom_load_block(memory, tile)));
+        if (output == OUTPUT_MULTIPLIED)
+            source = blend_multiplied(source, split(lom_load_block(memory, tile)));
+        lom_store_block(memory, tile, join_bounded(source));
+    }
+}
+
+void LOM_WIDE(lom_write_windows)(struct lom_tile *tile, const struct lom_windows *windows, const lom_fragment *out)
+{
+    const struct lom_draw *draw = tile->draw;
+    const bool discards = draw->desc.shader->discards;
+    if (!discards && draw->output == OUTPUT_BYTES) {
+        write_window_bytes(tile, OUTPUT_BYTES, windows, out);
+    } else if (!discards && draw->output == OUTPUT_STRAIGHT) {
+        write_window_bytes(tile, OUTPUT_STRAIGHT, windows, out);
+    } else if (!discards && draw->output == OUTPUT_MULTIPLIED) {
+        write_window_bytes(tile, OUTPUT_MULTIPLIED, windows, out);
+    } else {
+        for (int i = 0; i < windows->count; i++) {
+            const struct lom_places places = { .pixel = { windows->base[i] }, .block = true };
+            lom_mask mask = discards ? ~out[i].discard : lom_splat_int(-1);
+            LOM_WIDE(lom_write_packet)(tile, &places, &mask, out[i].color);
+        }
+    }
 }

@@ -145,23 +145,34 @@ static void raster_large_window(struct lom_tile *tile, const struct large *g, in
     }
 }
 
-/* What raster_large_window does of a whole window with g->shades. */
-static void shade_large_window(struct lom_tile *tile, const struct large *g, int32_t number, int x, int y)
+static void shade_windows(struct lom_tile *tile, struct lom_windows *windows)
+{
+    if (windows->count > 0)
+        LOM_WIDE(lom_shade_windows)(tile, windows);
+    windows->count = 0;
+}
+
+/* What raster_large_window does of a whole window with g->shades, once there are enough of them. */
+static void add_large_window(struct lom_tile *tile, const struct large *g, struct lom_windows *windows, int x, int y)
 {
     const struct lom_edges *e = &g->edges;
-    lom_float l[PARTS][3];
+    const int first = windows->count, base = memory_index(tile, x, y);
     tile->fragments += 16;
     if (g->narrow) {
         const lom_int start[2] = { lom_splat_int((int32_t)(e->start[1] + e->dx[1] * x + e->dy[1] * y)),
                                    lom_splat_int((int32_t)(e->start[2] + e->dx[2] * x + e->dy[2] * y)) };
         for (int part = 0; part < PARTS; part++)
-            weigh_narrow(g, start, part, l[part]);
+            weigh_narrow(g, start, part, windows->l[first + part]);
     } else {
         struct window_edges w = edges_of_window(e, x, y);
         for (int part = 0; part < PARTS; part++)
-            weigh(g, &w, part, l[part]);
+            weigh(g, &w, part, windows->l[first + part]);
     }
-    LOM_WIDE(lom_shade_window)(tile, number, memory_index(tile, x, y), l);
+    for (int part = 0; part < PARTS; part++)
+        windows->base[first + part] = base + tile->offset[part * LOM_LANES];
+    windows->count += PARTS;
+    if (windows->count == WINDOWS_PACKETS)
+        shade_windows(tile, windows);
 }
 
 /* Whether the draw's paint goes to every pixel that the triangle covers. */
@@ -175,7 +186,8 @@ static bool shades(const struct lom_tile *tile, const lom_primitive *p)
 {
     const struct lom_draw *draw = tile->draw;
     return !draw->constant && draw->desc.shader->fragment[draw->variant] != NULL && tile->depth == NULL &&
-           !draw->queues_depth && !draw->biased && p->state >> TRIANGLE_CLIP == 0 && !tile->pass->one_by_one;
+           !draw->queues_depth && !draw->biased && p->state >> TRIANGLE_CLIP == 0 && !draw->sampled &&
+           !draw->marks_edges && !tile->pass->one_by_one;
 }
 
 /* Whether int32 holds the area and three steps, which a window has, of edge functions 1 and 2. */
@@ -216,6 +228,9 @@ static bool find_large(const struct lom_tile *tile, const lom_triangle *t, struc
 void LOM_WIDE(lom_raster_large)(struct lom_tile *tile, const lom_triangle *t, int32_t number)
 {
     struct large g;
+    struct lom_windows windows;
+    windows.number = number;
+    windows.count = 0;
     if (!find_large(tile, t, &g))
         return;
     if (tile->queue.count > 0 && !tile->draw->constant)
@@ -233,12 +248,13 @@ void LOM_WIDE(lom_raster_large)(struct lom_tile *tile, const lom_triangle *t, in
                 continue;
             }
             if (run > 0 && g.shades)
-                shade_large_window(tile, &g, number, first * 4, y);
+                add_large_window(tile, &g, &windows, first * 4, y);
             else
                 raster_large_window(tile, &g, number, first * 4, y, run > 0);
             left &= left - 1;
         }
     }
+    shade_windows(tile, &windows);
 }
 
 /* ---- a tile that is one colour ---- */

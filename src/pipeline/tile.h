@@ -74,9 +74,12 @@ struct lom_known_levels {
     } of[KNOWN_LEVELS];
 };
 
-/* What fragments need of one triangle, in the words of a slot's values (interpolate.wide.c). What is the same for all of
- * them waits in the varyings that its packets give to shaders: those which do not vary, and all differences. */
-enum { LARGEST_VARYINGS = 64 * (3 * LOM_MAX_VARYINGS + 16) }; /* bytes of lom_varyings at 16 lanes, at most */
+/* What fragments need of one triangle, in the words of a slot's values (facet.wide.c). What is the same for all of them
+ * waits in the varyings that its packets give to shaders: those which do not vary, and all differences. */
+enum {
+    LARGEST_VARYINGS = 64 * (3 * LOM_MAX_VARYINGS + 16), /* bytes of lom_varyings at 16 lanes, at most */
+    WINDOWS_PACKETS = 8                                  /* of whole windows that are shaded together */
+};
 struct lom_facet {
     const lom_primitive *primitive; /* whose they are; NULL: nobody's */
     uint32_t varies;                /* varyings that are not the same at all vertices, a bit each */
@@ -84,7 +87,8 @@ struct lom_facet {
     float slope[2][3];              /* along x and y: of l1 / w1, of l2 / w2, of the sum */
     struct lom_known_levels levels; /* with slopes that are those alone */
     float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
-    _Alignas(64) unsigned char varyings[LARGEST_VARYINGS];
+    int filled; /* of the varyings: how many hold what is the same */
+    _Alignas(64) unsigned char varyings[WINDOWS_PACKETS][LARGEST_VARYINGS];
 };
 
 /* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where

@@ -80,8 +80,16 @@ LOM_INLINE int bias_of(int64_t dx, int64_t dy)
 /* A part that is covered wholly is a packet by itself; nothing of an earlier triangle waits in the queue. */
 void LOM_WIDE(lom_shade_part)(struct lom_tile *tile, const struct part *at, const lom_float l[3],
                               const lom_float *depth);
-/* The same for all parts of a window of triangle `number`, which begins at `base` in tile memory; depth is 0. */
-void LOM_WIDE(lom_shade_window)(struct lom_tile *tile, int32_t number, int base, const lom_float l[PARTS][3]);
+/* Packets that are parts of whole windows of triangle `number`: where they begin in tile memory, and weights. */
+struct lom_windows {
+    int32_t number;
+    int count, base[WINDOWS_PACKETS];
+    lom_float l[WINDOWS_PACKETS][3];
+};
+/* The same for all of these; depth is 0. */
+void LOM_WIDE(lom_shade_windows)(struct lom_tile *tile, const struct lom_windows *windows);
+/* The output stage for them: opaque or blended, of different pixels. */
+void LOM_WIDE(lom_write_windows)(struct lom_tile *tile, const struct lom_windows *windows, const lom_fragment *out);
 /* A part of a window on its way out of the raster stage: clip distances, depth and its early test, then on to the
  * fragment stage (early.wide.c). */
 void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_float l[3],
