@@ -59,18 +59,25 @@ LOM_INLINE void sample_look_at_levels(sample_window *to, const lom_level_row *ro
     to->below = to->index + pitch;
 }
 
+/* Whether any lane takes a level beyond the first, or part of it; NaN takes the least. */
+LOM_INLINE bool sample_is_minified(const lom_texture *texture, const lom_float *lod)
+{
+    return texture->level_min > 0 || lom_any_positive(*lod + texture->sampler.lod_bias);
+}
+
 /* False, and nothing is found, when the lanes take levels that are no neighbours. */
 LOM_INLINE bool sample_find_spot(const lom_texture *texture, const lom_float2 *at, const lom_float *lod,
                                  sample_spot *spot)
 {
     int last = texture->level_count - 1, first = 0;
-    lom_float fraction = { 0 };
     lom_mask upper = { 0 };
-    spot->apart = false;
-    if (last > 0) {
+    spot->apart = spot->mixes = false;
+    if (last > 0 && sample_is_minified(texture, lod)) {
         const lom_float chosen = sample_choose_plainly(texture, lod);
         lom_int level = lom_bounded_to_int(chosen);
-        fraction = chosen - lom_to_float(level);
+        const lom_float fraction = chosen - lom_to_float(level);
+        spot->mixes = lom_any_positive(fraction);
+        spot->part = lom_weight_pairs(fraction);
         first = level[0];
         spot->apart = !lom_all_equal(level, first);
         first = sample_foreseen_level(first - (spot->apart && lom_any(level < first)));
@@ -82,8 +89,6 @@ LOM_INLINE bool sample_find_spot(const lom_texture *texture, const lom_float2 *a
     }
     const lom_level_row *row = &texture->row[first], *next = row + (first < last), *second = next + (first + 1 < last);
     lom_float s = sample_wrap(at->x, texture->sampler.wrap_s), t = sample_wrap(at->y, texture->sampler.wrap_t);
-    spot->mixes = last > 0 && lom_any_positive(fraction);
-    spot->part = lom_weight_pairs(fraction);
     if (spot->apart) {
         sample_look_at_levels(&spot->window[0], row, next, upper, s, t);
         if (spot->mixes)

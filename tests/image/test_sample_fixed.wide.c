@@ -169,6 +169,7 @@ static void define(const lom_texture *t, const float at[3], float lod, range *r,
     const lom_sampler_desc *s = &t->sampler;
     float c[3] = { wrapped(at[0], s->wrap_s), wrapped(at[1], s->wrap_t), wrapped(at[2], s->wrap_r) };
     int face = t->kind == LOM_TEXTURE_CUBE ? face_of(at, &c[0], &c[1]) : 0;
+    lod = fminf(fmaxf(lod + s->lod_bias, t->lod_min), t->lod_max); /* NaN is the least */
     lom_filter filter = lod > 0 ? s->minify : s->magnify;
     bool nearest = filter == LOM_FILTER_NEAREST || filter == LOM_FILTER_NEAREST_MIPMAP_NEAREST ||
                    filter == LOM_FILTER_NEAREST_MIPMAP_LINEAR;
@@ -238,6 +239,8 @@ static void compare_with_definition(lom_texture *t, int packets, uint64_t key)
         else if (n % 4 == 0)
             lod = lom_splat(floorf(lod[0])) + lom_select(at.x > 0.3f, lom_splat(1), (lom_float){ 0 }) +
                   lom_select(at.y > 0.7f, lom_splat(0.625f), (lom_float){ 0 });
+        if (n % 8 == 5)
+            lod[key % LOM_LANES] = __builtin_nanf("");
         lom_float4 got = sample(t, at, lod);
         for (int i = 0; i < LOM_LANES; i++) {
             float want[4], place[3] = { at.x[i], at.y[i], at.z[i] };
@@ -288,6 +291,27 @@ static void every_lane_is_the_definition(void)
                     lom_free_texture(t);
                     free(pixels);
                 }
+}
+
+/* Levels that are moved and bounded, also where no lane takes any but the first. */
+static void bias_and_bounds_are_the_definitions(void)
+{
+    static const float cases[][3] = { { 0.3f, 0, 0 },   { -5, 0, 0 },     { 1, 0.5f, 2 }, { 0, 1, 1 },
+                                      { -5, 0.25f, 2 }, { 5, -1, -0.5f }, { 0, 0, 0.75f } };
+    for (int f = 0; f < FORMATS; f++)
+        for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+            lom_texture_desc desc = { .width = 9,
+                                      .height = 6,
+                                      .format = formats[f],
+                                      .mips = LOM_MIPS_ALL,
+                                      .sampler = {
+                                          .lod_bias = cases[n][0], .lod_min = cases[n][1], .lod_max = cases[n][2] } };
+            uint8_t *pixels = random_pixels(&desc, 10 + n);
+            lom_texture *t = make(desc, LOM_FILTERING_FIXED, pixels);
+            compare_with_definition(t, 32, 1000 * n);
+            lom_free_texture(t);
+            free(pixels);
+        }
 }
 
 /* What mixes come to is divided without a division. */
@@ -456,6 +480,7 @@ static void an_unknown_filtering_is_an_error(void)
 int main(int argc, char **argv)
 {
     RUN(every_lane_is_the_definition);
+    RUN(bias_and_bounds_are_the_definitions);
     RUN(every_number_is_divided_correctly);
     RUN(large_textures_too);
     RUN(a_mirrored_texture_gives_the_same_at_the_mirrored_place);
