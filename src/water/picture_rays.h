@@ -121,6 +121,35 @@ LOM_INLINE bool lom_shows_nothing_along(const struct lom_surface_uniforms *u, co
     return true;
 }
 
+/* How far along a ray its step i is. */
+LOM_INLINE lom_float lom_length_of_step(const struct lom_surface_uniforms *u, lom_float range, int i)
+{
+    const float share = (float)i / (float)u->steps;
+    return range * (share * share * share);
+}
+
+/* Whether a ray that was behind the picture at step i, at `at`, meets nothing later on in the lanes of `going`, by how far the
+ * farthest is that the picture shows from there down: a ray that ends lower stays below there. It is behind at every step j by
+ * at least w_j - f, f the farthest, and meets nothing while that is 3/2 steps or more. With s metres of ray a metre of w a step
+ * reaches (l_j - l_i) / s farther in w, and l_j is as j^3, so that l_j / s gains on 3/2 (l_j - l_j-1) with j from where 3 j (j + 1)
+ * + 1 is 9 j s: from j = i + 1 on where i + 2 is 3 s. The next step decides, then. What floats round is as in lom_shows_nothing_along:
+ * the places less than a row of blocks, reaches less than 2^-10 of the largest. */
+LOM_INLINE bool lom_meets_no_more(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
+                                  const struct lom_surface_point *p, lom_float3 d, lom_float range, int i,
+                                  struct lom_lookup at, lom_mask going)
+{
+    const lom_float3 last = lom_add3(p->offset, lom_scale3(d, range));
+    const struct lom_lookup end = lom_project_point(u, picture, last);
+    const lom_float length = lom_length_of_step(u, range, i), step = lom_length_of_step(u, range, i + 1) - length;
+    const lom_float deeper = (end.w - at.w) / (range - length); /* of w, a metre */
+    const lom_float farthest = lom_depth_reach(&u->eye, lom_farthest_below(&picture->far, at.t));
+    const lom_float large = lom_max(lom_largest_part(p->offset), lom_largest_part(last));
+    const lom_mask straight = (large * picture->rows_sum <= at.w * 512.0f) & (end.t >= at.t);
+    const lom_mask gains = deeper * (float)(i + 2) >= 3.01f;
+    const lom_float behind = at.w + step * deeper - farthest;
+    return lom_all(~going | (straight & gains & (behind >= 1.5f * step + end.w * 0x1p-10f)));
+}
+
 /* Follows the ray from p along d through the picture: `steps` points whose distances grow as the cube of their number,
  * then halving of the step in which the ray went behind what the picture shows. Behind what stands further before the
  * ray than a step it goes on; its length is then where it first did. What is mirrored and stands before the surface and before
@@ -139,8 +168,7 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
     lom_float before = { 0 }, last = { 0 }, reached = p->w, rim = lom_splat(endless);
     const lom_float bound = lom_before_surface(u, p);
     for (int i = 1; i <= u->steps && lom_any(going); i++) {
-        float share = (float)i / (float)u->steps;
-        lom_float length = range * (share * share * share);
+        lom_float length = lom_length_of_step(u, range, i);
         struct lom_lookup at = lom_project_point(u, picture, lom_add3(p->offset, lom_scale3(d, length)));
         going = going & lom_within_reach(u, own, at);
         if (!lom_any(going))
@@ -160,6 +188,10 @@ LOM_INLINE struct lom_hit lom_follow_ray(const struct lom_surface_uniforms *u,
         rim = lom_select(hidden, rim, length);
         last = length;
         reached = at.w;
+        const bool knows = LOM_LOOKS_AROUND && picture->far.below != NULL && !u->eye.parallel && i < u->steps;
+        if (knows && !lom_any(going & (hit.length == endless)) &&
+            lom_meets_no_more(u, picture, p, d, range, i, at, going))
+            break;
     }
     if (!lom_any(hit.found))
         return hit;

@@ -4,6 +4,7 @@
 #define LOM_WATER_SURFACE_H
 
 #include "shading/eye.h"
+#include "shading/far_rows.h"
 #include "shading/gradient.h"
 #include "shading/sun_shadow.h"
 #include "shading/near_blocks.h"
@@ -20,11 +21,15 @@ struct lom_picture_uniform {
     float scale[2], shift[2];
     const lom_texture *color, *depth; /* NULL: there is nothing in it */
     struct lom_near_uniform near;     /* of a picture that a rough surface blurs */
-    float rows_sum;                   /* of the matrix, the largest sum of a row's amounts: with near */
+    struct lom_far_uniform far;       /* of a picture through which rays go down */
+    float rows_sum;                   /* of the matrix, the largest sum of a row's amounts: with near or far */
 };
 
 /* Blocks of a picture that is blurred, texels. */
 enum { LOM_PICTURE_BLOCK = 64 };
+
+/* Rows of a picture through which rays go down, texels. */
+enum { LOM_PICTURE_ROW = 16 };
 
 /* The coarsest level at which a reflection is looked up: a texel of it is 2^3 pixels. */
 enum { LOM_BLUR_LEVELS = 3, LOM_BLUR_PLACES = 4, LOM_OPEN_TEXELS = 8 };

@@ -159,6 +159,7 @@ void lom_free_waves(lom_renderer *renderer)
     lom_free_wave_field(renderer->water->waves);
     lom_free_polar_mesh(&renderer->water->polar);
     lom_free_near_blocks(&renderer->water->near);
+    lom_free_far_rows(&renderer->water->far);
 }
 
 void lom_drop_caustics(lom_renderer *renderer)

@@ -199,7 +199,22 @@ static bool find_near_blocks(struct surface *surface, struct frame *f, lom_error
     return true;
 }
 
+/* Of the picture of what is below the water, where rays are bent into it. */
+static bool find_far_rows(struct surface *surface, struct frame *f, lom_error *error)
+{
+    struct lom_picture_uniform *below = &surface->uniforms.behind;
+    struct lom_far_rows *rows = &f->renderer->water->far;
+    if (f->below || below->color == NULL || !surface->uniforms.bent)
+        return true;
+    if (!lom_fill_far_rows(rows, f->renderer->device, below->depth, LOM_PICTURE_ROW, error))
+        return false;
+    below->far = (struct lom_far_uniform){ rows->below, rows->rows };
+    below->rows_sum = find_largest_row(&below->clip_from_offset);
+    return true;
+}
+
 bool lom_draw_surface_pictures(struct surface *surface, struct frame *f, lom_error *error)
 {
-    return draw_mirrored(surface, f, error) && draw_behind(surface, f, error) && find_near_blocks(surface, f, error);
+    return draw_mirrored(surface, f, error) && draw_behind(surface, f, error) && find_near_blocks(surface, f, error) &&
+           find_far_rows(surface, f, error);
 }

@@ -19,6 +19,7 @@ struct lom_drawn_water {
     struct lom_wave_field *waves; /* or NULL */
     struct lom_polar_mesh polar;  /* of displaced water */
     struct lom_near_blocks near;  /* of the picture of what is above it, made by frames */
+    struct lom_far_rows far;      /* of the picture of what is below it, likewise */
 
     lom_texture *photons, *caustics; /* made by frames */
     struct lom_gathered_light light; /* what becomes of the photons */
