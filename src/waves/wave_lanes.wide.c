@@ -111,7 +111,8 @@ static void add_trochoid_slopes(const struct lom_trochoid_uniform *t, const stru
     w->xz = w->xz - t->across_x * t->kz * c;
 }
 
-/* The derivatives of the displacement at the moments of the window before this time. */
+/* The derivatives of the displacement at the moments of the window before this time; of the first, which is this time, they are
+ * the slopes'. */
 struct moments {
     lom_float xx[LOM_FOAM_MOMENTS], zz[LOM_FOAM_MOMENTS], xz[LOM_FOAM_MOMENTS];
 };
@@ -121,7 +122,7 @@ struct moments {
 static void add_trochoid_moments(const struct lom_trochoid_uniform *t, const struct trochoid *found,
                                  struct moments *past)
 {
-    for (int m = 0; m < LOM_FOAM_MOMENTS && found->is_seen; m++) {
+    for (int m = 1; m < LOM_FOAM_MOMENTS && found->is_seen; m++) {
         lom_float c = found->cosine * t->turn[m][0] - found->sine * t->turn[m][1];
         past->xx[m] = past->xx[m] - t->across_x * t->kx * c;
         past->zz[m] = past->zz[m] - t->across_z * t->kz * c;
@@ -131,9 +132,13 @@ static void add_trochoid_moments(const struct lom_trochoid_uniform *t, const str
 
 /* What broke at a rest point within the window before this time: the largest of its moments, each by how far the
  * Jacobian was below the threshold, fading with its age. A function of the time alone: any frame has its foam. */
-static lom_float trochoid_foam(const struct lom_waves_uniform *waves, const struct moments *past)
+static lom_float trochoid_foam(const struct lom_waves_uniform *waves, const struct lom_wave_slopes *now,
+                               struct moments *past)
 {
     lom_float foam = { 0 };
+    past->xx[0] = now->xx;
+    past->zz[0] = now->zz;
+    past->xz[0] = now->xz;
     for (int m = 0; m < LOM_FOAM_MOMENTS; m++) {
         lom_float jacobian = (1.0f + past->xx[m]) * (1.0f + past->zz[m]) - past->xz[m] * past->xz[m];
         float fresh = 1.0f - (float)m / LOM_FOAM_MOMENTS;
@@ -280,7 +285,7 @@ LOM_INLINE void find(const struct lom_waves_uniform *waves, lom_float x, lom_flo
             add_trochoid_moments(t, &found, &past);
     }
     if (breaks)
-        w.foam = trochoid_foam(waves, &past);
+        w.foam = trochoid_foam(waves, &w, &past);
     if (shift != NULL) {
         add_other_shifts(waves, x, z, f, &p);
         *shift = p;
