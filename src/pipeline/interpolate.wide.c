@@ -91,20 +91,36 @@ void LOM_WIDE(lom_fill_values)(struct lom_tile *tile)
         fill_packet(tile, slot);
 }
 
-void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet)
+LOM_INLINE void find_entry_varyings(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet,
+                                    lom_varyings *in)
 {
     const lom_shader *shader = tile->draw->desc.shader;
     const struct values values = { tile->list.value + p->first, p->which, NULL };
-    lom_varyings in;
-    in.levels = NULL;
-    find_varyings(&values, shader, packet, false, &in);
+    in->levels = NULL;
+    find_varyings(&values, shader, packet, false, in);
     if (shader->reads_position) {
-        in.x = lom_to_float((p->code >> CODE_X & 63) + tile->x) + 0.5f;
-        in.y = lom_to_float((p->code >> CODE_Y & 63) + tile->y) + 0.5f;
+        in->x = lom_to_float((p->code >> CODE_X & 63) + tile->x) + 0.5f;
+        in->y = lom_to_float((p->code >> CODE_Y & 63) + tile->y) + 0.5f;
     }
     if (tile->draw->marks_edges) /* what clip distances cut is in no slot */
         mark_edges(tile, &values, packet, false);
-    lom_run_shader(tile, packet, &in);
+}
+
+void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet,
+                               int count)
+{
+    lom_varyings in[ENTRY_PACKETS];
+    lom_fragment out[ENTRY_PACKETS];
+    for (int i = 0; i < count; i++)
+        find_entry_varyings(tile, &p[i], &packet[i], &in[i]);
+    if (tile->draw->sampled) { /* one packet */
+        LOM_WIDE(lom_run_sampled)(tile, packet, in);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        lom_call_shader(tile, &packet[i], &in[i], &out[i]);
+    for (int i = 0; i < count; i++)
+        lom_write_shaded(tile, &packet[i], &out[i]);
 }
 
 #endif

@@ -88,31 +88,45 @@ static void test_entries(struct lom_tile *tile)
     }
 }
 
-/* Entries from `at` on. */
-static void shade(struct lom_tile *tile, const struct packed *p, int at)
+/* A packet of the entries from `at` on; `depth` holds those of its samples. */
+static void fill_packet(const struct lom_tile *tile, const struct packed *p, int at, struct lom_packet *packet,
+                        lom_float depth[LOM_MAX_SAMPLES])
 {
     const struct lom_list *list = &tile->list;
-    struct lom_packet packet;
-    lom_float depth[LOM_MAX_SAMPLES];
     if (tile->pass->samples > 1)
-        LOM_WIDE(lom_fill_entry_samples)(tile, p, at, &packet, depth);
+        LOM_WIDE(lom_fill_entry_samples)(tile, p, at, packet, depth);
     else
-        weigh(list, p, packet.l);
-    packet.depth = (lom_float){ 0 };
+        weigh(list, p, packet->l);
+    packet->depth = (lom_float){ 0 };
     if (tile->draw->queues_depth)
-        packet.depth = find_depth_lanes(list, p, packet.l);
-    packet.which = p->which;
-    packet.triangles = p->triangles;
-    packet.covered = lom_lane_index() < p->count;
-    packet.places.block = false;
-    lom_store_int(packet.places.pixel, pixel_of(p->code));
+        packet->depth = find_depth_lanes(list, p, packet->l);
+    packet->which = p->which;
+    packet->triangles = p->triangles;
+    packet->covered = lom_lane_index() < p->count;
+    packet->places.block = false;
+    lom_store_int(packet->places.pixel, pixel_of(p->code));
+}
+
+static void shade(struct lom_tile *tile, const struct packed *p, struct lom_packet *packet, int count)
+{
 #if LOM_LANES > 4
-    LOM_WIDE(lom_shade_slots)(tile, p, &packet);
+    LOM_WIDE(lom_shade_slots)(tile, p, packet, count);
 #else
-    for (int i = 0; i < p->triangles; i++)
-        packet.triangle[i] = (int32_t)list->number[p->first + i];
-    LOM_WIDE(lom_shade_packet)(tile, &packet);
+    for (int k = 0; k < count; k++) {
+        for (int i = 0; i < p[k].triangles; i++)
+            packet[k].triangle[i] = (int32_t)tile->list.number[p[k].first + i];
+        LOM_WIDE(lom_shade_packet)(tile, &packet[k]);
+    }
 #endif
+}
+
+/* How many packets are shaded before the first of them is written, in order: no shader can tell, since who reads depth
+ * writes none. */
+static int packets_together(const struct lom_tile *tile)
+{
+    const struct lom_draw *draw = tile->draw;
+    bool alone = draw->sampled || draw->marks_edges || tile->chunk->parts != NULL;
+    return alone ? 1 : ENTRY_PACKETS;
 }
 
 /* Turns to the call of the entry at `at`, and finds where its entries end, or the packet that begins there. */
@@ -134,12 +148,22 @@ static int end_of_call(struct lom_tile *tile, int at)
 static void shade_entries(struct lom_tile *tile, bool all)
 {
     struct lom_list *list = &tile->list;
-    int at = 0;
+    struct packed p[ENTRY_PACKETS];
+    struct lom_packet packet[ENTRY_PACKETS];
+    lom_float depth[LOM_MAX_SAMPLES];
+    const int most = packets_together(tile);
+    int at = 0, count = 0;
     while (list->count - at >= LOM_LANES || (all && at < list->count)) {
-        struct packed p = take(list, at, tile->chunk->parts == NULL ? list->count : end_of_call(tile, at));
-        shade(tile, &p, at);
-        at += p.count;
+        p[count] = take(list, at, tile->chunk->parts == NULL ? list->count : end_of_call(tile, at));
+        fill_packet(tile, &p[count], at, &packet[count], depth);
+        at += p[count++].count;
+        if (count == most) {
+            shade(tile, p, packet, count);
+            count = 0;
+        }
     }
+    if (count > 0)
+        shade(tile, p, packet, count);
     list->count -= at;
     lom_store_int(list->code, lom_load_int(list->code + at));
     if (tile->pass->samples > 1)
