@@ -54,8 +54,7 @@ static bool are_alike(const lom_draw_desc *a, const lom_draw_desc *b)
 bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct lom_call *call)
 {
     const struct lom_pass *pass = &device->pass;
-    const size_t triangles = desc->count / 3;
-    if (triangles > SMALL_DRAW || desc->first > UINT32_MAX || desc->shader == NULL ||
+    if (desc->count > UINT32_MAX || desc->first > UINT32_MAX || desc->shader == NULL ||
         (desc->uniforms == NULL && desc->shader->uniforms_size != 0))
         return false;
     for (size_t i = 0; i < KNOWN_DRAWS && i < pass->known_draws; i++) {
@@ -63,7 +62,8 @@ bool lom_find_draw(const lom_device *device, const lom_draw_desc *desc, struct l
         const size_t first = desc->first - known->desc.first;
         if (desc->first < known->desc.first || first % 3 != 0 || !are_alike(&known->desc, desc))
             continue;
-        *call = (struct lom_call){ known->draw, (uint32_t)(first / 3), (uint32_t)triangles, 0, desc->base_vertex };
+        *call =
+            (struct lom_call){ known->draw, (uint32_t)(first / 3), (uint32_t)(desc->count / 3), 0, desc->base_vertex };
         return true;
     }
     return false;
@@ -120,7 +120,8 @@ bool lom_copy_uniforms(lom_device *device, const lom_draw_desc *desc, struct lom
 static bool add_call(lom_device *device, const struct lom_call *call)
 {
     struct lom_pass *pass = &device->pass;
-    if (!lom_reserve(&device->calls, &device->call_capacity, pass->call_count + 1, sizeof *device->calls, NULL))
+    if (pass->call_count == device->call_capacity &&
+        !lom_reserve(&device->calls, &device->call_capacity, pass->call_count + 1, sizeof *device->calls, NULL))
         return lom_fail(&device->error, LOM_ERROR_MEMORY, "The system gave no memory for another draw.");
     device->calls[pass->call_count++] = *call;
     device->counters.draws++;
@@ -132,15 +133,20 @@ bool lom_add_call(lom_device *device, const lom_draw_desc *desc, struct lom_call
     return lom_copy_uniforms(device, desc, call) && add_call(device, call);
 }
 
+/* Mostly triangles: by a product. */
+static uint32_t count_primitives(size_t indices, int corners)
+{
+    return (uint32_t)(corners == 3 ? indices / 3 : indices / (size_t)corners);
+}
+
 void lom_draw_held(lom_device *device, const struct lom_held_draw *held, const lom_draw_desc *desc)
 {
     if (!held->is_held) {
         lom_draw(device, desc);
         return;
     }
-    const size_t corners = (size_t)held->corners;
-    const struct lom_call call = { held->draw, (uint32_t)((desc->first - held->first) / corners),
-                                   (uint32_t)(desc->count / corners), held->uniforms, desc->base_vertex };
-    if (lom_check_device(device, NULL))
+    const struct lom_call call = { held->draw, count_primitives(desc->first - held->first, held->corners),
+                                   count_primitives(desc->count, held->corners), held->uniforms, desc->base_vertex };
+    if (device->error.code == LOM_OK)
         add_call(device, &call);
 }

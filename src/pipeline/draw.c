@@ -266,19 +266,21 @@ bool lom_hold_draw(lom_device *device, const lom_draw_desc *desc, struct lom_hel
 {
     struct lom_call call = { 0 };
     *held = (struct lom_held_draw){ .is_held = false };
-    if (!lom_check_device(device, NULL) || !device->in_pass || !lom_may_be_shared(device, desc) ||
-        !check_draw(device, desc) || !add_draw(device, desc, 0, &call) || device->draws[call.draw].constant ||
-        !lom_copy_uniforms(device, desc, &call))
+    if (!lom_check_device(device, NULL) || !device->in_pass || !lom_may_be_shared(device, desc))
+        return false;
+    const bool found = lom_find_draw(device, desc, &call) && call.triangles <= device->draws[call.draw].triangles;
+    if ((!found && (!check_draw(device, desc) || !add_draw(device, desc, 0, &call))) ||
+        device->draws[call.draw].constant || !lom_copy_uniforms(device, desc, &call))
         return false;
     const int corners = desc->topology == LOM_PATCHES ? desc->patch_points : 3;
-    *held = (struct lom_held_draw){ true, corners, call.draw, call.uniforms, desc->first };
+    *held = (struct lom_held_draw){ true, corners, call.draw, call.uniforms, device->draws[call.draw].desc.first };
     return true;
 }
 
 bool lom_record_draw(lom_device *device, const lom_draw_desc *desc)
 {
     struct lom_call call;
-    if (lom_find_draw(device, desc, &call))
+    if (desc->count / 3 <= SMALL_DRAW && lom_find_draw(device, desc, &call))
         return lom_add_call(device, desc, &call);
     lom_draw_desc counted;
     if (desc->count_from != NULL) {

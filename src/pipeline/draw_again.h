@@ -13,7 +13,8 @@ struct lom_held_draw {
 };
 
 /* Checks a descriptor of a list of triangles or patches by indices, and copies its uniforms, without drawing anything yet:
- * its first and count are those of all that will be. False where it is not held: the pass is recorded, the draw is of
+ * its first and count are those of all that will be. Where the pass has a draw that differs in its uniforms alone, that is held,
+ * so that calls of both can share chunks. False where it is not held: the pass is recorded, the draw is of
  * another kind, or the device holds an error. */
 bool lom_hold_draw(lom_device *device, const lom_draw_desc *desc, struct lom_held_draw *held);
 /* Draws as the held descriptor says, but for `count` indices from `first` on, a whole number of primitives behind the first

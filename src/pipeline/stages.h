@@ -109,7 +109,7 @@ enum { UNIFORMS_UNIT = 64 };
  * where there are several, its vertices, where its rows begin in the chunk's, and where its primitives end. */
 struct lom_part {
     uint32_t joined;
-    uint32_t base, vertices; /* the number of the first; how many from that on */
+    uint32_t base, vertices; /* the number of the first, how many from that on; NO_VERTEX: as many as are listed */
     uint32_t row;
     uint32_t end; /* one more than the last of the chunk's primitives that is the call's */
 };

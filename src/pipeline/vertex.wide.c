@@ -18,7 +18,7 @@ void LOM_WIDE(lom_find_extremes)(const uint32_t *index, size_t count, uint32_t *
         most = lom_max_int(most, x);
     }
     *low = *high = index[0];
-    for (int lane = 0; lane < LOM_LANES; lane++) {
+    for (int lane = 0; lane < LOM_LANES && i > 0; lane++) {
         uint32_t a = (uint32_t)(least[lane] ^ turned), b = (uint32_t)(most[lane] ^ turned);
         *low = a < *low ? a : *low;
         *high = b > *high ? b : *high;
@@ -56,7 +56,7 @@ static struct numbers find_numbers(const struct lom_chunk *chunk, size_t first)
     }
     n.largest = 0;
     for (int i = 0; i < LOM_LANES; i++) {
-        n.number[i] = chunk->assembly->vertex_list[first + (size_t)row[i]];
+        n.number[i] = chunk->assembly->vertex_list[chunk->first_row + first + (size_t)row[i]];
         n.largest = n.number[i] > n.largest ? n.number[i] : n.largest;
     }
     return n;
