@@ -45,6 +45,17 @@ LOM_INLINE lom_int lom_nearest_texel(lom_float c, lom_float size, lom_wrap wrap)
     return lom_bounded_to_int(lom_min(lom_floor(lom_saturate(c) * size), size - 1.0f) + 1.0f);
 }
 
+/* One texel, where it is looked up: what lom_sample_depth finds. */
+LOM_INLINE lom_float lom_find_depth(const lom_texture *map, lom_float s, lom_float t)
+{
+    if (!lom_has_nearest_square(map))
+        return lom_sample_depth(map, s, t);
+    const sample_place place = sample_place_of_level(map, 0);
+    const lom_int column = lom_nearest_texel(s, place.width, map->sampler.wrap_s);
+    const lom_int row = lom_nearest_texel(t, place.height, map->sampler.wrap_t);
+    return lom_gather(map->texels, place.offset + row * place.pitch + column) + 0.0f;
+}
+
 /* Three neighbours of a row are one load a lane, and the texel behind them, which is at most the apron's. */
 LOM_INLINE struct lom_depth_square lom_find_depth_square(const lom_texture *map, const lom_float s[3],
                                                          const lom_float t[3])

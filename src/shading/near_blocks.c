@@ -1,3 +1,4 @@
+/* Blocks of a picture or a map: their own greatest depths, then those about them. Compiled for speed. */
 #include "shading/near_blocks.h"
 
 #include "base/reserve.h"
@@ -31,35 +32,38 @@ static int32_t greatest_bits(const void *texels, int count, int32_t most)
     return most;
 }
 
-static uint32_t all_bits(const void *texels, size_t words, uint32_t all)
+static bool has_bits(const void *texels, size_t words)
 {
     const char *from = texels;
+    uint32_t all = 0;
     for (size_t i = 0; i < words; i++) {
         uint32_t bits;
         memcpy(&bits, from + i * sizeof bits, sizeof bits);
         all |= bits;
     }
-    return all;
+    return all != 0;
 }
 
+/* Colour is looked at where there is no depth, up to the first row that has some. */
 static float look_at_block(const struct work *work, int column, int row)
 {
     const struct lom_near_blocks *blocks = work->blocks;
     const int width = lom_texture_width(work->depth), height = lom_texture_height(work->depth);
     const int x = first_texel(column, blocks->columns, width);
     const int count = first_texel(column + 1, blocks->columns, width) - x;
-    const int end = first_texel(row + 1, blocks->rows, height);
-    const size_t words = work->color != NULL ? lom_texel_size(work->color) / sizeof(uint32_t) : 0;
+    const int first = first_texel(row, blocks->rows, height), end = first_texel(row + 1, blocks->rows, height);
     int32_t most = 0;
-    uint32_t color = 0;
-    for (int y = first_texel(row, blocks->rows, height); y < end; y++) {
+    for (int y = first; y < end; y++)
         most = greatest_bits(lom_texel(work->depth, 0, x, y, 0), count, most);
-        if (work->color != NULL)
-            color = all_bits(lom_texel(work->color, 0, x, y, 0), words * (size_t)count, color);
-    }
     float depth;
     memcpy(&depth, &most, sizeof depth);
-    return depth > lom_only_color ? depth : color != 0 ? lom_only_color : depth;
+    if (depth > lom_only_color || work->color == NULL)
+        return depth;
+    const size_t words = lom_texel_size(work->color) / sizeof(uint32_t) * (size_t)count;
+    for (int y = first; y < end; y++)
+        if (has_bits(lom_texel(work->color, 0, x, y, 0), words))
+            return lom_only_color;
+    return depth;
 }
 
 static void look_at_rows(void *context, size_t first, size_t end)

@@ -3,6 +3,7 @@
 #ifndef LOM_WATER_PICTURE_RAYS_H
 #define LOM_WATER_PICTURE_RAYS_H
 
+#include "shading/depth_square.h"
 #include "water/foam_cover.h"
 #include "water/water_column.h"
 
@@ -49,7 +50,7 @@ LOM_INLINE struct lom_lookup lom_project_point(const struct lom_surface_uniforms
 LOM_INLINE lom_float lom_picture_w(const struct lom_surface_uniforms *u, const struct lom_picture_uniform *picture,
                                    lom_float s, lom_float t)
 {
-    return lom_depth_reach(&u->eye, lom_sample_depth(picture->depth, s, t));
+    return lom_depth_reach(&u->eye, lom_find_depth(picture->depth, s, t));
 }
 
 LOM_INLINE lom_mask lom_within_reach(const struct lom_surface_uniforms *u, lom_float2 own, struct lom_lookup at)
