@@ -47,6 +47,15 @@ struct lom_cloud_shade {
     double highest; /* none of them is higher */
 };
 
+/* What the light of a cloud is made from (cloud_light.c). */
+struct lom_cloud_lighting {
+    uint64_t hash;       /* of the way to the sun, and of the places of what shadows it */
+    size_t shadow_count; /* clouds that may shadow it */
+    bool shaded;         /* by what else stands there, whose shadow's edge is as high as */
+    double edge;
+    lom_error failed;
+};
+
 /* All clouds of a scene, and what they share. */
 struct lom_cloud_set {
     const struct lom_cloud_shade *shade; /* NULL: nothing does; of a frame */
@@ -57,9 +66,9 @@ struct lom_cloud_set {
     size_t density_count;
     struct lom_placed_cloud *clouds; /* in the order of the file; those that are not visible are left out */
     size_t count;
-    size_t *order;     /* room for the numbers of all of them: those in view (lom_order_clouds) */
-    uint32_t *sorting; /* room for a key and two numbers of each, while they are put in order */
-    size_t *others;    /* likewise: those that shadow one (cloud_light.c) */
+    size_t *order;                       /* room for the numbers of all of them: those in view (lom_order_clouds) */
+    uint32_t *sorting;                   /* room for a key and two numbers of each, while they are put in order */
+    struct lom_cloud_lighting *lighting; /* likewise: of each, while they are lit */
     lom_detail *detail;
     lom_image *fields[LOM_DETAIL_FIELDS]; /* of noise; only the first where shapes do not change */
     double phase;                         /* of the crossfade that `detail` is from */
@@ -94,8 +103,10 @@ bool lom_evolve_clouds(struct lom_cloud_set *set, double time, lom_error *error)
 double lom_cloud_phase_at(const lom_clouds *params, double time);
 
 /* cloud_light.c: makes every cloud's light that of a sun in this direction (towards it, unit length); what already is
- * stays. *swept counts the grids that were made again. False when memory runs out. */
-bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error);
+ * stays. *swept counts the grids that were made again. By all workers of the device; NULL: by the caller. False when memory
+ * runs out. */
+bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], lom_device *device, int *swept,
+                      lom_error *error);
 /* The same of one cloud; *swept is increased when it was made again. */
 bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error);
 /* blue_noise.c: a table of size x size numbers (i + 1/2) / size^2, each once, whose neighbours differ: void and cluster

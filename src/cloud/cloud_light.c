@@ -2,8 +2,10 @@
  * the other clouds shadow. Invariant: a cloud's light is a function of the sun and of the places of the clouds alone;
  * it is made again when that changes. */
 #include "base/numbers.h"
+#include "base/pass_error.h"
 #include "cloud/cloud_draw.h"
 #include "cloud/cloud_layers.h"
+#include "pipeline/share_work.h"
 
 #include <string.h>
 
@@ -190,46 +192,109 @@ static bool is_shaded(const struct shaded_box *box, double edge)
 
 /* ---- all of it ---- */
 
-bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error)
+/* What a cloud's light depends on, and the shadow on it. */
+static void find_light(const struct lom_cloud_set *set, size_t index, const double to_light[3],
+                       struct lom_cloud_lighting *light)
 {
-    struct lom_placed_cloud *cloud = &set->clouds[index];
-    struct shadowing s = { set, cloud, to_light, set->others, 0 };
-    if (set->quality.model == LOM_CLOUDS_LAYERS) /* the sheets' light is a picture */
-        return lom_update_cloud_gradient(set, error);
-    uint64_t hash = hash_numbers(LOM_HASH_START, to_light, 3);
+    const struct lom_placed_cloud *cloud = &set->clouds[index];
+    const struct shaded_box box = { set->shade, cloud };
+    const bool swept_sun = set->quality.model != LOM_CLOUDS_ORIGINAL;
+    *light = (struct lom_cloud_lighting){ .hash = hash_numbers(LOM_HASH_START, to_light, 3) };
     for (size_t i = 0; i < set->count && set->params->shadows; i++) {
         const struct lom_placed_cloud *other = &set->clouds[i];
         if (i == index || !may_shadow(other, cloud, to_light))
             continue;
         const double apart[3] = { other->middle.x - cloud->middle.x, other->middle.y - cloud->middle.y,
                                   other->middle.z - cloud->middle.z };
-        set->others[s.other_count++] = i;
-        hash = hash_numbers(hash, apart, 3);
+        light->shadow_count++;
+        light->hash = hash_numbers(light->hash, apart, 3);
     }
-    const struct shaded_box box = { set->shade, cloud };
-    const bool swept_sun = set->quality.model != LOM_CLOUDS_ORIGINAL;
-    const double edge = swept_sun && set->shade != NULL ? edge_of(cloud, to_light) : 0;
-    const bool shaded = swept_sun && is_shaded(&box, edge);
-    if (shaded)
-        hash = lom_hash_bytes(hash, &cloud->middle, sizeof cloud->middle);
-    set->shaded += shaded;
-    hash |= 1;
-    if (cloud->lit_for == hash)
-        return true;
-    if (!(swept_sun ? sweep_sun(set, cloud, &s, error) : light_in_advance(set, cloud, to_light, error)))
+    light->edge = swept_sun && set->shade != NULL ? edge_of(cloud, to_light) : 0;
+    light->shaded = swept_sun && is_shaded(&box, light->edge);
+    if (light->shaded)
+        light->hash = lom_hash_bytes(light->hash, &cloud->middle, sizeof cloud->middle);
+    light->hash |= 1;
+}
+
+/* The clouds that shadow it, as they were counted; NULL where there are none, or no memory. */
+static size_t *list_shadowing(const struct lom_cloud_set *set, size_t index, const double to_light[3], size_t count,
+                              lom_error *error)
+{
+    size_t *others = count != 0 ? lom_allocate(count, sizeof *others, error) : NULL, found = 0;
+    for (size_t i = 0; others != NULL && i < set->count; i++)
+        if (i != index && may_shadow(&set->clouds[i], &set->clouds[index], to_light))
+            others[found++] = i;
+    return others;
+}
+
+/* Writes a cloud's own light alone, and reads of others what no light changes: clouds are lit side by side. */
+static bool make_light(const struct lom_cloud_set *set, size_t index, const double to_light[3],
+                       const struct lom_cloud_lighting *light, lom_error *error)
+{
+    struct lom_placed_cloud *cloud = &set->clouds[index];
+    size_t *others = list_shadowing(set, index, to_light, light->shadow_count, error);
+    struct shadowing s = { set, cloud, to_light, others, light->shadow_count };
+    bool done = others != NULL || light->shadow_count == 0;
+    if (done)
+        done = set->quality.model != LOM_CLOUDS_ORIGINAL ? sweep_sun(set, cloud, &s, error)
+                                                         : light_in_advance(set, cloud, to_light, error);
+    lom_release(others);
+    if (!done)
         return false;
-    if (shaded)
-        lom_shade_light_grid(cloud->light, shadow_height, &box, edge);
-    cloud->lit_for = hash;
+    const struct shaded_box box = { set->shade, cloud };
+    if (light->shaded)
+        lom_shade_light_grid(cloud->light, shadow_height, &box, light->edge);
+    cloud->lit_for = light->hash;
+    return true;
+}
+
+bool lom_light_cloud(struct lom_cloud_set *set, size_t index, const double to_light[3], int *swept, lom_error *error)
+{
+    struct lom_cloud_lighting light;
+    if (set->quality.model == LOM_CLOUDS_LAYERS) /* the sheets' light is a picture */
+        return lom_update_cloud_gradient(set, error);
+    find_light(set, index, to_light, &light);
+    set->shaded += light.shaded;
+    if (set->clouds[index].lit_for == light.hash)
+        return true;
+    if (!make_light(set, index, to_light, &light, error))
+        return false;
     ++*swept;
     return true;
 }
 
-bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], int *swept, lom_error *error)
+/* What workers light, a cloud each. */
+struct lighting {
+    struct lom_cloud_set *set;
+    const double *to_light;
+};
+
+static void make_lights(void *context, size_t first, size_t end)
 {
+    const struct lighting *l = context;
+    for (size_t i = first; i < end; i++)
+        if (l->set->clouds[i].lit_for != l->set->lighting[i].hash)
+            make_light(l->set, i, l->to_light, &l->set->lighting[i], &l->set->lighting[i].failed);
+}
+
+bool lom_light_clouds(struct lom_cloud_set *set, const double to_light[3], lom_device *device, int *swept,
+                      lom_error *error)
+{
+    struct lighting l = { set, to_light };
     *swept = 0;
+    if (set->quality.model == LOM_CLOUDS_LAYERS)
+        return lom_update_cloud_gradient(set, error);
+    for (size_t i = 0; i < set->count; i++) {
+        find_light(set, i, to_light, &set->lighting[i]);
+        set->shaded += set->lighting[i].shaded;
+        *swept += set->clouds[i].lit_for != set->lighting[i].hash;
+    }
+    if (*swept != 0 && device != NULL)
+        lom_share_work(device, set->count, 1, make_lights, &l);
+    else if (*swept != 0)
+        make_lights(&l, 0, set->count);
     for (size_t i = 0; i < set->count; i++)
-        if (!lom_light_cloud(set, i, to_light, swept, error))
+        if (!lom_pass_error(&set->lighting[i].failed, error))
             return false;
     return true;
 }

@@ -35,7 +35,7 @@ void lom_free_cloud_set(struct lom_cloud_set *set)
     lom_release(set->clouds);
     lom_release(set->order);
     lom_release(set->sorting);
-    lom_release(set->others);
+    lom_release(set->lighting);
     lom_release(set);
 }
 
@@ -362,9 +362,9 @@ bool lom_load_cloud_set(const lom_cloud *clouds, size_t count, const lom_clouds 
     set->clouds = lom_allocate(visible, sizeof *set->clouds, error);
     set->order = lom_allocate(visible, sizeof *set->order, error);
     set->sorting = lom_allocate(visible, 3 * sizeof *set->sorting, error);
-    set->others = lom_allocate(visible, sizeof *set->others, error);
+    set->lighting = lom_allocate(visible, sizeof *set->lighting, error);
     bool done = set->densities != NULL && set->clouds != NULL && set->order != NULL && set->sorting != NULL &&
-                set->others != NULL && load_shared(set, before, error) &&
+                set->lighting != NULL && load_shared(set, before, error) &&
                 load_clouds(set, before, clouds, count, device, error);
     if (done) {
         *loaded = set;

@@ -420,7 +420,7 @@ static void i6_plate_border_is_empty(void)
     lom_vec3 corner[8];
     const double up[3] = { 0, 1, 0 };
     int swept = 0;
-    lom_light_clouds(set, up, &swept, NULL);
+    lom_light_clouds(set, up, NULL, &swept, NULL);
     lom_cloud_corners(&set->clouds[0], corner);
     CHECK(lom_make_facing_plate(corner, view.eye, &eye, 0.25, 0, 1024, &plate), "a plate");
     lom_texture *texture = lom_make_texture(

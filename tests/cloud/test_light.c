@@ -1,5 +1,5 @@
 /* Proves what light reaches clouds: one shadows another by Beer and Lambert's law, along every axis and never beside its
- * box, again only when something moved; a file's density is read once; and the lighting in advance of the original model
+ * box, again only when something moved, whoever makes it; a file's density is read once; and the lighting in advance of the original model
  * is its formula, the same for 8 and 16 bits and floats. */
 #include "check.h"
 #include "cloud/cloud_draw.h"
@@ -69,18 +69,43 @@ static void clouds_shadow_what_lies_behind_them(void)
                                 cloud_at(beside[0], beside[1], beside[2]) };
         CHECK(lom_load_cloud_set(clouds, 3, &params, &quality, NULL, NULL, &set, &error) && set->count == 3, "%s",
               error.text);
-        CHECK(lom_light_clouds(set, light, &swept, &error) && swept == 3, "%d were swept: %s", swept, error.text);
+        CHECK(lom_light_clouds(set, light, NULL, &swept, &error) && swept == 3, "%d were swept: %s", swept, error.text);
         double shadowed = share(set, 0) / share(set, 1), depth = 0.05 * 100;
         CHECK(fabs(shadowed - exp(-depth / 64)) < 1e-4, "axis %d: %g, not %g", axis, shadowed, exp(-depth / 64));
         CHECK(share(set, 2) == share(set, 1), "axis %d: %g beside, %g alone", axis, share(set, 2), share(set, 1));
-        CHECK(lom_light_clouds(set, light, &swept, &error) && swept == 0, "%d were swept again", swept);
+        CHECK(lom_light_clouds(set, light, NULL, &swept, &error) && swept == 0, "%d were swept again", swept);
         set->clouds[1].middle.x += 1000;
         set->clouds[1].middle.y += 1000;
         set->clouds[1].middle.z += 1000;
-        CHECK(lom_light_clouds(set, light, &swept, &error) && swept == 2, "%d were swept after a move", swept);
+        CHECK(lom_light_clouds(set, light, NULL, &swept, &error) && swept == 2, "%d were swept after a move", swept);
         CHECK(share(set, 0) == share(set, 1), "axis %d: the shadow stays", axis);
         lom_free_cloud_set(set);
     }
+}
+
+/* Clouds in each other's shadows, by the caller and by three workers. */
+static void workers_light_what_one_does(void)
+{
+    enum { CLOUDS = 9 };
+    const double light[3] = { 0.6, 0, 0.8 };
+    lom_cloud clouds[CLOUDS];
+    struct lom_cloud_set *set[2];
+    lom_device *device = lom_open_device(&(lom_device_desc){ .threads = 3 });
+    for (int i = 0; i < CLOUDS; i++)
+        clouds[i] = cloud_at(70 * i, 20 * (i % 3), 90 * i);
+    for (int k = 0; k < 2; k++) {
+        int swept;
+        CHECK(lom_load_cloud_set(clouds, CLOUDS, &params, &quality, NULL, NULL, &set[k], NULL), "no set");
+        CHECK(lom_light_clouds(set[k], light, k == 0 ? NULL : device, &swept, NULL) && swept == CLOUDS, "%d", swept);
+    }
+    for (int i = 0; i < CLOUDS; i++) {
+        const size_t bytes = (SIDE + 1) * (SIDE + 1) * (SIDE + 1) * sizeof *set[0]->clouds[i].light->light;
+        CHECK(memcmp(set[0]->clouds[i].light->light, set[1]->clouds[i].light->light, bytes) == 0, "cloud %d", i);
+        CHECK(i == CLOUDS - 1 || share(set[0], (size_t)i) < share(set[0], CLOUDS - 1), "cloud %d has no shadow", i);
+    }
+    lom_free_cloud_set(set[0]);
+    lom_free_cloud_set(set[1]);
+    lom_close_device(device);
 }
 
 static void files_are_read_once(void)
@@ -143,6 +168,7 @@ int main(int argc, char **argv)
     if (!make_files())
         return 1;
     RUN(clouds_shadow_what_lies_behind_them);
+    RUN(workers_light_what_one_does);
     RUN(files_are_read_once);
     RUN(light_in_advance_is_its_formula);
     unlink(solid[0]);

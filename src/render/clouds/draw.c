@@ -32,7 +32,7 @@ bool lom_prepare_clouds(struct frame *f, lom_error *error)
         return false;
     if (lom_has_plates(f))
         return lom_draw_cloud_shadows(f, to_light); /* plates light their clouds when they are made */
-    if (!lom_light_clouds(f->renderer->clouds.set, to_light, &swept, error))
+    if (!lom_light_clouds(f->renderer->clouds.set, to_light, f->renderer->device, &swept, error))
         return false;
     if (swept != 0)
         lom_add_step(f, "cloud light", true,
