@@ -338,8 +338,9 @@ fuzz:
 docs:
 	docs/site.sh $(BUILD)/docs $(BUILD)/web
 
-# Waits for the lanes that this processor draws with alone: of the program's objects those are left out that are of other
-# widths, whose functions nobody calls then and are empty. The others are the whole program's, and make goes on from there.
+# Waits for what drawing a scene on this processor needs alone: of the program's objects those are left out that are of other
+# lanes or of commands but render, and what nothing else calls. A function that is not there stops the demo with a sentence
+# ($(BUILD)/demo/absent.c). The others are the whole program's, and make goes on from there.
 demo: $(BUILD)/demo/lom
 	$(BUILD)/demo/lom render assets/scenes/lake.toml -o demo-lake.png
 	$(BUILD)/demo/lom render assets/scenes/flight.toml -o demo.png
@@ -348,11 +349,16 @@ NM = nm
 cpu           := $(if $(filter demo,$(MAKECMDGOALS)),$(shell grep -m1 ^flags /proc/cpuinfo 2>/dev/null))
 widest        := $(if $(filter-out $(cpu),avx512f avx512dq avx512bw avx512vl avx512cd),$(if $(filter avx2,$(cpu)),8),16)
 demo_variants := $(filter 4 $(widest),$(VARIANTS))
-demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(foreach v,$(filter-out $(demo_variants),$(VARIANTS)),%.w$(v).o), \
-	$(cli_objects) $(lesson_objects) $(measure_objects) $(lib_objects))
+demo_cli      := $(patsubst %,src/cli/%.c,main render frame_output frame_stats json one_colour options part paths picture_kinds progress \
+	scene_options shard show_pass signals watch)
+demo_inspect  := $(patsubst %,src/inspect/%.c,eyes show show_surface)
+demo_geometry := $(patsubst %,src/geometry/%.c,build_% builder% crease erode_% make_% model obj_write output paint_% shapes)
+demo_apart    := $(filter-out $(demo_cli) $(demo_inspect),$(filter src/cli/% src/inspect/% src/image/compare_% $(demo_geometry),$(sources)))
+demo_objects  := $(filter-out $(BUILD)/src/lanes/variants.o $(patsubst %.c,$(BUILD)/%.o,$(demo_apart)) \
+	$(foreach v,$(filter-out $(demo_variants),$(VARIANTS) $(RECORDED)),%.w$v.o),$(cli_objects) $(lib_objects))
 
 $(BUILD)/demo/lom: $(demo_objects) $(COUNTING) $(BUILD)/demo/variants.o $(BUILD)/demo/absent.o
-	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(DL_LIBS) $(LDLIBS)
+	$(call short,LD)$(CC) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 $(BUILD)/demo/variants.o: src/lanes/variants.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -363,8 +369,10 @@ $(BUILD)/demo/absent.o: $(BUILD)/demo/absent.c
 
 $(BUILD)/demo/absent.c: $(demo_objects)
 	@mkdir -p $(@D)
-	@$(NM) -g -P $^ | awk '$$2 == "U" { used[$$1] } $$2 ~ /^[A-TV-Z]$$/ { there[$$1] } END { for (name in used) \
-	    if (!(name in there) && name ~ /_(8|16|8_plain|16_plain)$$/) print "void " name "(void);\nvoid " name "(void) {}" }' >$@
+	@$(NM) -g -P $^ | awk -v all='$(ALL_VARIANTS) $(RECORDED)' 'BEGIN { gsub(" ", "|", all); \
+	    print "\43include <stdio.h>\n\43include <stdlib.h>\nstatic void stop(void)\n{\n    fputs(\"lom: make demo has compiled what draws a scene here and nothing else; make compiles all of it.\\n\", stderr);\n    exit(2);\n}" } \
+	    $$2 == "U" { used[$$1] } $$2 ~ /^[A-TV-Z]$$/ { there[$$1] } END { for (name in used) \
+	    if (!(name in there) && (name ~ "_(" all ")$$" || name ~ /^lom_command_/)) print "void " name "(void);\nvoid " name "(void)\n{\n    stop();\n}" }' >$@
 
 check: all $(programs) $(lessons) $(fuzz_targets:%=$(BUILD)/tests/fuzz/run_%)
 	@CC='$(CC)' BUILD='$(BUILD)' SAN='$(SAN)' tests/run $(programs) $(test_scripts)
