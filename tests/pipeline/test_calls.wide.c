@@ -236,6 +236,46 @@ static void draw_parts(stage *s, bool holds)
     finish(s);
 }
 
+/* Held draws that differ in their tints are one, and their parts in turn share chunks, as those of lom_draw do. */
+static size_t draw_tints(stage *s, bool holds)
+{
+    struct tint tint[3];
+    struct lom_held_draw held[3];
+    lom_draw_desc desc = state(1);
+    desc.count = 3 * TRIANGLES;
+    begin(s, kept(false));
+    for (int i = 0; i < 3; i++) {
+        tint[i] = (struct tint){ .matrix = { [0] = 1 }, .color = { 0.25f * (float)i, 0.5f, 0.125f, 1 } };
+        desc.uniforms = &tint[i];
+        CHECK(!holds || (lom_hold_draw(s->device, &desc, &held[i]) && held[i].draw == held[0].draw), "tint %d", i);
+    }
+    desc.count = 3;
+    for (int i = 0; i < TRIANGLES; i++) {
+        desc.uniforms = &tint[i % 3];
+        desc.first = 3 * (size_t)(i * 7 % TRIANGLES);
+        if (holds)
+            lom_draw_held(s->device, &held[i % 3], &desc);
+        else
+            lom_draw(s->device, &desc);
+    }
+    finish(s);
+    return count_joined(s);
+}
+
+static void held_draws_of_several_uniforms_share_chunks(void)
+{
+    lom_device_desc desc = { .threads = 2 };
+    stage one = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    stage other = open_stage(desc, WIDTH, HEIGHT, LOM_FORMAT_RGBA32F, LOM_FORMAT_DEPTH32F);
+    other.device->one_by_one = true;
+    const size_t joined = draw_tints(&one, true), apart = draw_tints(&other, false);
+    CHECK(joined == TRIANGLES - 1 && apart == 0, "%zu and %zu calls joined", joined, apart);
+    CHECK(same_images(one.image, other.image), "colours differ");
+    CHECK(same_images(one.depths, other.depths), "depths differ");
+    close_stage(&one);
+    close_stage(&other);
+}
+
 static void held_draws_are_those_of_descriptors(void)
 {
     lom_device_desc desc = { .threads = 2, .chunk = 16, .batch = 3 };
@@ -284,6 +324,7 @@ int main(int argc, char **argv)
     make_scene();
     RUN(shared_draws_are_those_of_their_own_passes);
     RUN(shared_draws_of_several_samples_are_those_one_by_one);
+    RUN(held_draws_of_several_uniforms_share_chunks);
     RUN(held_draws_are_those_of_descriptors);
     RUN(errors_stay_errors);
     return check_result();
