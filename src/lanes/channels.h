@@ -4,8 +4,8 @@
 
 #include <lom/lanes.h>
 
-/* The first and the second channel of LOM_LANES pixels: number i and number i + SECOND_CHANNEL, where bit SECOND_CHANNEL of
- * i is 0, are of one pixel. */
+/* The first and the second channel of LOM_LANES pixels, in whatever order; with LOM_OVERRIDES_CHANNELS number i and number i + 4
+ * where bit 4 of i is 0, else the low and the high half of a word, which order of bytes a machine may have. */
 typedef uint16_t pairs __attribute__((vector_size(LOM_LANES * 4)));
 
 /* Red and blue, green and alpha. */
@@ -17,9 +17,6 @@ struct channels {
 /* As the instructions have it that narrow two vectors to one: in 16 bytes four pixels, first channels, then second ones.
  * Bytes are four reds, blues, greens, alphas on the way. */
 #define LOM_OVERRIDES_CHANNELS
-enum { SECOND_CHANNEL = 4 };
-#else
-enum { SECOND_CHANNEL = 1 };
 #endif
 
 LOM_INLINE pairs splat_pairs(uint16_t value)
@@ -27,28 +24,24 @@ LOM_INLINE pairs splat_pairs(uint16_t value)
     return value - (pairs){ 0 };
 }
 
+#ifndef LOM_OVERRIDES_CHANNELS
+
 /* -1 in one of two channels. */
 LOM_INLINE pairs second_channels(void)
 {
-    pairs second = { 0 };
-    for (int i = 0; i < 2 * LOM_LANES; i++)
-        second[i] = (i & SECOND_CHANNEL) != 0 ? UINT16_MAX : 0;
-    return second;
+    return (pairs)lom_splat_uint(0xffff0000);
 }
 
 /* first | second << 16 of the first pixel; and the same in all pixels. */
 LOM_INLINE uint32_t first_pair(pairs x)
 {
-    return x[0] | (uint32_t)x[SECOND_CHANNEL] << 16;
+    return ((lom_uint)x)[0];
 }
 
 LOM_INLINE pairs splat_pair(uint32_t pair)
 {
-    const pairs second = second_channels();
-    return (second & (uint16_t)(pair >> 16)) | (~second & (uint16_t)pair);
+    return (pairs)lom_splat_uint(pair);
 }
-
-#ifndef LOM_OVERRIDES_CHANNELS
 
 /* Of whole numbers up to 255, where one below 0 counts as 0 with LOM_OVERRIDES_CHANNELS, and is not given without. */
 LOM_INLINE struct channels narrow(lom_int red, lom_int green, lom_int blue, lom_int alpha)
@@ -73,7 +66,32 @@ LOM_INLINE pairs alpha_of(struct channels c)
     return (pairs)(alpha | alpha << 16);
 }
 
-#elif LOM_LANES == 16
+#else
+
+enum { SECOND_CHANNEL = 4 };
+
+LOM_INLINE pairs second_channels(void)
+{
+    pairs second = { 0 };
+    for (int i = 0; i < 2 * LOM_LANES; i++)
+        second[i] = (i & SECOND_CHANNEL) != 0 ? UINT16_MAX : 0;
+    return second;
+}
+
+LOM_INLINE uint32_t first_pair(pairs x)
+{
+    return x[0] | (uint32_t)x[SECOND_CHANNEL] << 16;
+}
+
+LOM_INLINE pairs splat_pair(uint32_t pair)
+{
+    const pairs second = second_channels();
+    return (second & (uint16_t)(pair >> 16)) | (~second & (uint16_t)pair);
+}
+
+#endif
+
+#if defined LOM_OVERRIDES_CHANNELS && LOM_LANES == 16
 
 /* Towards zero, of what is below 2^31; INT32_MIN of NaN and of what is no int. */
 LOM_INLINE lom_int to_narrowed(lom_float x)
@@ -105,7 +123,7 @@ LOM_INLINE pairs alpha_of(struct channels c)
     return (pairs)_mm512_unpackhi_epi64((__m512i)c.ga, (__m512i)c.ga);
 }
 
-#else
+#elif defined LOM_OVERRIDES_CHANNELS
 
 LOM_INLINE lom_int to_narrowed(lom_float x)
 {

@@ -60,11 +60,9 @@ static void fill_value(struct lom_facet *facet, int v, const float f[3], float *
     facet->varies |= (uint32_t)!same << v;
 }
 
-_Static_assert(sizeof(lom_varyings) <= LARGEST_VARYINGS, "a facet holds a packet's varyings");
-
 LOM_INLINE lom_varyings *varyings_of(struct lom_facet *facet, int packet)
 {
-    return (lom_varyings *)(void *)facet->varyings[packet];
+    return varyings_in(facet->varyings, packet);
 }
 
 static __attribute__((noinline)) void fill_facet(struct lom_tile *tile, const lom_primitive *p)
@@ -187,7 +185,6 @@ void LOM_WIDE(lom_shade_windows)(struct lom_tile *tile, const struct lom_windows
 {
     const lom_shader *shader = tile->draw->desc.shader;
     lom_fragment_function *shade = shader->fragment[tile->draw->variant];
-    lom_fragment out[WINDOWS_PACKETS];
     turn_facet(tile, windows->number);
     varyings_of(&tile->facet, 0)->covered = lom_splat_int(-1);
     for (; tile->facet.filled < windows->count; tile->facet.filled++)
@@ -195,10 +192,11 @@ void LOM_WIDE(lom_shade_windows)(struct lom_tile *tile, const struct lom_windows
     if (shader->reads != 0)
         find_windows_varyings(&tile->facet, shader, windows);
     for (int i = 0; i < windows->count; i++) {
-        out[i].depth = (lom_float){ 0 };
-        out[i].discard = (lom_mask){ 0 };
-        shade(&out[i], varyings_of(&tile->facet, i), tile->uniforms);
+        lom_fragment *out = fragment_in(&tile->together, i);
+        out->depth = (lom_float){ 0 };
+        out->discard = (lom_mask){ 0 };
+        shade(out, varyings_of(&tile->facet, i), tile->uniforms);
     }
     tile->packets += (uint64_t)windows->count;
-    LOM_WIDE(lom_write_windows)(tile, windows, out);
+    LOM_WIDE(lom_write_windows)(tile, windows);
 }

@@ -109,18 +109,17 @@ LOM_INLINE void find_entry_varyings(struct lom_tile *tile, const struct packed *
 void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet,
                                int count)
 {
-    lom_varyings in[ENTRY_PACKETS];
-    lom_fragment out[ENTRY_PACKETS];
+    struct lom_together *together = &tile->together;
     for (int i = 0; i < count; i++)
-        find_entry_varyings(tile, &p[i], &packet[i], &in[i]);
+        find_entry_varyings(tile, &p[i], &packet[i], varyings_in(together->varyings, i));
     if (tile->draw->sampled) { /* one packet */
-        LOM_WIDE(lom_run_sampled)(tile, packet, in);
+        LOM_WIDE(lom_run_sampled)(tile, packet, varyings_in(together->varyings, 0));
         return;
     }
     for (int i = 0; i < count; i++)
-        lom_call_shader(tile, &packet[i], &in[i], &out[i]);
+        lom_call_shader(tile, &packet[i], varyings_in(together->varyings, i), fragment_in(together, i));
     for (int i = 0; i < count; i++)
-        lom_write_shaded(tile, &packet[i], &out[i]);
+        lom_write_shaded(tile, &packet[i], fragment_in(together, i));
 }
 
 #endif

@@ -312,12 +312,11 @@ void LOM_WIDE(lom_write_packet)(struct lom_tile *tile, const struct lom_places *
 }
 
 /* The outputs of bytes in whole windows. */
-LOM_INLINE void write_window_bytes(struct lom_tile *tile, lom_output_kind output, const struct lom_windows *windows,
-                                   const lom_fragment *out)
+LOM_INLINE void write_window_bytes(struct lom_tile *tile, lom_output_kind output, const struct lom_windows *windows)
 {
     for (int i = 0; i < windows->count; i++) {
         int32_t *memory = (int32_t *)tile->color[0] + windows->base[i];
-        struct channels source = quantise(out[i].color);
+        struct channels source = quantise(fragment_in(&tile->together, i)->color);
         if (output == OUTPUT_STRAIGHT)
             source = blend_straight(source, split(lom_load_block(memory, tile)));
         if (output == OUTPUT_MULTIPLIED)
@@ -326,21 +325,22 @@ LOM_INLINE void write_window_bytes(struct lom_tile *tile, lom_output_kind output
     }
 }
 
-void LOM_WIDE(lom_write_windows)(struct lom_tile *tile, const struct lom_windows *windows, const lom_fragment *out)
+void LOM_WIDE(lom_write_windows)(struct lom_tile *tile, const struct lom_windows *windows)
 {
     const struct lom_draw *draw = tile->draw;
     const bool discards = draw->desc.shader->discards;
     if (!discards && draw->output == OUTPUT_BYTES) {
-        write_window_bytes(tile, OUTPUT_BYTES, windows, out);
+        write_window_bytes(tile, OUTPUT_BYTES, windows);
     } else if (!discards && draw->output == OUTPUT_STRAIGHT) {
-        write_window_bytes(tile, OUTPUT_STRAIGHT, windows, out);
+        write_window_bytes(tile, OUTPUT_STRAIGHT, windows);
     } else if (!discards && draw->output == OUTPUT_MULTIPLIED) {
-        write_window_bytes(tile, OUTPUT_MULTIPLIED, windows, out);
+        write_window_bytes(tile, OUTPUT_MULTIPLIED, windows);
     } else {
         for (int i = 0; i < windows->count; i++) {
             const struct lom_places places = { .pixel = { windows->base[i] }, .block = true };
-            lom_mask mask = discards ? ~out[i].discard : lom_splat_int(-1);
-            LOM_WIDE(lom_write_packet)(tile, &places, &mask, out[i].color);
+            const lom_fragment *out = fragment_in(&tile->together, i);
+            lom_mask mask = discards ? ~out->discard : lom_splat_int(-1);
+            LOM_WIDE(lom_write_packet)(tile, &places, &mask, out->color);
         }
     }
 }

@@ -200,4 +200,17 @@ LOM_INLINE void lom_lay_over(struct lom_tile *tile, const struct lom_places *pla
     }
 }
 
+_Static_assert(sizeof(lom_varyings) <= LARGEST_VARYINGS && sizeof(lom_fragment) <= LARGEST_FRAGMENT,
+               "a tile holds them");
+
+LOM_INLINE lom_varyings *varyings_in(unsigned char varyings[][LARGEST_VARYINGS], int packet)
+{
+    return (lom_varyings *)(void *)varyings[packet];
+}
+
+LOM_INLINE lom_fragment *fragment_in(struct lom_together *together, int packet)
+{
+    return (lom_fragment *)(void *)together->fragments[packet];
+}
+
 #endif

@@ -86,9 +86,8 @@ int LOM_WIDE(lom_cover_slots)(struct lom_tile *tile, int from);
 /* Fills the slots of the list's triangles; and, for slots by word, what the fragment stage needs of them. */
 void LOM_WIDE(lom_fill_slots)(struct lom_tile *tile);
 void LOM_WIDE(lom_fill_values)(struct lom_tile *tile);
-/* lom_shade_packet from the slots, of several packets, of one with draw->sampled or marks_edges; of them: places, l, depth,
- * triangles and covered. */
-enum { ENTRY_PACKETS = 4 };
+/* lom_shade_packet from the slots, of ENTRY_PACKETS at most, of one with draw->sampled or marks_edges; of them: places, l,
+ * depth, triangles and covered. */
 void LOM_WIDE(lom_shade_slots)(struct lom_tile *tile, const struct packed *p, const struct lom_packet *packet,
                                int count);
 

@@ -78,7 +78,9 @@ struct lom_known_levels {
  * waits in the varyings that its packets give to shaders: those which do not vary, and all differences. */
 enum {
     LARGEST_VARYINGS = 64 * (3 * LOM_MAX_VARYINGS + 16), /* bytes of lom_varyings at 16 lanes, at most */
-    WINDOWS_PACKETS = 8                                  /* of whole windows that are shaded together */
+    LARGEST_FRAGMENT = 64 * (4 * LOM_MAX_COLORS + 2),    /* likewise of lom_fragment */
+    WINDOWS_PACKETS = 8,                                 /* of whole windows that are shaded together */
+    ENTRY_PACKETS = 4                                    /* of small triangles likewise */
 };
 struct lom_facet {
     const lom_primitive *primitive; /* whose they are; NULL: nobody's */
@@ -89,6 +91,13 @@ struct lom_facet {
     float value[LIST_HEADER + LIST_VALUE * LOM_MAX_VARYINGS];
     int filled; /* of the varyings: how many hold what is the same */
     _Alignas(64) unsigned char varyings[WINDOWS_PACKETS][LARGEST_VARYINGS];
+};
+
+/* What packets of small triangles get and what all that are shaded together give: too much for the stack of a host that made
+ * it small. */
+struct lom_together {
+    _Alignas(64) unsigned char varyings[ENTRY_PACKETS][LARGEST_VARYINGS];
+    _Alignas(64) unsigned char fragments[WINDOWS_PACKETS][LARGEST_FRAGMENT];
 };
 
 /* What the queue holds of fragments besides, where pixels have several samples: which they are written to, a bit each; where
@@ -130,6 +139,7 @@ struct lom_tile {
     struct lom_queue queue;
     struct lom_list list;
     struct lom_facet facet;
+    struct lom_together together;
     float reach[4][MOST_LANES]; /* of the packet at hand, with draw->marks_edges: how far its triangles reach to the
                                        right, left, down, up, as the texture of edges has it (mark_edges.h) */
     uint8_t owner[64 * 64];     /* scratch: which lane of a packet comes first to a pixel; last, so that what workers

@@ -88,8 +88,8 @@ struct lom_windows {
 };
 /* The same for all of these; depth is 0. */
 void LOM_WIDE(lom_shade_windows)(struct lom_tile *tile, const struct lom_windows *windows);
-/* The output stage for them: opaque or blended, of different pixels. */
-void LOM_WIDE(lom_write_windows)(struct lom_tile *tile, const struct lom_windows *windows, const lom_fragment *out);
+/* The output stage for them, opaque or blended, of different pixels: of the tile's fragments (tile.h). */
+void LOM_WIDE(lom_write_windows)(struct lom_tile *tile, const struct lom_windows *windows);
 /* A part of a window on its way out of the raster stage: clip distances, depth and its early test, then on to the
  * fragment stage (early.wide.c). */
 void LOM_WIDE(lom_emit)(struct lom_tile *tile, const struct part *at, const lom_mask *covered, const lom_float l[3],

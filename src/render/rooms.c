@@ -52,6 +52,10 @@ static bool has_fluids(const lom_scene *scene)
     offsetof(lom_renderer, first),                                                                                     \
         offsetof(lom_renderer, last) + sizeof((lom_renderer *)NULL)->last - offsetof(lom_renderer, first)
 
+_Static_assert(offsetof(struct lom_drawn_water, photons) ==
+                   offsetof(struct lom_drawn_water, far) + sizeof(struct lom_far_rows),
+               "what is freed with the waves is moved with them: its members end where those begin that frames make");
+
 /* The bed of the water is the ground's, and waves may carry the water's maps. */
 const struct lom_room lom_rooms[LOM_ROOMS] = {
     { LOM_PART_SKY, "sky", MEMBERS(sky.box, sky.box), has_sky, lom_load_sky, lom_free_sky },
@@ -65,7 +69,7 @@ const struct lom_room lom_rooms[LOM_ROOMS] = {
     { LOM_PART_FOAM, "foam", MEMBERS(waters[0].foam, waters[0].foam), lom_shows_foam, lom_load_foam, lom_free_foam },
     { LOM_PART_BED, "bed of the water", MEMBERS(waters[0].bed, waters[0].bed), lom_shows_caustics, lom_load_bed,
       lom_free_bed },
-    { LOM_PART_WAVES, "waves", MEMBERS(waters[0].site, waters[0].near), lom_shows_waves, lom_load_waves,
+    { LOM_PART_WAVES, "waves", MEMBERS(waters[0].site, waters[0].far), lom_shows_waves, lom_load_waves,
       lom_free_waves },
     { LOM_PART_OTHER_WATERS, "other waters", MEMBERS(waters[1], waters[LOM_MAX_OTHER_WATERS]), has_other_waters,
       lom_load_other_waters, lom_free_other_waters },

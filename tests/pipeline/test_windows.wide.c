@@ -38,11 +38,11 @@ static void show(lom_fragment *out, const lom_varyings *in, const void *uniforms
 }
 
 enum { READS = (1 << VARYINGS) - 1, SLOPES = 1 << 0 | 1 << 1 | 1 << 4 | 1 << 5 };
+enum { FLAT = 1 << 1 | 1 << 6, LINEAR = 1 << 2 | 1 << 7 };
 LOM_SHADER(plain, place, show, .attributes = 3, .varyings = VARYINGS, .reads = READS, .differentiates = SLOPES,
            .colors = 1, .uniforms_size = sizeof(struct settings))
 LOM_SHADER(flat, place, show, .attributes = 3, .varyings = VARYINGS, .reads = READS, .differentiates = SLOPES,
-           .flat = 1 << 1 | 1 << 6, .screen_linear = 1 << 2 | 1 << 7, .colors = 1,
-           .uniforms_size = sizeof(struct settings))
+           .flat = FLAT, .screen_linear = LINEAR, .colors = 1, .uniforms_size = sizeof(struct settings))
 LOM_SHADER(holed, place, show, .attributes = 3, .varyings = VARYINGS, .reads = READS, .differentiates = SLOPES,
            .discards = true, .colors = 1, .uniforms_size = sizeof(struct settings))
 LOM_SHADER(in_quads, place, show, .attributes = 3, .varyings = VARYINGS, .reads = READS, .differentiates = SLOPES,

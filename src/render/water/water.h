@@ -15,7 +15,7 @@ struct lom_drawn_water {
     lom_texture *foam; /* its pattern, or NULL */
     lom_texture *bed;  /* heights of the terrain, a texel a vertex, for caustics; or NULL */
 
-    struct lom_wave_site site;    /* to near: of the waves (rooms.c) */
+    struct lom_wave_site site;    /* to far: of the waves (rooms.c) */
     struct lom_wave_field *waves; /* or NULL */
     struct lom_polar_mesh polar;  /* of displaced water */
     struct lom_near_blocks near;  /* of the picture of what is above it, made by frames */
