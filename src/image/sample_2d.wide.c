@@ -2,6 +2,7 @@
  * function a storage, so that nothing is decided per texel. */
 #include "compare_lanes.h"
 #include "level_of_detail.h"
+#include "nearest_depth.h"
 #include "sample_alike.h"
 #include "sample_plain.h"
 #include "sample_rows.h"
@@ -57,46 +58,12 @@ void LOM_WIDE(lom_sample_three_lanes)(const lom_texture *const texture[3], const
         LOM_WIDE(lom_sample_lanes)(texture[i], at, lod, &out[i]);
 }
 
-/* The number of the nearest texel of an axis, plus one. */
-LOM_INLINE lom_int nearest_of_axis(lom_float c, lom_float size, lom_wrap wrap)
-{
-    if (wrap == LOM_WRAP_BORDER)
-        return lom_bounded_to_int(lom_clamp(lom_floor(sample_wrap(c, LOM_WRAP_BORDER) * size), lom_splat(-1.0f), size) +
-                                  1.0f);
-    return lom_bounded_to_int(lom_min(lom_floor(lom_saturate(c) * size), size - 1.0f) + 1.0f);
-}
-
-/* The nearest texel of level 0 alone, of a picture that ends at its edges or has a border there: what passes read of the
- * depth that others drew, shadow maps among them. The general sampler, which defines it, does the same operations among
- * others. */
-LOM_INLINE lom_float nearest_depth(const lom_texture *texture, const lom_float2 *at)
-{
-    const sample_place place = sample_place_of_level(texture, 0);
-    const lom_sampler_desc *sampler = &texture->sampler;
-    lom_int right = nearest_of_axis(at->x, place.width, sampler->wrap_s);
-    lom_int below = nearest_of_axis(at->y, place.height, sampler->wrap_t);
-    return lom_gather(texture->texels, place.offset + below * place.pitch + right) + 0.0f;
-}
-
-static bool has_edges(lom_wrap wrap)
-{
-    return wrap == LOM_WRAP_CLAMP || wrap == LOM_WRAP_BORDER;
-}
-
-static bool is_plain_depth(const lom_texture *texture)
-{
-    const lom_sampler_desc *sampler = &texture->sampler;
-    return SAMPLE_PLAINLY && texture->storage == LOM_STORAGE_R32F && texture->nearest_within[0] &&
-           texture->nearest_within[1] && texture->level_count == 1 && has_edges(sampler->wrap_s) &&
-           has_edges(sampler->wrap_t);
-}
-
 void LOM_WIDE(lom_sample_depth_lanes)(const lom_texture *texture, const lom_float2 *at, lom_float *out)
 {
     lom_float4 value;
     lom_float lod = lom_splat(-1000.0f);
-    if (is_plain_depth(texture)) {
-        *out = nearest_depth(texture, at);
+    if (SAMPLE_PLAINLY && sample_is_nearest_depth(texture)) {
+        *out = sample_nearest_depth(texture, at->x, at->y);
         return;
     }
     LOM_WIDE(lom_sample_lanes)(texture, at, &lod, &value);

@@ -5,7 +5,7 @@
 #ifndef LOM_SHADING_DEPTH_SQUARE_H
 #define LOM_SHADING_DEPTH_SQUARE_H
 
-#include "image/sample_lanes.h"
+#include "image/nearest_depth.h"
 
 struct lom_depth_square {
     lom_float at[3][3]; /* row, column */
@@ -30,30 +30,13 @@ LOM_INLINE struct lom_depth_square lom_defined_depth_square(const lom_texture *m
 
 LOM_INLINE bool lom_has_nearest_square(const lom_texture *map)
 {
-    const lom_wrap s = map->sampler.wrap_s, t = map->sampler.wrap_t;
-    return LOM_LOADS_SQUARES && map->storage == LOM_STORAGE_R32F && map->nearest_within[0] && map->nearest_within[1] &&
-           map->level_count == 1 && (s == LOM_WRAP_CLAMP || s == LOM_WRAP_BORDER) &&
-           (t == LOM_WRAP_CLAMP || t == LOM_WRAP_BORDER);
-}
-
-/* The number of the nearest texel of an axis, plus one. */
-LOM_INLINE lom_int lom_nearest_texel(lom_float c, lom_float size, lom_wrap wrap)
-{
-    if (wrap == LOM_WRAP_BORDER)
-        return lom_bounded_to_int(lom_clamp(lom_floor(sample_wrap(c, LOM_WRAP_BORDER) * size), lom_splat(-1.0f), size) +
-                                  1.0f);
-    return lom_bounded_to_int(lom_min(lom_floor(lom_saturate(c) * size), size - 1.0f) + 1.0f);
+    return LOM_LOADS_SQUARES && sample_is_nearest_depth(map);
 }
 
 /* One texel, where it is looked up: what lom_sample_depth finds. */
 LOM_INLINE lom_float lom_find_depth(const lom_texture *map, lom_float s, lom_float t)
 {
-    if (!lom_has_nearest_square(map))
-        return lom_sample_depth(map, s, t);
-    const sample_place place = sample_place_of_level(map, 0);
-    const lom_int column = lom_nearest_texel(s, place.width, map->sampler.wrap_s);
-    const lom_int row = lom_nearest_texel(t, place.height, map->sampler.wrap_t);
-    return lom_gather(map->texels, place.offset + row * place.pitch + column) + 0.0f;
+    return lom_has_nearest_square(map) ? sample_nearest_depth(map, s, t) : lom_sample_depth(map, s, t);
 }
 
 /* Three neighbours of a row are one load a lane, and the texel behind them, which is at most the apron's. */
@@ -65,12 +48,12 @@ LOM_INLINE struct lom_depth_square lom_find_depth_square(const lom_texture *map,
     const sample_place place = sample_place_of_level(map, 0);
     lom_int column[3];
     for (int i = 0; i < 3; i++)
-        column[i] = lom_nearest_texel(s[i], place.width, map->sampler.wrap_s);
+        column[i] = sample_nearest_of_axis(s[i], place.width, map->sampler.wrap_s);
     const bool together =
         lom_all((column[1] == column[0] + 1) & (column[2] == column[0] + 2) & (column[2] <= map->level[0].width));
     struct lom_depth_square square;
     for (int j = 0; j < 3; j++) {
-        const lom_int below = lom_nearest_texel(t[j], place.height, map->sampler.wrap_t);
+        const lom_int below = sample_nearest_of_axis(t[j], place.height, map->sampler.wrap_t);
         const lom_int row = place.offset + below * place.pitch;
         if (together) {
             const lom_float4 four = lom_gather_rows(map->texels, row + column[0]);
