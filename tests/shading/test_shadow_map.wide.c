@@ -1,25 +1,13 @@
 /* Proves that the nine texels of a depth map about a place are those of nine lookups, and that the sun's shadow is with blocks of
  * its maps what it is without, bit for bit: for maps that show little, of even and odd sizes, with and without a border, places
  * on, beyond and between texels, lanes together and apart, and lanes that hold no number. */
+#include "chance.h"
 #include "check.h"
 
 #include "shading/depth_square.h"
 #include "shading/sun_shadow.h"
 
 enum { WIDTH = 203, HEIGHT = 128 };
-
-static uint32_t state = 5;
-
-static float unit(void)
-{
-    state = state * 1664525u + 1013904223u;
-    return (float)(state >> 8) * 0x1p-24f;
-}
-
-static int below(int count)
-{
-    return (int)(unit() * (float)count);
-}
 
 /* Rectangles on nothing. */
 static lom_texture *make_map(int width, int height, int count, lom_wrap wrap)

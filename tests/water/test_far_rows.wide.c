@@ -1,24 +1,12 @@
 /* Proves that rows of a picture know the farthest of all that is from a place down, and that a ray which is not followed on where
  * they say that it meets nothing more finds what it finds without them, bit for bit: on beds that rise, fall and end, for rays
  * that go down, up and away, near one another and anywhere, and lanes that hold no number. */
+#include "chance.h"
 #include "check.h"
 
 #include "water/picture_rays.h"
 
 enum { WIDTH = 217, HEIGHT = 203 };
-
-static uint32_t state = 5;
-
-static float unit(void)
-{
-    state = state * 1664525u + 1013904223u;
-    return (float)(state >> 8) * 0x1p-24f;
-}
-
-static int below(int count)
-{
-    return (int)(unit() * (float)count);
-}
 
 static float texels[WIDTH * HEIGHT];
 

@@ -1,24 +1,12 @@
 /* Proves that blocks of a picture know the nearest of all that is about a place, and that what a blur reads of a picture and
  * what a ray finds in it are with them, bit for bit, what they are without: for pictures that show little, things before and
  * behind the surface, colour without depth, places on, beyond and between texels, and lanes that hold no number. */
+#include "chance.h"
 #include "check.h"
 
 #include "water/picture_rays.h"
 
 enum { WIDTH = 333, HEIGHT = 271 };
-
-static uint32_t state = 11;
-
-static float unit(void)
-{
-    state = state * 1664525u + 1013904223u;
-    return (float)(state >> 8) * 0x1p-24f;
-}
-
-static int below(int count)
-{
-    return (int)(unit() * (float)count);
-}
 
 static float texels[WIDTH * HEIGHT], colors[WIDTH * HEIGHT * 4];
 
